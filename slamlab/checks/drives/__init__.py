@@ -1,0 +1,158 @@
+"""The worker's side of the tasks: running a student's functions on given inputs.
+
+No truth and no answer stands here or in the modules beside this one: a worker that runs student
+code holds nothing else of the checks.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+Arrays = Mapping[str, np.ndarray]
+
+
+class StudentError(Exception):
+    """A student's function could not be driven.
+
+    Parameters
+    ----------
+    kind : str, one of "missing", "not attempted", "raised", "malformed", "time", "died"
+    message : str, what happened, in words for the student
+    """
+
+    def __init__(self, kind, message):
+        super().__init__(message)
+        self.kind, self.message = kind, message
+
+
+def numbers(value, function):
+    """What a student's function returned, as a float array.
+
+    Parameters
+    ----------
+    value : anything
+    function : str, the function's name, for the message
+
+    Returns
+    -------
+    float array
+
+    Raises
+    ------
+    StudentError : "malformed" when it is not made of real numbers
+    """
+    if value is None:
+        raise StudentError(
+            "malformed", f"{function} returned nothing: is there a return at its end?"
+        )
+    try:
+        array = np.asarray(value)
+        if array.dtype.kind == "c":
+            raise TypeError
+        return array.astype(float)
+    except (TypeError, ValueError):
+        raise StudentError(
+            "malformed", f"{function} returned {type(value).__name__}, not an array of real numbers"
+        ) from None
+
+
+def rows(inputs: Arrays):
+    """The calls that inputs stand for: row i of each array, scalars as float, arrays as copies."""
+    count = min(len(a) for a in inputs.values())
+    for i in range(count):
+        yield [float(a[i]) if a.ndim == 1 else np.array(a[i]) for a in inputs.values()]
+
+
+def call_each(functions: Mapping[str, Callable], inputs: Arrays) -> dict[str, np.ndarray]:
+    """Call the first function once per row of the inputs and stack what it returns as "result".
+
+    Parameters
+    ----------
+    functions : name to function, in the task's order
+    inputs : name to (n, ...) array, in the order of the function's arguments
+
+    Returns
+    -------
+    {"result": (n, ...)}
+
+    Raises
+    ------
+    StudentError : "malformed" when the results are no numbers or differ in shape
+    """
+    name, function = next(iter(functions.items()))
+    results = [numbers(function(*row), name) for row in rows(inputs)]
+    shapes = sorted({r.shape for r in results})
+    if len(shapes) > 1:
+        raise StudentError("malformed", f"{name} returned arrays of different shapes: {shapes}")
+    return {"result": np.array(results)}
+
+
+@dataclass(frozen=True)
+class Drive:
+    """How a task runs a student's functions.
+
+    Parameters
+    ----------
+    functions : names the student must define, in order
+    run : (functions by name, inputs) -> arrays
+    seconds : float, wall-clock limit of one run [s]
+    """
+
+    functions: tuple[str, ...]
+    run: Callable[[Mapping[str, Callable], Arrays], dict[str, np.ndarray]] = call_each
+    seconds: float = 10.0
+
+    def __call__(self, namespace: Mapping, inputs: Arrays) -> dict[str, np.ndarray]:
+        """Find the functions in a namespace and run them.
+
+        Parameters
+        ----------
+        namespace : the student's names
+        inputs : name to array
+
+        Returns
+        -------
+        name to array
+
+        Raises
+        ------
+        StudentError : when a function is missing, not attempted, fails, or returns no numbers
+        """
+        functions = {}
+        for name in self.functions:
+            if not callable(namespace.get(name)):
+                raise StudentError(
+                    "missing", f"{name} is not defined: run the cell that defines it"
+                )
+            functions[name] = namespace[name]
+        try:
+            return self.run(functions, inputs)
+        except StudentError:
+            raise
+        except NotImplementedError:
+            raise StudentError("not attempted", "not attempted yet") from None
+        except Exception as error:
+            raise StudentError("raised", describe(error)) from None
+
+
+def describe(error: BaseException) -> str:
+    """An exception in one line, with the last line of the student's own that it passed through.
+
+    Parameters
+    ----------
+    error : BaseException
+
+    Returns
+    -------
+    str
+    """
+    where, traceback = "", error.__traceback__
+    while traceback is not None:
+        code = traceback.tb_frame.f_code
+        # cells have no file of their own: "<cell 3>" in the worker, "/tmp/ipykernel_…" in a kernel
+        if code.co_filename.startswith("<") or "ipykernel" in code.co_filename:
+            where = f" (line {traceback.tb_lineno} of the cell, in {code.co_name})"
+        traceback = traceback.tb_next
+    text = str(error).strip().splitlines()
+    return f"{type(error).__name__}: {text[0][:300] if text else 'no message'}{where}"

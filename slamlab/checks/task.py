@@ -1,0 +1,244 @@
+"""A task: inputs are made, a student's functions driven, their arrays judged by law.
+
+This is the judge's side. It never sees student code, only the arrays that came out of it.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from slamlab.checks.drives import Arrays, Drive, StudentError
+
+
+@dataclass(frozen=True)
+class Law:
+    """Something a right solution obeys.
+
+    Parameters
+    ----------
+    name : str, short; stands in the record
+    points : float, what it is worth
+    says : str, the law as a sentence for the student
+    holds : (inputs, outputs) -> bool, or (n,) bool with one entry per input
+    """
+
+    name: str
+    points: float
+    says: str
+    holds: Callable[[Arrays, Arrays], np.ndarray | bool]
+
+
+@dataclass(frozen=True)
+class Diagnosis:
+    """A classic mistake and the hint for that very mistake.
+
+    Parameters
+    ----------
+    name : str, short; stands in the record
+    hint : str, for the student
+    matches : (inputs, outputs) -> bool
+    """
+
+    name: str
+    hint: str
+    matches: Callable[[Arrays, Arrays], bool]
+
+
+@dataclass(frozen=True)
+class LawResult:
+    """How one law came out; ``failed`` of ``tried`` inputs broke it."""
+
+    name: str
+    says: str
+    points: float
+    max_points: float
+    failed: int
+    tried: int
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What the judge found of one task.
+
+    Parameters
+    ----------
+    task : str, the task's id
+    points, max_points : float
+    laws : results of the laws, empty when nothing could be judged
+    diagnosis, hint : str or None, the mistake recognised
+    problem : str or None, why nothing could be judged, in words for the student
+    kind : str or None, the kind of that problem
+    """
+
+    task: str
+    points: float
+    max_points: float
+    laws: tuple[LawResult, ...] = ()
+    diagnosis: str | None = None
+    hint: str | None = None
+    problem: str | None = None
+    kind: str | None = None
+
+    @property
+    def full(self):
+        """Whether every point was earned."""
+        return self.problem is None and all(law.failed == 0 for law in self.laws)
+
+
+@dataclass(frozen=True)
+class Task:
+    """One thing a student solves.
+
+    Parameters
+    ----------
+    id : str, such as "04-h-robot"; stable, human
+    title : str
+    drive : Drive, the worker's side
+    inputs : rng -> name to array; generic ones, so that no two mistakes look alike
+    shapes : output name to shape, None for any length
+    laws : what a right solution obeys
+    diagnoses : classic mistakes, tried in order when a law failed
+    needs : ids of tasks that must be solved first
+    """
+
+    id: str
+    title: str
+    drive: Drive
+    inputs: Callable[[np.random.Generator], dict[str, np.ndarray]]
+    shapes: dict[str, tuple[int | None, ...]]
+    laws: tuple[Law, ...]
+    diagnoses: tuple[Diagnosis, ...] = ()
+    needs: tuple[str, ...] = field(default=())
+
+    @property
+    def points(self):
+        """The most that can be earned."""
+        return sum(law.points for law in self.laws)
+
+    def failed(self, kind, problem) -> Verdict:
+        """The verdict when there is nothing to judge.
+
+        Parameters
+        ----------
+        kind, problem : str
+
+        Returns
+        -------
+        Verdict
+        """
+        return Verdict(self.id, 0.0, self.points, problem=problem, kind=kind)
+
+    def judge(self, inputs: Arrays, outputs: Arrays) -> Verdict:
+        """Judge what a student's functions returned.
+
+        Parameters
+        ----------
+        inputs : what :attr:`inputs` made
+        outputs : what :attr:`drive` brought back; not to be trusted
+
+        Returns
+        -------
+        Verdict
+        """
+        problem = self._malformed(inputs, outputs)
+        if problem:
+            return self.failed("malformed", problem)
+        with np.errstate(all="ignore"):
+            results = tuple(self._apply(law, inputs, outputs) for law in self.laws)
+            found = None
+            if any(result.failed for result in results):
+                found = next((d for d in self.diagnoses if d.matches(inputs, outputs)), None)
+        return Verdict(
+            self.id,
+            sum(result.points for result in results),
+            self.points,
+            results,
+            found.name if found else None,
+            found.hint if found else None,
+        )
+
+    def run(self, namespace, inputs) -> Verdict:
+        """Drive and judge in one process, as a notebook does.
+
+        Parameters
+        ----------
+        namespace : the student's names
+        inputs : what :attr:`inputs` made
+
+        Returns
+        -------
+        Verdict
+        """
+        try:
+            return self.judge(inputs, self.drive(namespace, inputs))
+        except StudentError as error:
+            return self.failed(error.kind, error.message)
+
+    def _apply(self, law, inputs, outputs):
+        holds = np.atleast_1d(np.asarray(law.holds(inputs, outputs), dtype=bool))
+        failed = int(np.count_nonzero(~holds))
+        points = 0.0 if failed else law.points
+        return LawResult(law.name, law.says, points, law.points, failed, holds.size)
+
+    def _malformed(self, inputs, outputs):
+        count = min(len(a) for a in inputs.values())
+        function = self.drive.functions[0]
+        for name, shape in self.shapes.items():
+            what = function if name == "result" else f"{function}'s {name}"
+            if name not in outputs:
+                return f"{what} is missing from what came back"
+            got, want = outputs[name].shape, shape
+            if name == "result":  # one per input: the student thinks of a single call
+                if got[:1] != (count,):
+                    return f"{what} answered {got[0] if got else 0} of {count} calls"
+                got = got[1:]
+            if len(got) != len(want) or any(
+                w not in (None, g) for g, w in zip(got, want, strict=True)
+            ):
+                turned = " (transposed?)" if got == want[::-1] else ""
+                return f"{what} returned shape {got}, expected {_shape(want)}{turned}"
+            if not np.isfinite(outputs[name]).all():
+                return f"{what} returned NaN or infinity"
+        return None
+
+
+def _shape(shape):
+    return (
+        "("
+        + ", ".join("n" if n is None else str(n) for n in shape)
+        + (",)" if len(shape) == 1 else ")")
+    )
+
+
+@dataclass(frozen=True)
+class Exercise:
+    """The tasks of one notebook and what its solutions may import.
+
+    Parameters
+    ----------
+    id : str, the lesson's number such as "04"
+    notebook : str, the file's stem such as "04_models_and_jacobians"
+    title : str
+    tasks : in the notebook's order
+    drives : str, the module of the drives, such as "slamlab.checks.drives.ex04"
+    allows : modules of slamlab that the worker holds, with all that they import
+    answers : modules of slamlab that answer the exercise; never in the worker
+    """
+
+    id: str
+    notebook: str
+    title: str
+    tasks: tuple[Task, ...]
+    drives: str
+    allows: tuple[str, ...] = ()
+    answers: tuple[str, ...] = ()
+
+    def task(self, id) -> Task:
+        """The task of that id.
+
+        Raises
+        ------
+        KeyError
+        """
+        return next(t for t in self.tasks if t.id == id)

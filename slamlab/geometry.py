@@ -1,0 +1,124 @@
+"""Poses in the plane: wrapping, composition, transforms.
+
+A pose is ``[x, y, theta]`` in metres and radians; a homogeneous 3x3 matrix acts on column vectors.
+Leading dimensions broadcast: ``(..., 3)`` poses are handled at once.
+"""
+
+import numpy as np
+
+
+def wrap(angle):
+    """Wrap angles to (-pi, pi]; the only place in the package where this is done.
+
+    Parameters
+    ----------
+    angle : float or (...,) array [rad]
+
+    Returns
+    -------
+    float or (...,) array [rad]
+    """
+    wrapped = np.pi - np.mod(np.pi - np.asarray(angle, dtype=float), 2 * np.pi)
+    # mod may round up to 2 pi just above pi, which would give -pi
+    return np.where(wrapped <= -np.pi, np.pi, wrapped)[()]
+
+
+def compose(a, b):
+    """Pose b, given in the frame of pose a, in a's own reference frame: a ⊕ b.
+
+    Parameters
+    ----------
+    a, b : (..., 3) [m, m, rad]
+
+    Returns
+    -------
+    (..., 3) [m, m, rad], heading wrapped
+    """
+    a, b = np.asarray(a, dtype=float), np.asarray(b, dtype=float)
+    c, s = np.cos(a[..., 2]), np.sin(a[..., 2])
+    return np.stack(
+        np.broadcast_arrays(
+            a[..., 0] + c * b[..., 0] - s * b[..., 1],
+            a[..., 1] + s * b[..., 0] + c * b[..., 1],
+            wrap(a[..., 2] + b[..., 2]),
+        ),
+        axis=-1,
+    )
+
+
+def inverse(a):
+    """The pose that undoes a: a ⊕ inverse(a) = 0.
+
+    Parameters
+    ----------
+    a : (..., 3) [m, m, rad]
+
+    Returns
+    -------
+    (..., 3) [m, m, rad]
+    """
+    a = np.asarray(a, dtype=float)
+    c, s = np.cos(a[..., 2]), np.sin(a[..., 2])
+    x, y = a[..., 0], a[..., 1]
+    return np.stack([-c * x - s * y, s * x - c * y, wrap(-a[..., 2])], axis=-1)
+
+
+def between(a, b):
+    """Pose b as seen from pose a: inverse(a) ⊕ b.
+
+    Parameters
+    ----------
+    a, b : (..., 3) [m, m, rad]
+
+    Returns
+    -------
+    (..., 3) [m, m, rad]
+    """
+    return compose(inverse(a), b)
+
+
+def transform(pose, points):
+    """Carry points from the pose's frame into its reference frame: p = R(theta) q + t.
+
+    Parameters
+    ----------
+    pose : (3,) [m, m, rad]
+    points : (n, 2) [m]
+
+    Returns
+    -------
+    (n, 2) [m]
+    """
+    x, y, theta = pose
+    c, s = np.cos(theta), np.sin(theta)
+    return np.asarray(points, dtype=float) @ np.array([[c, s], [-s, c]]) + np.array([x, y])
+
+
+def matrix(pose):
+    """The homogeneous 3x3 matrix T of a pose.
+
+    Parameters
+    ----------
+    pose : (3,) [m, m, rad]
+
+    Returns
+    -------
+    (3, 3)
+    """
+    x, y, theta = pose
+    c, s = np.cos(theta), np.sin(theta)
+    return np.array([[c, -s, x], [s, c, y], [0.0, 0.0, 1.0]])
+
+
+def from_matrix(T):
+    """The pose of a homogeneous 3x3 matrix.
+
+    Parameters
+    ----------
+    T : (3, 3)
+
+    Returns
+    -------
+    (3,) [m, m, rad]
+    """
+    return np.array([T[0, 2], T[1, 2], np.arctan2(T[1, 0], T[0, 0])])

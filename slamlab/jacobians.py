@@ -1,0 +1,146 @@
+"""Jacobians of the models: A and W of motion, H of observation, J_xr and J_z of a new landmark.
+
+Each equals its derivation in :mod:`slamlab.symbolic` and finite differences of :mod:`slamlab.models`.
+"""
+
+import numpy as np
+
+
+def A_odometry(x, u):
+    """∂f/∂x of the odometry model: [[1, 0, −Δy], [0, 1, Δx], [0, 0, 1]] (Smolec §4.1).
+
+    Parameters
+    ----------
+    x : (3,) pose [m, m, rad]
+    u : (2,) distance d [m], turn Δθ [rad]
+
+    Returns
+    -------
+    (3, 3)
+    """
+    d = u[0]
+    return np.array([[1, 0, -d * np.sin(x[2])], [0, 1, d * np.cos(x[2])], [0, 0, 1.0]])
+
+
+def W_odometry(x, u):
+    """∂f/∂u of the odometry model.
+
+    Parameters
+    ----------
+    x : (3,) pose [m, m, rad]
+    u : (2,) distance d [m], turn Δθ [rad]
+
+    Returns
+    -------
+    (3, 2)
+    """
+    return np.array([[np.cos(x[2]), 0], [np.sin(x[2]), 0], [0, 1.0]])
+
+
+def A_steered(x, u, B, T):
+    """∂f/∂x of the steered model (MAK thesis, chapter 3).
+
+    Parameters
+    ----------
+    x : (3,) pose [m, m, rad]
+    u : (2,) speed V [m/s], steering angle γ [rad]
+    B, T : float, wheel base [m], period [s]
+
+    Returns
+    -------
+    (3, 3)
+    """
+    V, gamma = u
+    direction = x[2] + gamma
+    return np.array(
+        [[1, 0, -T * V * np.sin(direction)], [0, 1, T * V * np.cos(direction)], [0, 0, 1.0]]
+    )
+
+
+def W_steered(x, u, B, T):
+    """∂f/∂u of the steered model: noise adds to V and γ (MAK thesis, chapter 3).
+
+    Parameters
+    ----------
+    x : (3,) pose [m, m, rad]
+    u : (2,) speed V [m/s], steering angle γ [rad]
+    B, T : float, wheel base [m], period [s]
+
+    Returns
+    -------
+    (3, 2)
+    """
+    V, gamma = u
+    c, s = np.cos(x[2] + gamma), np.sin(x[2] + gamma)
+    return T * np.array([[c, -V * s], [s, V * c], [np.sin(gamma) / B, V * np.cos(gamma) / B]])
+
+
+def H_robot(x, p):
+    """∂h/∂x, the robot's part of H (Smolec (2), its sign mended).
+
+    [[(x−λx)/r, (y−λy)/r, 0], [(λy−y)/r², (x−λx)/r², −1]]
+
+    Parameters
+    ----------
+    x : (3,) pose [m, m, rad]
+    p : (2,) landmark [m]
+
+    Returns
+    -------
+    (2, 3)
+    """
+    dx, dy = p[0] - x[0], p[1] - x[1]
+    q = dx * dx + dy * dy
+    r = np.sqrt(q)
+    return np.array([[-dx / r, -dy / r, 0], [dy / q, -dx / q, -1.0]])
+
+
+def H_landmark(x, p):
+    """∂h/∂p, the landmark's part of H: minus the robot's x and y columns (Smolec (3)).
+
+    Parameters
+    ----------
+    x : (3,) pose [m, m, rad]
+    p : (2,) landmark [m]
+
+    Returns
+    -------
+    (2, 2)
+    """
+    return -H_robot(x, p)[:, :2]
+
+
+def J_xr(x, z):
+    """∂g/∂x: how a new landmark moves with the robot (Smolec (10), mended).
+
+    [[1, 0, −r sin(θ+β)], [0, 1, r cos(θ+β)]]
+
+    Parameters
+    ----------
+    x : (3,) pose [m, m, rad]
+    z : (2,) range [m], bearing [rad]
+
+    Returns
+    -------
+    (2, 3)
+    """
+    direction = x[2] + z[1]
+    return np.array([[1, 0, -z[0] * np.sin(direction)], [0, 1, z[0] * np.cos(direction)]])
+
+
+def J_z(x, z):
+    """∂g/∂z: how a new landmark moves with its measurement (Smolec (11), mended).
+
+    [[cos(θ+β), −r sin(θ+β)], [sin(θ+β), r cos(θ+β)]]
+
+    Parameters
+    ----------
+    x : (3,) pose [m, m, rad]
+    z : (2,) range [m], bearing [rad]
+
+    Returns
+    -------
+    (2, 2)
+    """
+    c, s = np.cos(x[2] + z[1]), np.sin(x[2] + z[1])
+    return np.array([[c, -z[0] * s], [s, z[0] * c]])

@@ -1,0 +1,92 @@
+"""Motion and observation models: f, h and its inverse g, as plain functions over arrays.
+
+Their Jacobians live in :mod:`slamlab.jacobians`, their derivation in :mod:`slamlab.symbolic`.
+"""
+
+import numpy as np
+
+from slamlab.geometry import wrap
+
+
+def f_odometry(x, u):
+    """Drive a distance along the old heading, then turn (Smolec (4), mended).
+
+    x' = x + d cos θ,  y' = y + d sin θ,  θ' = θ + Δθ
+
+    Parameters
+    ----------
+    x : (3,) pose [m, m, rad]
+    u : (2,) distance d [m], turn Δθ [rad]
+
+    Returns
+    -------
+    (3,) pose [m, m, rad]
+    """
+    d, turn = u
+    return np.array([x[0] + d * np.cos(x[2]), x[1] + d * np.sin(x[2]), wrap(x[2] + turn)])
+
+
+def f_steered(x, u, B, T):
+    """Drive a steered robot for one period (MAK thesis, chapter 3).
+
+    x' = x + T V cos(θ+γ),  y' = y + T V sin(θ+γ),  θ' = θ + (T V / B) sin γ
+
+    Parameters
+    ----------
+    x : (3,) pose [m, m, rad]
+    u : (2,) speed V [m/s], steering angle γ [rad]
+    B : float, wheel base [m]
+    T : float, period [s]
+
+    Returns
+    -------
+    (3,) pose [m, m, rad]
+    """
+    V, gamma = u
+    return np.array(
+        [
+            x[0] + T * V * np.cos(x[2] + gamma),
+            x[1] + T * V * np.sin(x[2] + gamma),
+            wrap(x[2] + T * V / B * np.sin(gamma)),
+        ]
+    )
+
+
+def h(x, p):
+    """Range and bearing of landmarks seen from a pose (Smolec (1) with atan2).
+
+    r = |p − t|,  β = atan2(p_y − y, p_x − x) − θ
+
+    Parameters
+    ----------
+    x : (3,) pose [m, m, rad]
+    p : (..., 2) landmarks [m]
+
+    Returns
+    -------
+    (..., 2) range [m] and bearing [rad], wrapped
+    """
+    d = np.asarray(p, dtype=float) - np.asarray(x, dtype=float)[:2]
+    r = np.hypot(d[..., 0], d[..., 1])
+    return np.stack([r, wrap(np.arctan2(d[..., 1], d[..., 0]) - x[2])], axis=-1)
+
+
+def g(x, z):
+    """The landmark that a pose sees at range and bearing: the inverse of h.
+
+    p = t + r [cos(θ+β), sin(θ+β)]
+
+    Parameters
+    ----------
+    x : (3,) pose [m, m, rad]
+    z : (..., 2) range [m] and bearing [rad]
+
+    Returns
+    -------
+    (..., 2) landmarks [m]
+    """
+    z = np.asarray(z, dtype=float)
+    direction = x[2] + z[..., 1]
+    return np.stack(
+        [x[0] + z[..., 0] * np.cos(direction), x[1] + z[..., 0] * np.sin(direction)], axis=-1
+    )

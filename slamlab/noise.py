@@ -1,0 +1,59 @@
+"""Noise covariances: C of the controls, Q of the motion, R of the observation."""
+
+import numpy as np
+
+
+def C_odometry(u, distance_error, turn_error, turn_per_metre=0.0):
+    """Covariance of odometry's distance and turn, growing with what was driven.
+
+    C = diag((k_d d)², (k_θ Δθ)² + (k_s d)²)
+
+    Parameters
+    ----------
+    u : (2,) distance d [m], turn Δθ [rad]
+    distance_error : float k_d, share of the distance [1]
+    turn_error : float k_θ, share of the turn [1]
+    turn_per_metre : float k_s, turn picked up per metre driven [rad/m]
+
+    Returns
+    -------
+    (2, 2) [m², rad²]
+    """
+    d, turn = u
+    return np.diag(
+        [(distance_error * d) ** 2, (turn_error * turn) ** 2 + (turn_per_metre * d) ** 2]
+    )
+
+
+def Q(W, C):
+    """Covariance of the pose after a motion with noisy controls: Q = W C Wᵀ (Smolec (8), mended).
+
+    Parameters
+    ----------
+    W : (3, 2) ∂f/∂u, from :mod:`slamlab.jacobians`
+    C : (2, 2) covariance of the controls
+
+    Returns
+    -------
+    (3, 3) [m², m², rad²]
+    """
+    return W @ C @ W.T
+
+
+def R(r, range_error, bearing_sigma, range_sigma=0.0):
+    """Covariance of one range and bearing, growing with the range (Smolec (9), mended).
+
+    R = diag((k r)² + σ_0², σ_β²): variances, not standard deviations
+
+    Parameters
+    ----------
+    r : float, range [m]
+    range_error : float k, standard deviation as a share of the range [1]
+    bearing_sigma : float σ_β [rad]
+    range_sigma : float σ_0, standard deviation at range zero [m]
+
+    Returns
+    -------
+    (2, 2) [m², rad²]
+    """
+    return np.diag([(range_error * r) ** 2 + range_sigma**2, bearing_sigma**2])
