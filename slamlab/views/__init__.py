@@ -1,0 +1,20 @@
+"""Every drawing and widget of the course; the only room that imports a plotting library.
+
+Drawing takes plain arrays (:mod:`slamlab.layers`): it computes no pose and no map.
+"""
+
+from slamlab.views.figures import COLOURS, axes, chart, panels, png, show
+from slamlab.views.layers import draw, side_by_side
+from slamlab.views.widgets import explore
+
+__all__ = [
+    "COLOURS",
+    "axes",
+    "chart",
+    "draw",
+    "explore",
+    "panels",
+    "png",
+    "show",
+    "side_by_side",
+]

@@ -1,0 +1,142 @@
+"""Figures: axes in metres, panels that share them, and how they reach a notebook with their text.
+
+Figures are made without pyplot: nothing global is opened, so nothing has to be closed.
+"""
+
+import base64
+import io
+
+from IPython.display import display
+from matplotlib.figure import Figure
+
+# Okabe and Ito's palette: told apart with any kind of colour vision
+COLOURS = {
+    "truth": "#000000",
+    "walls": "#7F7F7F",
+    "naive": "#D55E00",
+    "corrected": "#0072B2",
+    "map": "#0072B2",
+    "scan": "#E69F00",
+    "landmark": "#009E73",
+    "box": "#56B4E9",
+    "sample": "#CC79A7",
+    "guide": "#BBBBBB",
+}
+
+DPI = 80
+
+
+def axes(title=None, size=(6, 5)):
+    """A figure with one map: equal scales, metres on both axes.
+
+    Parameters
+    ----------
+    title : str or None
+    size : (width, height) [inch]
+
+    Returns
+    -------
+    (Figure, Axes)
+    """
+    fig, (ax,) = panels([title], size)
+    return fig, ax
+
+
+def panels(titles, size=(11, 5)):
+    """A figure with one map per title, side by side, all with the same scales.
+
+    Parameters
+    ----------
+    titles : sequence of str or None
+    size : (width, height) of the whole figure [inch]
+
+    Returns
+    -------
+    (Figure, list of Axes)
+    """
+    fig = Figure(figsize=size, dpi=DPI, layout="constrained")
+    all_axes = list(fig.subplots(1, len(titles), sharex=True, sharey=True, squeeze=False)[0])
+    for ax, title in zip(all_axes, titles, strict=True):
+        # "datalim" would fight with shared axes
+        ax.set_aspect("equal", adjustable="datalim" if len(titles) == 1 else "box")
+        ax.set(xlabel="x [m]", ylabel="y [m]")
+        if title:
+            ax.set_title(title)
+    return fig, all_axes
+
+
+def chart(xlabel, ylabel, title=None, size=(6, 4)):
+    """A figure with one chart: quantities over quantities, not a map.
+
+    Parameters
+    ----------
+    xlabel, ylabel : str, with the unit in brackets
+    title : str or None
+    size : (width, height) [inch]
+
+    Returns
+    -------
+    (Figure, Axes)
+    """
+    fig = Figure(figsize=size, dpi=DPI, layout="constrained")
+    ax = fig.subplots()
+    ax.set(xlabel=xlabel, ylabel=ylabel)
+    ax.grid(color=COLOURS["guide"], linewidth=0.5)
+    ax.set_axisbelow(True)
+    if title:
+        ax.set_title(title)
+    return fig, ax
+
+
+def png(fig):
+    """The figure as PNG, the same bytes every time.
+
+    Parameters
+    ----------
+    fig : Figure
+
+    Returns
+    -------
+    bytes
+    """
+    buffer = io.BytesIO()
+    fig.savefig(buffer, format="png", dpi=fig.dpi, metadata={"Software": None})
+    return buffer.getvalue()
+
+
+def bundle(fig, alt):
+    """What a notebook stores of a figure: the picture, and the text for who cannot see it.
+
+    Parameters
+    ----------
+    fig : Figure
+    alt : str, what the figure shows
+
+    Returns
+    -------
+    (data, metadata) : dicts by MIME type
+
+    Raises
+    ------
+    ValueError : without a text
+    """
+    if not isinstance(alt, str) or not alt.strip():
+        raise ValueError("a figure needs alt text: say in a sentence what it shows")
+    data = {"image/png": base64.b64encode(png(fig)).decode(), "text/plain": alt}
+    return data, {"image/png": {"alt": alt}}
+
+
+def show(fig, alt):
+    """Show a figure in the notebook, with alternative text.
+
+    Parameters
+    ----------
+    fig : Figure
+    alt : str, what the figure shows
+
+    Raises
+    ------
+    ValueError : without a text
+    """
+    data, metadata = bundle(fig, alt)
+    display(data, metadata=metadata, raw=True)

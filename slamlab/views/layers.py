@@ -1,0 +1,139 @@
+"""Drawing what an estimator shows: one function per kind of layer, artists returned."""
+
+import numpy as np
+from matplotlib.collections import LineCollection, PatchCollection
+from matplotlib.markers import MarkerStyle
+from matplotlib.patches import Ellipse, Rectangle
+from matplotlib.path import Path
+
+from slamlab.layers import Boxes, Ellipses, Points, Poses, Samples, Segments
+from slamlab.views.figures import COLOURS, panels
+
+# 95 % of a Gaussian in the plane lies within this Mahalanobis distance: √χ²(0.95, 2)
+SIGMAS_95 = 2.4477
+# an arrow head that points along +x
+ROBOT = Path([(1.0, 0.0), (-0.7, 0.65), (-0.4, 0.0), (-0.7, -0.65), (1.0, 0.0)])
+
+
+def draw(ax, layer, **style):
+    """Draw a layer.
+
+    Parameters
+    ----------
+    ax : Axes
+    layer : a layer of :mod:`slamlab.layers`; its name gives the colour and the legend's entry
+    style : what matplotlib's artists take, such as ``color``, ``label``, ``alpha``
+
+    Returns
+    -------
+    list of the artists drawn
+
+    Raises
+    ------
+    TypeError : when it is no layer
+    """
+    if type(layer) not in _KINDS:
+        raise TypeError(f"cannot draw {type(layer).__name__}: expected a layer of slamlab.layers")
+    function, default = _KINDS[type(layer)]
+    colour = COLOURS.get(layer.name, COLOURS[default])
+    artists = function(ax, layer, {"color": colour, "label": layer.name} | style)
+    ax.autoscale_view()
+    return artists
+
+
+def side_by_side(layers_by_title, size=(11, 5)):
+    """Maps side by side at one scale, such as naive beside corrected.
+
+    Parameters
+    ----------
+    layers_by_title : dict, title to list of layers
+    size : (width, height) of the whole figure [inch]
+
+    Returns
+    -------
+    (Figure, list of Axes)
+    """
+    fig, all_axes = panels(list(layers_by_title), size)
+    for ax, layers in zip(all_axes, layers_by_title.values(), strict=True):
+        for layer in layers:
+            draw(ax, layer)
+        ax.legend(loc="upper right", fontsize="small")
+    return fig, all_axes
+
+
+def _points(ax, layer, style):
+    xy = np.asarray(layer.xy, dtype=float).reshape(-1, 2)
+    # many points: small, so that what is sharp looks sharp
+    size = 1.5 if len(xy) > 2000 else 3.0
+    return ax.plot(
+        *xy.T, **({"linestyle": "none", "marker": ".", "markersize": size, "mew": 0} | style)
+    )
+
+
+def _segments(ax, layer, style):
+    ends = np.asarray(layer.rows, dtype=float).reshape(-1, 2, 2)
+    return [ax.add_collection(LineCollection(ends, **({"linewidth": 1.5} | style)))]
+
+
+def _poses(ax, layer, style):
+    rows = np.asarray(layer.rows, dtype=float).reshape(-1, 3)
+    if not len(rows):
+        return []
+    x, y, theta = rows[-1]
+    label = style.pop("label")
+    track = ax.plot(*rows[:, :2].T, **({"linewidth": 1.2, "label": label} | style))
+    head = ax.plot(
+        [x],
+        [y],
+        marker=MarkerStyle(ROBOT).rotated(rad=theta),
+        markersize=12,
+        linestyle="none",
+        color=style["color"],
+        label="_robot" if len(rows) > 1 else label,
+    )
+    if len(rows) == 1:
+        track[0].set_label("_track")
+    return [*track, *head]
+
+
+def _ellipses(ax, layer, style):
+    patches = []
+    for centre, covariance in zip(layer.centres, layer.covariances, strict=True):
+        variances, directions = np.linalg.eigh(covariance)
+        # rounding may leave a variance a hair below zero
+        width, height = 2 * SIGMAS_95 * np.sqrt(np.maximum(variances, 0.0))
+        angle = np.degrees(np.arctan2(directions[1, 0], directions[0, 0]))
+        patches.append(Ellipse(centre, width, height, angle=angle))
+    return _outlined(ax, patches, style)
+
+
+def _boxes(ax, layer, style):
+    rows = np.asarray(layer.rows, dtype=float).reshape(-1, 4)
+    return _outlined(ax, [Rectangle((x0, y0), x1 - x0, y1 - y0) for x0, x1, y0, y1 in rows], style)
+
+
+def _outlined(ax, patches, style):
+    """Outlines with one entry in the legend; collections of patches have none of their own."""
+    colour, label = style.pop("color"), style.pop("label")
+    outline = {"facecolor": "none", "edgecolor": colour, "linewidth": 1.2} | style
+    collection = ax.add_collection(PatchCollection(patches, match_original=False, **outline))
+    return [collection, *ax.plot([], [], color=colour, label=label)]
+
+
+def _samples(ax, layer, style):
+    rows, weights = np.asarray(layer.rows, dtype=float), np.asarray(layer.weights, dtype=float)
+    # the mean sample is as large as a dot of a scan; zero weight would vanish
+    areas = 2.0 + 6.0 * weights * len(weights)
+    return [
+        ax.scatter(rows[:, 0], rows[:, 1], s=areas, **({"linewidths": 0, "alpha": 0.6} | style))
+    ]
+
+
+_KINDS = {
+    Points: (_points, "scan"),
+    Segments: (_segments, "walls"),
+    Poses: (_poses, "corrected"),
+    Ellipses: (_ellipses, "landmark"),
+    Boxes: (_boxes, "box"),
+    Samples: (_samples, "sample"),
+}

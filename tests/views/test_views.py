@@ -1,0 +1,213 @@
+"""Figures as data: what was drawn, where, in which colour; never pixels."""
+
+import subprocess
+import sys
+
+import ipywidgets
+import numpy as np
+import pytest
+
+from slamlab import views
+from slamlab.layers import Boxes, Ellipses, Points, Poses, Samples, Segments
+from slamlab.views import figures, widgets
+
+ALT = "two walls that meet"
+
+
+@pytest.fixture
+def stored(monkeypatch):
+    """Call a function as a cell would; what it would store, its only output."""
+
+    def run(function):
+        shown = []
+        for module in (figures, widgets):
+            monkeypatch.setattr(module, "display", lambda data, **rest: shown.append((data, rest)))
+        function()
+        ((data, rest),) = shown
+        assert rest["raw"]
+        return data, rest["metadata"]
+
+    return run
+
+
+def test_a_map_has_equal_scales_and_metres_on_both_axes():
+    _, ax = views.axes("A room")
+    assert ax.get_aspect() == 1.0
+    assert (ax.get_xlabel(), ax.get_ylabel(), ax.get_title()) == ("x [m]", "y [m]", "A room")
+
+
+def test_panels_share_one_scale():
+    _, (left, right) = views.panels(["naive", "corrected"])
+    left.set_xlim(-3, 7)
+    assert right.get_xlim() == (-3, 7)
+
+
+def test_points_stand_where_they_are_and_carry_their_layers_name_and_colour():
+    _, ax = views.axes()
+    xy = np.array([[1.0, 2.0], [3.0, -1.0]])
+    (line,) = views.draw(ax, Points("corrected", xy))
+    assert np.array_equal(line.get_xydata(), xy)
+    assert line.get_label() == "corrected"
+    assert line.get_color() == views.COLOURS["corrected"]
+
+
+def test_a_style_given_wins_over_the_layers_own():
+    _, ax = views.axes()
+    (line,) = views.draw(ax, Points("map", np.ones((1, 2))), color="k", label="seen")
+    assert (line.get_color(), line.get_label()) == ("k", "seen")
+
+
+def test_segments_run_from_end_to_end():
+    _, ax = views.axes()
+    (walls,) = views.draw(ax, Segments("walls", np.array([[0, 1, 2, 3.0]])))
+    assert np.array_equal(walls.get_segments()[0], [[0, 1], [2, 3]])
+
+
+def test_a_track_ends_in_a_robot_that_points_along_its_heading():
+    _, ax = views.axes()
+    track, robot = views.draw(ax, Poses("truth", np.array([[0, 0, 0], [1, 2, 0.7]])))
+    assert np.array_equal(track.get_xydata(), [[0, 0], [1, 2]])
+    marker = robot._marker  # the public one has lost its rotation
+    tip = marker.get_transform().transform(marker.get_path().vertices[0])
+    assert np.arctan2(tip[1], tip[0]) == pytest.approx(0.7)
+
+
+def test_no_pose_draws_no_robot():
+    _, ax = views.axes()
+    assert views.draw(ax, Poses("truth", np.empty((0, 3)))) == []
+
+
+def test_an_ellipse_holds_95_percent_of_its_gaussian():
+    _, ax = views.axes()
+    centre, P = np.array([1.0, -2.0]), np.array([[0.3, 0.2], [0.2, 0.5]])
+    outline, _ = views.draw(ax, Ellipses("landmark", centre[None], P[None]))
+    (path,) = outline.get_paths()
+    rng = np.random.default_rng(5)
+    inside = path.contains_points(rng.multivariate_normal(centre, P, size=20_000))
+    assert inside.mean() == pytest.approx(0.95, abs=0.01)
+
+
+def test_a_box_spans_its_bounds():
+    _, ax = views.axes()
+    outline, _ = views.draw(ax, Boxes("box", np.array([[1, 3, -2, 5.0]])))
+    (path,) = outline.get_paths()
+    assert path.get_extents().extents == pytest.approx([1, -2, 3, 5])
+
+
+def test_a_heavier_sample_is_drawn_larger():
+    _, ax = views.axes()
+    rows = np.array([[0, 0.0], [1, 1], [2, 2]])
+    (dots,) = views.draw(ax, Samples("sample", rows, np.array([0.7, 0.2, 0.1])))
+    assert np.array_equal(dots.get_offsets(), rows)
+    assert np.all(np.diff(dots.get_sizes()) < 0)
+
+
+def test_what_is_no_layer_is_refused_by_its_type():
+    _, ax = views.axes()
+    with pytest.raises(TypeError, match="ndarray"):
+        views.draw(ax, np.zeros((3, 2)))
+
+
+def test_side_by_side_draws_each_layer_in_its_panel():
+    walls = Segments("walls", np.array([[0, 0, 4, 0.0]]))
+    fig, (left, right) = views.side_by_side(
+        {"naive": [walls, Points("naive", np.ones((2, 2)))], "corrected": [walls]}
+    )
+    assert [ax.get_title() for ax in fig.axes] == ["naive", "corrected"]
+    assert [len(left.lines), len(right.lines)] == [1, 0]
+    assert [text.get_text() for text in left.get_legend().get_texts()] == ["walls", "naive"]
+
+
+def test_a_figure_reaches_the_notebook_as_png_with_its_text(stored):
+    fig, _ = views.axes()
+    data, metadata = stored(lambda: views.show(fig, ALT))
+    assert set(data) == {"image/png", "text/plain"}
+    assert data["text/plain"] == metadata["image/png"]["alt"] == ALT
+
+
+def test_a_figure_without_text_is_refused():
+    fig, _ = views.axes()
+    with pytest.raises(ValueError, match="alt text"):
+        views.show(fig, " ")
+
+
+def test_the_same_figure_is_the_same_bytes():
+    def drawn():
+        fig, ax = views.axes("map")
+        views.draw(ax, Points("map", np.arange(8.0).reshape(4, 2)))
+        return views.png(fig)
+
+    assert drawn() == drawn()
+
+
+class Recorder:
+    """A function to explore that remembers what it was asked to draw."""
+
+    def __init__(self):
+        self.calls = []
+
+    def __call__(self, **values):
+        self.calls.append(values)
+        if values.get("error", 0) > 8:
+            raise ZeroDivisionError("too <much>")
+        return views.chart("t [s]", "x [m]")[0]
+
+
+def test_exploring_stores_the_first_view_as_png_with_its_text(stored):
+    recorder = Recorder()
+    data, metadata = stored(
+        lambda: views.explore(recorder, alt=lambda error: f"error {error}", error=(0, 10, 3))
+    )
+    assert recorder.calls == [{"error": 3}]
+    assert data["image/png"]
+    assert data["text/plain"] == metadata["image/png"]["alt"] == "error 3"
+
+
+def test_moving_a_slider_draws_once_and_only_when_let_go(stored):
+    recorder = Recorder()
+    slider = ipywidgets.IntSlider(3, 0, 10)
+    stored(lambda: views.explore(recorder, alt=ALT, error=slider))
+    assert not slider.continuous_update
+    slider.value = 7
+    assert recorder.calls == [{"error": 3}, {"error": 7}]
+
+
+def test_a_mistake_in_the_first_view_surfaces_as_any_other():
+    with pytest.raises(ZeroDivisionError):
+        views.explore(Recorder(), alt=ALT, error=(0, 10, 9))
+
+
+def test_a_mistake_after_a_slider_moved_stands_in_place_of_the_figure(stored, monkeypatch):
+    view = ipywidgets.HTML()
+    monkeypatch.setattr(widgets.ipywidgets, "HTML", lambda: view)
+    slider = ipywidgets.IntSlider(3, 0, 10)
+    stored(lambda: views.explore(Recorder(), alt=ALT, error=slider))
+    assert f'alt="{ALT}"' in view.value
+    slider.value = 9
+    assert "ZeroDivisionError: too &lt;much&gt;" in view.value
+    slider.value = 2
+    assert f'alt="{ALT}"' in view.value
+
+
+@pytest.mark.parametrize(
+    ("given", "kind"),
+    [
+        ((0, 10, 3), ipywidgets.IntSlider),
+        ((0.0, 1.0, 0.5), ipywidgets.FloatSlider),
+        (["icp", "odometry"], ipywidgets.Dropdown),
+        (True, ipywidgets.Checkbox),
+    ],
+)
+def test_a_control_is_made_of_what_it_ranges_over(given, kind):
+    assert type(widgets._control("heading_error", given)) is kind
+
+
+def test_a_control_that_starts_outside_its_range_is_refused_by_name():
+    with pytest.raises(ValueError, match="error"):
+        views.explore(Recorder(), alt=ALT, error=(0, 10, 12))
+
+
+@pytest.mark.parametrize("room", ["geometry", "symbolic", "jacobians", "models", "scanmatching"])
+def test_views_bring_no_answer_of_an_exercise_along(room):
+    code = f"import slamlab.views, sys; sys.exit('slamlab.{room}' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", code]).returncode == 0
