@@ -3,8 +3,9 @@
 This is the judge's side. It never sees student code, only the arrays that came out of it.
 """
 
+import hashlib
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -99,7 +100,7 @@ class Task:
     shapes : output name to shape, None for any length
     laws : what a right solution obeys
     diagnoses : classic mistakes, tried in order when a law failed
-    needs : ids of tasks that must be solved first
+    needs : ids of earlier tasks of the exercise that must be solved first
     """
 
     id: str
@@ -109,12 +110,26 @@ class Task:
     shapes: dict[str, tuple[int | None, ...]]
     laws: tuple[Law, ...]
     diagnoses: tuple[Diagnosis, ...] = ()
-    needs: tuple[str, ...] = field(default=())
+    needs: tuple[str, ...] = ()
 
     @property
     def points(self):
         """The most that can be earned."""
         return sum(law.points for law in self.laws)
+
+    def draw(self, seed: bytes) -> dict[str, np.ndarray]:
+        """The inputs that a seed stands for.
+
+        Parameters
+        ----------
+        seed : bytes; the same for all tasks of a submission
+
+        Returns
+        -------
+        name to array
+        """
+        digest = hashlib.sha256(seed + b"\0" + self.id.encode()).digest()
+        return self.inputs(np.random.default_rng(np.frombuffer(digest, dtype="<u4")))
 
     def failed(self, kind, problem) -> Verdict:
         """The verdict when there is nothing to judge.
@@ -144,11 +159,13 @@ class Task:
         problem = self._malformed(inputs, outputs)
         if problem:
             return self.failed("malformed", problem)
+        outputs = {name: np.asarray(outputs[name], dtype=float) for name in self.shapes}
         with np.errstate(all="ignore"):
             results = tuple(self._apply(law, inputs, outputs) for law in self.laws)
             found = None
             if any(result.failed for result in results):
-                found = next((d for d in self.diagnoses if d.matches(inputs, outputs)), None)
+                matching = (d for d in self.diagnoses if _safely(d.matches, inputs, outputs))
+                found = next(matching, None)
         return Verdict(
             self.id,
             sum(result.points for result in results),
@@ -176,7 +193,7 @@ class Task:
             return self.failed(error.kind, error.message)
 
     def _apply(self, law, inputs, outputs):
-        holds = np.atleast_1d(np.asarray(law.holds(inputs, outputs), dtype=bool))
+        holds = np.atleast_1d(np.asarray(_safely(law.holds, inputs, outputs), dtype=bool))
         failed = int(np.count_nonzero(~holds))
         points = 0.0 if failed else law.points
         return LawResult(law.name, law.says, points, law.points, failed, holds.size)
@@ -203,12 +220,19 @@ class Task:
         return None
 
 
+def _safely(claim, inputs, outputs):
+    # numbers can be such that a decomposition fails or overflows: then nothing holds of them
+    try:
+        return claim(inputs, outputs)
+    except (ArithmeticError, ValueError, np.linalg.LinAlgError):
+        return False
+
+
 def _shape(shape):
-    return (
-        "("
-        + ", ".join("n" if n is None else str(n) for n in shape)
-        + (",)" if len(shape) == 1 else ")")
-    )
+    if not shape:
+        return "() (one number)"
+    sizes = ", ".join("n" if n is None else str(n) for n in shape)
+    return f"({sizes},)" if len(shape) == 1 else f"({sizes})"
 
 
 @dataclass(frozen=True)
@@ -234,6 +258,13 @@ class Exercise:
     allows: tuple[str, ...] = ()
     answers: tuple[str, ...] = ()
 
+    def __post_init__(self):
+        seen = set()
+        for task in self.tasks:
+            if not seen.issuperset(task.needs):
+                raise ValueError(f"{task.id} needs a task that does not stand before it")
+            seen.add(task.id)
+
     def task(self, id) -> Task:
         """The task of that id.
 
@@ -241,4 +272,40 @@ class Exercise:
         ------
         KeyError
         """
-        return next(t for t in self.tasks if t.id == id)
+        for task in self.tasks:
+            if task.id == id:
+                return task
+        raise KeyError(id)
+
+    @property
+    def points(self):
+        """The most that can be earned."""
+        return sum(task.points for task in self.tasks)
+
+    def verdicts(self, judge_one: Callable[[Task], Verdict], only=None) -> dict[str, Verdict]:
+        """Judge the tasks in order; one whose needs are not solved fails unseen.
+
+        Parameters
+        ----------
+        judge_one : task -> Verdict
+        only : id of a task, to judge just this one and what it needs; None for all
+
+        Returns
+        -------
+        task id to Verdict
+        """
+        wanted = {task.id for task in self.tasks} if only is None else self._required(only)
+        found = {}
+        for task in self.tasks:
+            if task.id not in wanted:
+                continue
+            unsolved = [need for need in task.needs if not found[need].full]
+            if unsolved:
+                names = " and ".join(unsolved)
+                found[task.id] = task.failed("needs", f"needs {names}, which must be solved first")
+            else:
+                found[task.id] = judge_one(task)
+        return found
+
+    def _required(self, id):
+        return {id}.union(*(self._required(need) for need in self.task(id).needs))

@@ -4,6 +4,7 @@ No truth and no answer stands here or in the modules beside this one: a worker t
 code holds nothing else of the checks.
 """
 
+import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
@@ -11,13 +12,18 @@ import numpy as np
 
 Arrays = Mapping[str, np.ndarray]
 
+MOST_NUMBERS = 500_000
+"""More numbers than this from one call are no honest answer, and would not fit the pipe."""
+
+_CELL = re.compile(r"<cell |<ipython-input|[/\\](ipykernel|xpython)_")
+
 
 class StudentError(Exception):
     """A student's function could not be driven.
 
     Parameters
     ----------
-    kind : str, one of "missing", "not attempted", "raised", "malformed", "time", "died"
+    kind : str, one of "missing", "not attempted", "raised", "malformed", "time", "died", "needs"
     message : str, what happened, in words for the student
     """
 
@@ -48,12 +54,17 @@ def numbers(value, function):
         )
     try:
         array = np.asarray(value)
-        if array.dtype.kind == "c":
+        if array.dtype.kind not in "biufO":  # text would pass astype, complex lose half of itself
             raise TypeError
+        if array.size > MOST_NUMBERS:
+            raise StudentError("malformed", f"{function} returned {array.size} numbers: too many")
         return array.astype(float)
-    except (TypeError, ValueError):
+    except StudentError:
+        raise
+    except Exception:  # an object may raise anything while it is being converted
         raise StudentError(
-            "malformed", f"{function} returned {type(value).__name__}, not an array of real numbers"
+            "malformed",
+            f"{function} returned {type(value).__name__}, which is no array of real numbers",
         ) from None
 
 
@@ -84,7 +95,9 @@ def call_each(functions: Mapping[str, Callable], inputs: Arrays) -> dict[str, np
     results = [numbers(function(*row), name) for row in rows(inputs)]
     shapes = sorted({r.shape for r in results})
     if len(shapes) > 1:
-        raise StudentError("malformed", f"{name} returned arrays of different shapes: {shapes}")
+        raise StudentError(
+            "malformed", f"{name} returned arrays of different shapes: {shapes[0]}, {shapes[1]}"
+        )
     return {"result": np.array(results)}
 
 
@@ -118,21 +131,20 @@ class Drive:
         Raises
         ------
         StudentError : when a function is missing, not attempted, fails, or returns no numbers
+        KeyboardInterrupt : when the person at the keyboard, or a time limit, stopped it
         """
         functions = {}
         for name in self.functions:
             if not callable(namespace.get(name)):
-                raise StudentError(
-                    "missing", f"{name} is not defined: run the cell that defines it"
-                )
+                raise StudentError("missing", f"{name} is not defined yet: run the cell above")
             functions[name] = namespace[name]
         try:
             return self.run(functions, inputs)
-        except StudentError:
+        except (StudentError, KeyboardInterrupt):
             raise
         except NotImplementedError:
             raise StudentError("not attempted", "not attempted yet") from None
-        except Exception as error:
+        except BaseException as error:  # SystemExit too: sys.exit() in a function is a mistake
             raise StudentError("raised", describe(error)) from None
 
 
@@ -151,8 +163,12 @@ def describe(error: BaseException) -> str:
     while traceback is not None:
         code = traceback.tb_frame.f_code
         # cells have no file of their own: "<cell 3>" in the worker, "/tmp/ipykernel_…" in a kernel
-        if code.co_filename.startswith("<") or "ipykernel" in code.co_filename:
-            where = f" (line {traceback.tb_lineno} of the cell, in {code.co_name})"
+        if _CELL.search(code.co_filename):
+            inside = "" if code.co_name == "<module>" else f", in {code.co_name}"
+            where = f" (line {traceback.tb_lineno} of the cell{inside})"
         traceback = traceback.tb_next
-    text = str(error).strip().splitlines()
+    try:
+        text = str(error).strip().splitlines()
+    except Exception:  # an exception class of the student's own may fail at this, too
+        text = []
     return f"{type(error).__name__}: {text[0][:300] if text else 'no message'}{where}"

@@ -1,0 +1,44 @@
+"""How a verdict is said to a student, in plain text."""
+
+from slamlab.checks.task import Task, Verdict
+
+
+def number(points):
+    """Points without idle decimals: 2, 1.5."""
+    return f"{points:g}"
+
+
+def points(value):
+    """ "1 point", "2 points"."""
+    return f"{number(value)} point{'' if value == 1 else 's'}"
+
+
+def say(task: Task, verdict: Verdict) -> str:
+    """What the judge found, law by law, with the hint for the mistake recognised.
+
+    Parameters
+    ----------
+    task : Task
+    verdict : Verdict of that task
+
+    Returns
+    -------
+    str, some lines
+    """
+    mark = "✓" if verdict.full else "✗"
+    earned = f"{number(verdict.points)} of {points(verdict.max_points)}"
+    lines = [f"{mark} {task.id} · {task.title}: {earned}"]
+    if verdict.problem:
+        lines.append(f"  {verdict.problem}")
+    lines += [f"  {say_law(law)}" for law in verdict.laws]
+    if verdict.hint:
+        lines.append(f"  Hint: {verdict.hint}")
+    return "\n".join(lines)
+
+
+def say_law(law) -> str:
+    """One law: what it asks, whether it holds, how many inputs broke it."""
+    if not law.failed:
+        return f"✓ {law.says} ({points(law.points)})"
+    broken = f": broken by {law.failed} of {law.tried} inputs" if law.tried > 1 else ""
+    return f"✗ {law.says}{broken} (0 of {points(law.max_points)})"

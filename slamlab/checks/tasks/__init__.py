@@ -1,0 +1,1 @@
+"""The tasks of the exercises: inputs, laws, diagnoses. The judge's side; never in a worker."""

@@ -1,0 +1,1 @@
+"""The laws the package, the course and the grader obey."""

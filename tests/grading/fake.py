@@ -1,0 +1,101 @@
+"""A small exercise to try the machinery on: double a number, turn a vector, double a sum."""
+
+import numpy as np
+
+from slamlab.checks.task import Diagnosis, Exercise, Law, Task
+from tests.grading.fake_drives import DRIVES
+
+
+def _numbers(rng):
+    return {"a": rng.uniform(1, 2, 20)}
+
+
+def _vectors(rng):
+    return {"v": rng.uniform(1, 2, (20, 2)), "angle": rng.uniform(0.3, 1.2, 20)}
+
+
+def _turned_by(sign, inputs, result):
+    v, angle = inputs["v"], sign * inputs["angle"]
+    c, s = np.cos(angle), np.sin(angle)
+    right = np.stack([c * v[:, 0] - s * v[:, 1], s * v[:, 0] + c * v[:, 1]], axis=1)
+    return np.isclose(result, right).all(axis=1)
+
+
+EXERCISE = Exercise(
+    id="99",
+    notebook="99_fake",
+    title="A fake",
+    tasks=(
+        Task(
+            id="99-double",
+            title="Double a number",
+            drive=DRIVES["99-double"],
+            inputs=_numbers,
+            shapes={"result": ()},
+            laws=(
+                Law("sign", 1, "keeps the sign", lambda i, o: o["result"] > 0),
+                Law(
+                    "twice",
+                    2,
+                    "is twice as large",
+                    lambda i, o: np.isclose(o["result"], 2 * i["a"]),
+                ),
+            ),
+            diagnoses=(
+                Diagnosis(
+                    "square",
+                    "you squared: <b>2a</b> is not a²",
+                    lambda i, o: np.allclose(o["result"], i["a"] ** 2),
+                ),
+            ),
+        ),
+        Task(
+            id="99-turn",
+            title="Turn a vector",
+            drive=DRIVES["99-turn"],
+            inputs=_vectors,
+            shapes={"result": (2,)},
+            laws=(Law("turned", 2, "turns left", lambda i, o: _turned_by(1, i, o["result"])),),
+            diagnoses=(
+                Diagnosis(
+                    "right",
+                    "you turned right: check the sign of the sine",
+                    lambda i, o: _turned_by(-1, i, o["result"]).all(),
+                ),
+            ),
+        ),
+        Task(
+            id="99-total",
+            title="Double a sum",
+            drive=DRIVES["99-total"],
+            inputs=lambda rng: {"a": rng.uniform(1, 2, (20, 5))},
+            shapes={"sums": (20,)},
+            laws=(
+                Law(
+                    "sum",
+                    1.5,
+                    "doubles the sum",
+                    lambda i, o: np.isclose(o["sums"], 2 * i["a"].sum(axis=1)),
+                ),
+            ),
+            needs=("99-double",),
+        ),
+    ),
+    drives="tests.grading.fake_drives",
+    allows=("slamlab.noise",),
+    answers=("slamlab.geometry",),
+)
+
+SOLUTION = """
+import numpy as np
+
+def double(a):
+    return 2 * a
+
+def turn(v, angle):
+    c, s = np.cos(angle), np.sin(angle)
+    return np.array([c * v[0] - s * v[1], s * v[0] + c * v[1]])
+
+def total(a):
+    return double(a.sum())
+"""
