@@ -1,0 +1,272 @@
+"""Derives the notebooks of the course from their text sources: ``python -m course.build``."""
+
+import argparse
+import os
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+import nbformat
+
+from course.execute import ExecutionError, carry_outputs, execute, executed, same_code
+from course.exercise import check_metadata, regions, solution_metadata, strip
+from course.lint import lint
+from course.source import ROOT, CourseError, read, sources
+
+FOLDERS = {"lesson": ("notebooks",), "exercise": ("exercises", "solutions")}
+
+
+@dataclass(frozen=True)
+class Derived:
+    """One notebook of a source, without outputs.
+
+    Parameters
+    ----------
+    source : Source
+    path : Path, where it is to stand
+    notebook : NotebookNode
+    runs : bool, whether it is stored with outputs
+    """
+
+    source: object
+    path: Path
+    notebook: nbformat.NotebookNode
+    runs: bool
+
+
+def derive(path, root=ROOT):
+    """The notebooks of one source: a lesson's, or an exercise's to solve and solved.
+
+    Parameters
+    ----------
+    path : Path, the source
+    root : Path, the project's folder
+
+    Returns
+    -------
+    list of Derived
+
+    Raises
+    ------
+    CourseError : where the source breaks the course's standards
+    """
+    source = read(path)
+    exercise = _exercise(source.number) if source.kind == "exercise" else None
+    problems = lint(source, exercise)
+    if problems:
+        raise CourseError(problems)
+    return [
+        Derived(
+            source,
+            root / folder / f"{source.path.stem}.ipynb",
+            _notebook(source, exercise, stubs=folder == "exercises"),
+            folder != "exercises",
+        )
+        for folder in FOLDERS[source.kind]
+    ]
+
+
+def build(path, force=False, root=ROOT):
+    """Derive the notebooks of one source and store them, run where they changed.
+
+    Parameters
+    ----------
+    path : Path, the source
+    force : bool, run them even where they did not change
+    root : Path, the project's folder
+
+    Returns
+    -------
+    list of str : what was done, one a notebook
+
+    Raises
+    ------
+    CourseError : where the source breaks the standards or a cell fails
+    """
+    done = []
+    for derived in derive(path, root):
+        stored, notebook = _stored(derived.path), derived.notebook
+        ran = False
+        if derived.runs:
+            fresh = stored and executed(stored) and same_code(notebook, stored)
+            ran = force or not fresh
+            notebook = _run(derived) if ran else carry_outputs(notebook, stored)
+        text = nbformat.writes(notebook)
+        name = derived.path.relative_to(root).as_posix()
+        if derived.path.exists() and derived.path.read_text(encoding="utf-8") == text:
+            done.append(f"{name} {'ran, ' if ran else ''}unchanged")
+            continue
+        derived.path.parent.mkdir(exist_ok=True)
+        derived.path.write_text(text, encoding="utf-8", newline="\n")
+        done.append(f"{name} {'ran and ' if ran else ''}written")
+    return done
+
+
+def differences(path, root=ROOT):
+    """How the stored notebooks of one source differ from it, outputs aside.
+
+    Parameters
+    ----------
+    path : Path, the source
+    root : Path, the project's folder
+
+    Returns
+    -------
+    list of str, each "file: what differs"
+
+    Raises
+    ------
+    CourseError : where the source breaks the course's standards
+    """
+    found = []
+    for derived in derive(path, root):
+        name, stored = derived.path.relative_to(root).as_posix(), _stored(derived.path)
+        if stored is None:
+            found.append(f"{name}: is missing")
+            continue
+        if derived.runs and not executed(stored):
+            found.append(f"{name}: was not run")
+        want, have = _bare(derived.notebook), _bare(stored)
+        if [c.id for c in want.cells] != [c.id for c in have.cells]:
+            found.append(f"{name}: other cells than its source has")
+        elif want != have:
+            cells = [w.id for w, h in zip(want.cells, have.cells, strict=True) if w != h]
+            found.append(f"{name}: differs in {', '.join(cells) or 'its metadata'}")
+        elif not derived.runs and nbformat.writes(derived.notebook) != nbformat.writes(stored):
+            found.append(f"{name}: holds outputs")
+    return found
+
+
+def strangers(root=ROOT):
+    """Notebooks in the derived folders that have no source, as paths from the root."""
+    sourced = {(p.parent.name, p.stem) for p in sources(root)}
+    kinds = {folder: f"{kind}s" for kind, folders in FOLDERS.items() for folder in folders}
+    return [
+        path.relative_to(root).as_posix()
+        for folder in kinds
+        for path in sorted((root / folder).glob("*.ipynb"))
+        if (kinds[folder], path.stem) not in sourced
+    ]
+
+
+def main(argv=None):
+    """Run the command line; returns its exit code."""
+    parser = argparse.ArgumentParser(prog="python -m course.build", description=__doc__)
+    parser.add_argument("names", nargs="*", help="sources: a path, a name or a number such as 04")
+    parser.add_argument("--force", action="store_true", help="run notebooks that did not change")
+    parser.add_argument(
+        "--check", action="store_true", help="only tell what differs; write nothing"
+    )
+    options = parser.parse_args(argv)
+    paths, problems = _chosen(options.names)
+    if not options.check and not (os.environ.get("SLAMLAB_DATA") or (ROOT / "data").exists()):
+        print("note: no recordings here (data/ or SLAMLAB_DATA): lessons run on simulated logs")
+    for path in paths:
+        try:
+            if options.check:
+                problems += differences(path)
+            else:
+                print(*build(path, options.force), sep="\n", flush=True)
+        except CourseError as error:
+            problems += error.problems
+    if not options.names:
+        problems += [f"{name}: has no source" for name in strangers()]
+    print(*problems, sep="\n", end="\n" if problems else "", file=sys.stderr)
+    return 1 if problems else 0
+
+
+def _chosen(names):
+    """The sources of the names given, and what is wrong with the names."""
+    known, chosen, problems = sources(), [], []
+    for name in names:
+        stem = Path(name).stem
+        same = [p for p in known if Path(name).resolve() == p]
+        hits = same or [p for p in known if stem in (p.stem, p.stem.split("_")[0])]
+        chosen += [p for p in hits if p not in chosen]
+        if not hits:
+            problems.append(f"{name}: no such source in course/lessons or course/exercises")
+    return (chosen if names else known), problems
+
+
+def _exercise(number):
+    from slamlab.checks import catalogue
+
+    try:
+        return catalogue.exercise(number)
+    except KeyError:
+        return None
+
+
+def _notebook(source, exercise, stubs):
+    notebook = nbformat.v4.new_notebook()
+    notebook.metadata = nbformat.from_dict(
+        {
+            "kernelspec": {
+                "display_name": "Python 3 (ipykernel)",
+                "language": "python",
+                "name": "python3",
+            },
+            "language_info": {
+                "file_extension": ".py",
+                "mimetype": "text/x-python",
+                "name": "python",
+                "pygments_lexer": "ipython3",
+            },
+            "slamlab": {source.kind: source.number},
+        }
+    )
+    notebook.cells = [_cell(cell, exercise, stubs) for cell in source.cells]
+    return notebook
+
+
+def _cell(cell, exercise, stubs):
+    metadata = {k: v for k, v in cell.metadata.items() if k != "name"}
+    text = cell.text
+    if cell.check:
+        metadata |= check_metadata(exercise.task(cell.check))
+    elif cell.type == "code" and regions(text):
+        metadata |= solution_metadata(cell.id)
+        text = strip(text) if stubs else text
+    if stubs and "nbval-check-output" in cell.tags:  # nothing is stored to compare with
+        metadata["tags"] = [tag for tag in cell.tags if tag != "nbval-check-output"]
+    if not metadata.get("tags", True):
+        del metadata["tags"]
+    new = nbformat.v4.new_code_cell if cell.type == "code" else nbformat.v4.new_markdown_cell
+    return new(text, id=cell.id, metadata=nbformat.from_dict(metadata))
+
+
+def _run(derived):
+    try:
+        notebook = execute(derived.notebook, derived.path.parent)
+    except ExecutionError as error:
+        cell = derived.source.cells[error.cell]
+        raise CourseError([f"{derived.source.at(cell)}: {cell.id} failed\n    {error}"]) from None
+    silent = [
+        f"{derived.source.at(source)}: is tagged nbval-check-output but shows nothing to compare"
+        for source, cell in zip(derived.source.cells, notebook.cells, strict=True)
+        if "nbval-check-output" in source.tags and not cell.outputs
+    ]
+    if silent:
+        raise CourseError(silent)
+    return notebook
+
+
+def _stored(path):
+    try:
+        return nbformat.read(path, as_version=4)
+    except FileNotFoundError:
+        return None
+    except (ValueError, nbformat.reader.NotJSONError):
+        return None  # a broken file counts as none and is written again
+
+
+def _bare(notebook):
+    bare = nbformat.from_dict(notebook)
+    for cell in bare.cells:
+        if cell.cell_type == "code":
+            cell.outputs, cell.execution_count = [], None
+    return bare
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,124 @@
+"""Runs a notebook as a student would and stores what may be stored of its outputs."""
+
+import copy
+import os
+import re
+import sys
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from nbclient import NotebookClient
+from nbclient.exceptions import CellExecutionError, CellTimeoutError, DeadKernelError
+
+from course.source import ROOT
+
+WIDGET = "application/vnd.jupyter.widget-view+json"
+TIMEOUT = 300  # [s] for one cell
+
+
+class ExecutionError(Exception):
+    """A cell failed; ``cell`` is its position, the message the error's last lines."""
+
+    def __init__(self, cell, message):
+        super().__init__(message)
+        self.cell = cell
+
+
+def executed(notebook):
+    """Whether every code cell of a stored notebook was run."""
+    return all(c.execution_count for c in notebook.cells if c.cell_type == "code")
+
+
+def same_code(derived, stored):
+    """Whether two notebooks run the same code, cell by cell."""
+
+    def code(notebook):
+        return [(c.id, c.source) for c in notebook.cells if c.cell_type == "code"]
+
+    return code(derived) == code(stored)
+
+
+def carry_outputs(derived, stored):
+    """The derived notebook with the outputs of a stored one that runs the same code."""
+    notebook, outputs = copy.deepcopy(derived), {c.id: c for c in stored.cells}
+    for cell in notebook.cells:
+        if cell.cell_type == "code":
+            cell.outputs = outputs[cell.id].outputs
+            cell.execution_count = outputs[cell.id].execution_count
+    return notebook
+
+
+def execute(derived, folder):
+    """Run a notebook from its folder in a fresh kernel of this Python.
+
+    Parameters
+    ----------
+    derived : NotebookNode, left as it is
+    folder : Path, where the notebook is to stand
+
+    Returns
+    -------
+    NotebookNode : with its outputs, fit to be stored
+
+    Raises
+    ------
+    ExecutionError : when a cell fails, takes too long or kills the kernel
+    """
+    notebook = copy.deepcopy(derived)
+    folder.mkdir(exist_ok=True)
+    client = NotebookClient(
+        notebook,
+        timeout=TIMEOUT,
+        kernel_name="python3",
+        resources={"metadata": {"path": str(folder)}},
+        store_widget_state=False,
+        record_timing=False,
+        extra_arguments=["--log-level=ERROR"],
+    )
+    env = os.environ | {
+        "MPLBACKEND": "module://matplotlib_inline.backend_inline",
+        "PYTHONHASHSEED": "0",
+        "JUPYTER_PREFER_ENV_PATH": "1",
+    }
+    try:
+        with TemporaryDirectory() as profile:  # nobody's own profile takes part
+            client.execute(env=env | {"IPYTHONDIR": profile})
+    except (CellExecutionError, CellTimeoutError, DeadKernelError) as error:
+        begun = [n for n, c in enumerate(notebook.cells) if c.get("execution_count")]
+        raise ExecutionError(begun[-1] if begun else 0, _last_lines(error)) from None
+    notebook.metadata = copy.deepcopy(derived.metadata)  # the kernel adds its version
+    for number, cell in enumerate(c for c in notebook.cells if c.cell_type == "code"):
+        cell.execution_count = number + 1
+        cell.outputs = [_storable(output, number + 1) for output in cell.outputs]
+    return notebook
+
+
+def _storable(output, number):
+    """An output without live widgets that have a still picture, machine paths and counts."""
+    if "execution_count" in output:
+        output["execution_count"] = number
+    data = output.get("data", {})
+    if WIDGET in data and "image/png" in data:
+        # a stored view has no model behind it: Jupyter would say so instead of showing the picture
+        del data[WIDGET]
+    for holder, key in [(output, "text"), (output, "evalue"), *((data, mime) for mime in data)]:
+        if isinstance(holder.get(key), str) and not key.startswith("image/"):
+            holder[key] = _without_paths(holder[key])
+    if "traceback" in output:
+        output["traceback"] = [_without_paths(line) for line in output["traceback"]]
+    return output
+
+
+def _without_paths(text):
+    places = {str(ROOT): ".", sys.prefix: "python", str(Path.home()): "~"}
+    if "SLAMLAB_DATA" in os.environ:
+        data = os.environ["SLAMLAB_DATA"]
+        places |= {data: "data", str(Path(data).resolve()): "data"}
+    for place in sorted(places, key=len, reverse=True):
+        text = text.replace(place, places[place])
+    return re.sub(r"\S*ipykernel_\d+/\d+\.py", "<cell>", text)
+
+
+def _last_lines(error):
+    text = re.sub(r"\x1b\[[0-9;]*m", "", str(error)).strip()
+    return "\n    ".join(text.splitlines()[-12:])

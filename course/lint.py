@@ -1,0 +1,175 @@
+"""The standards of the course's sources, told with file and line where they are not met."""
+
+import ast
+import re
+
+from course.exercise import SolutionError, regions
+from course.source import CHECK, ID, METADATA, heading
+
+TAGS = {
+    "nbval-check-output",
+    "nbval-ignore-output",
+    "nbval-skip",
+    "raises-exception",
+    "remove-input",
+}
+SLIDES = {"slide", "subslide", "fragment", "notes", "skip", "-"}
+LONGEST = 30  # lines of a lesson's code cell
+
+_FIRST = {
+    "lesson": {
+        r"able to": "say what the reader will be able to do",
+        r"\bmin": "say how many minutes it takes",
+        r"before|need": "say what the reader needs before",
+    },
+    "exercise": {},
+}
+
+
+def lint(source, exercise=None):
+    """Every breach of the standards in a source.
+
+    Parameters
+    ----------
+    source : Source
+    exercise : slamlab.checks.task.Exercise or None, what the catalogue says of an exercise
+
+    Returns
+    -------
+    list of str, each "file:line: what is wrong and what to do"
+    """
+    problems = [f"{source.at(cell)}: {text}" for cell, text in _names(source)]
+    for cell in source.cells:
+        problems += [f"{source.at(cell)}: {text}" for text in _markers(cell)]
+        if cell.type == "code":
+            problems += [f"{source.at(cell, line)}: {text}" for line, text in _code(source, cell)]
+    problems += [f"{source.at(cell)}: {text}" for cell, text in _frame(source)]
+    if source.kind == "exercise":
+        problems += [f"{source.at(cell)}: {text}" for cell, text in _checks(source, exercise)]
+        for cell in source.cells:
+            for line, text in _imports(cell, exercise):
+                problems.append(f"{source.at(cell, line)}: {text}")
+    return problems
+
+
+def _names(source):
+    seen = {}
+    for cell in source.cells:
+        if not ID.fullmatch(cell.id):
+            yield cell, f"{cell.id!r} is no name: use 1 to 64 letters, digits, hyphens"
+        if cell.id in seen:
+            yield cell, f"the name {cell.id!r} stands already in line {seen[cell.id]}"
+        seen.setdefault(cell.id, cell.line)
+
+
+def _markers(cell):
+    if cell.type not in ("markdown", "code"):
+        yield f"a {cell.type} cell: only markdown and code are used"
+    if "title" in cell.metadata:
+        yield f"unknown marker {cell.metadata['title']!r} behind # %%"
+    for key in sorted(set(cell.metadata) - {*METADATA, "title"}):
+        yield f"unknown marker {key!r}: only {', '.join(METADATA)}"
+    for tag in cell.tags:
+        if tag not in TAGS:
+            yield f"unknown tag {tag!r}: only {', '.join(sorted(TAGS))}"
+    if cell.slide not in SLIDES | {None}:
+        yield f"unknown slide type {cell.slide!r}: only {', '.join(sorted(SLIDES))}"
+    if set(cell.metadata.get("slideshow", {})) - {"slide_type"}:
+        yield "slideshow holds slide_type and nothing else"
+    if cell.slide == "notes" and cell.type != "markdown":
+        yield "speaker's notes are markdown"
+    if not cell.text.strip():
+        yield "an empty cell"
+
+
+def _code(source, cell):
+    """Problems of a code cell as (line in the cell, text)."""
+    lines = cell.text.splitlines()
+    if source.kind == "lesson" and len(lines) > LONGEST:
+        yield 0, f"{len(lines)} lines of code: at most {LONGEST} in a lesson's cell"
+    if lines and lines[-1].rstrip().endswith(";"):
+        yield len(lines), "a semicolon at the end does not hide a value here: write `_ = ...`"
+    try:
+        compile(cell.text, "<cell>", "exec", ast.PyCF_ALLOW_TOP_LEVEL_AWAIT | ast.PyCF_ONLY_AST)
+    except SyntaxError as error:
+        yield error.lineno or 0, f"no plain Python: {error.msg}"
+        return
+    try:
+        marked = regions(cell.text)
+    except SolutionError as error:
+        yield error.line, error.message
+        return
+    if marked and source.kind == "lesson":
+        yield marked[0][0], "a lesson holds no solution: that is for exercises"
+
+
+def _frame(source):
+    """Problems of the first and the last cell."""
+    if not source.cells:
+        return
+    first, last = source.cells[0], source.cells[-1]
+    title = heading(first.text) if first.type == "markdown" else None
+    if not re.fullmatch(rf"(Exercise )?{source.number} · .+", title or ""):
+        yield first, f"the first cell begins with the heading `# {source.number} · Title`"
+    for pattern, wish in _FIRST[source.kind].items():
+        if not re.search(pattern, first.text, re.IGNORECASE):
+            yield first, f"the first cell: {wish}"
+    if source.kind == "lesson":
+        wanted = f"../exercises/{source.path.stem}.ipynb" if source.number != "00" else ".ipynb"
+        if last.type != "markdown" or wanted not in last.text:
+            yield last, f"the last cell says what comes next and links to {wanted}"
+
+
+def _checks(source, exercise):
+    """Problems of the checks: each task of the exercise has exactly one."""
+    known = [task.id for task in exercise.tasks] if exercise else []
+    found = [cell.check for cell in source.cells if cell.check]
+    for cell in source.cells:
+        if cell.check and known and cell.check not in known:
+            yield cell, f"no task {cell.check!r}: this exercise has {', '.join(known)}"
+        elif cell.check and found.count(cell.check) > 1:
+            yield cell, f"{cell.check!r} is checked more than once"
+        elif cell.check and cell.id != cell.check:
+            yield cell, "a check cell is named by its task: leave the name away"
+        elif cell.type == "code" and not cell.check and CHECK.search(cell.text):
+            yield cell, "a check stands in a cell of its own, nothing beside it"
+    for id in known:
+        if id not in found:
+            yield source.cells[-1], f'the task {id!r} has no cell check("{id}")'
+    if exercise and exercise.notebook != source.path.stem:
+        yield source.cells[0], f"the catalogue calls this notebook {exercise.notebook!r}"
+    if not exercise:
+        yield source.cells[0], f"slamlab.checks.catalogue knows no exercise {source.number!r}"
+
+
+def _imports(cell, exercise):
+    """Top-level imports from slamlab that a submission could not have when it is graded."""
+    if cell.type != "code" or exercise is None:
+        return
+    try:
+        tree = ast.parse(cell.text)
+    except SyntaxError:
+        return
+    allowed = {*exercise.allows, "slamlab.checks"}
+    for node in _top_level(tree):
+        if isinstance(node, ast.Import):
+            modules = [(alias.name,) for alias in node.names]
+        elif isinstance(node, ast.ImportFrom):
+            modules = [(node.module, f"{node.module}.{alias.name}") for alias in node.names]
+        else:
+            continue
+        for names in modules:
+            if names[0].split(".")[0] == "slamlab" and not allowed.intersection(names):
+                told = ", ".join(sorted(allowed))
+                yield (
+                    node.lineno,
+                    f"{names[-1]} is not there at grading (only {told}): import it "
+                    "inside the function under @attempt",
+                )
+
+
+def _top_level(node):
+    for child in ast.iter_child_nodes(node):
+        if not isinstance(child, ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda):
+            yield child
+            yield from _top_level(child)
