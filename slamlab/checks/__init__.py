@@ -64,7 +64,7 @@ def _check(task_id, namespace):
         verdict, printed[one.id] = _run(one, namespace)
         return verdict
 
-    verdict = exercise.verdicts(judge_one, only=task.id)[task.id]
+    verdict = exercise.verdicts(judge_one, only=[task.id])[task.id]
     if printed.get(task.id):
         print(f"your code printed:\n{printed[task.id]}\n")
     print(report.say(task, verdict))

@@ -288,13 +288,14 @@ class Exercise:
         Parameters
         ----------
         judge_one : task -> Verdict
-        only : id of a task, to judge just this one and what it needs; None for all
+        only : ids of tasks, to judge just these and what they need; None for all
 
         Returns
         -------
         task id to Verdict
         """
-        wanted = {task.id for task in self.tasks} if only is None else self._required(only)
+        ids = [task.id for task in self.tasks] if only is None else only
+        wanted = set().union(*(self._required(id) for id in ids))
         found = {}
         for task in self.tasks:
             if task.id not in wanted:
