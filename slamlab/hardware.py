@@ -1,0 +1,44 @@
+"""What a robot and its range sensor are like: how wrong, how far, how wide."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class RobotModel:
+    """A robot's odometry: how wrong it is.
+
+    Parameters
+    ----------
+    distance_error : float, standard deviation as a share of the distance [1]
+    turn_error : float, standard deviation as a share of the turn [1]
+    turn_per_metre : float, standard deviation of the turn picked up per metre [rad/m]
+    radius : float, for drawing [m]
+    """
+
+    distance_error: float = 0.05
+    turn_error: float = 0.05
+    turn_per_metre: float = 0.05
+    radius: float = 0.15
+
+
+@dataclass(frozen=True)
+class SensorModel:
+    """A range sensor: what it can see and how well.
+
+    Parameters
+    ----------
+    range_min, range_max : float [m]
+    field_of_view : float [rad]
+    range_error : float, standard deviation as a share of the range [1]
+    range_sigma : float, standard deviation at range zero [m]
+    bearing_sigma : float [rad]
+    """
+
+    range_min: float = 0.0
+    range_max: float = np.inf
+    field_of_view: float = 2 * np.pi
+    range_error: float = 0.01
+    range_sigma: float = 0.0
+    bearing_sigma: float = 0.005

@@ -1,0 +1,194 @@
+"""Simulated robots as a source of readings: the ready worlds, toured or driven by hand."""
+
+import numpy as np
+
+from slamlab import worlds
+from slamlab.geometry import compose
+from slamlab.hardware import RobotModel
+from slamlab.readings import Reading, Trajectory
+from slamlab.sensors import RPLIDAR_A2
+from slamlab.simulator import DifferentialDrive, Simulator, follow
+from slamlab.sources.base import Source, SourceError
+
+PERIOD = 0.5  # between readings [s]
+
+ROBOT = DifferentialDrive(
+    left_scale=0.999, right_scale=1.001, base_scale=1.01, slip=0.003, tick=0.001
+)
+"""A small indoor robot: wheels unequal by 0.2 %, base misjudged by 1 %, a little slip."""
+
+TOURS = {
+    "room": [(3.1, -0.6), (4.9, -0.9), (4.9, 1.2), (3.6, 2.6), (1.6, 2.3), (0.3, 1.6), (0.0, 0.0)],
+    "corridor": [(12.0, 0.0), (12.0, 8.0), (-1.0, 8.0), (-1.0, 0.0), (0.0, 0.0)],
+}
+
+POLYGON_TRUE_STEPS = np.array(
+    [[np.radians(-45), 0.273], [np.radians(-45), 0.325], [0.0, 0.188]],
+)
+"""(3, 2) Tuček's measured steps: turn α [rad], then distance d along the new heading [m]."""
+
+POLYGON_WRONG_STEPS = np.array(
+    [[np.radians(-35), 0.150], [np.radians(-60), 0.450], [np.radians(20), 0.100]],
+)
+"""(3, 2) the steps he gives out instead, wrong on purpose: turn [rad], distance [m]."""
+
+
+def turn_then_drive(steps):
+    """Relative poses of steps that turn first: [d cos α, d sin α, α].
+
+    Parameters
+    ----------
+    steps : (n, 2) turn α [rad], distance d [m]
+
+    Returns
+    -------
+    (n, 3) [m, m, rad]
+    """
+    turn, d = np.asarray(steps, dtype=float).T
+    return np.column_stack([d * np.cos(turn), d * np.sin(turn), turn])
+
+
+class Simulation(Source):
+    """A robot that was, or is being, driven through a world.
+
+    Reading i always has the same noise, so every iteration yields the same readings.
+
+    Parameters
+    ----------
+    name : str
+    world : World
+    lidar : Lidar
+    rng : numpy.random.Generator; one number is drawn, all noise grows from it
+    poses : (n, 3) true poses so far [m, m, rad]
+    odometry : (n, 3) motion since the pose before, as the robot believes it [m, m, rad]
+    controls : (n, 2) v and omega that led there [m/s, rad/s], or None
+    robot : RobotModel, what the estimator is told of the odometry
+    simulator : Simulator to drive on with, or None where that makes no sense
+    """
+
+    def __init__(
+        self, name, world, lidar, rng, poses, odometry, controls=None, robot=None, simulator=None
+    ):
+        super().__init__()
+        self.name, self.world, self.lidar = name, world, lidar
+        self.sensor = lidar.model
+        self.robot = robot or RobotModel()
+        self._seed = int(rng.integers(2**63))
+        self._poses, self._odometry = list(poses), list(odometry)
+        self._controls = list(controls) if controls is not None else [None] * len(self._poses)
+        self._simulator = simulator
+
+    @property
+    def truth(self):
+        """Trajectory of the true poses, for evaluation only."""
+        return Trajectory(PERIOD * np.arange(len(self)), np.array(self._poses))
+
+    def __len__(self):
+        return len(self._poses)
+
+    def __iter__(self):
+        for i in range(len(self)):
+            yield self._reading(i)
+
+    def drive(self, command):
+        """Drive for one period and look round; a wall in the way stops the robot.
+
+        Parameters
+        ----------
+        command : (2,) speed v, turn rate omega [m/s, rad/s]
+
+        Returns
+        -------
+        Reading, the new last one
+
+        Raises
+        ------
+        SourceError : the command is not two finite numbers, or this run is fixed
+        """
+        if self._simulator is None:
+            raise SourceError(f"{self.name} is a fixed run: it cannot be driven")
+        v, omega = _command(command)
+        if self._blocked(v):
+            v = 0.0
+        self._odometry.append(self._simulator.step(v, omega, PERIOD))
+        self._poses.append(self._simulator.pose)
+        self._controls.append(np.array([v, omega]))
+        return self._reading(len(self) - 1)
+
+    def _reading(self, i):
+        rng = np.random.default_rng([self._seed, i])
+        return Reading(
+            time=PERIOD * i,
+            odometry=self._odometry[i],
+            scan=self.lidar.scan(self.world, self._poses[i], rng),
+            control=self._controls[i],
+        )
+
+    def _blocked(self, v):
+        """Whether a wall stands closer ahead (behind, when backing) than the next step reaches."""
+        x, y, theta = self._simulator.pose
+        fan = theta + (np.pi if v < 0 else 0) + np.linspace(-1, 1, 9)
+        reach = abs(v) * PERIOD + self._simulator.robot.radius
+        return v != 0 and self.world.cast((x, y), fan).min() < reach
+
+
+def _command(command):
+    try:
+        v, omega = (float(number) for number in command)
+    except (TypeError, ValueError):
+        raise SourceError(
+            f"a command is speed and turn rate [m/s, rad/s], not {command!r}"
+        ) from None
+    if not np.isfinite([v, omega]).all():
+        raise SourceError(f"a command is two finite numbers, not {command!r}")
+    return v, omega
+
+
+def simulation(world_name, rng, lidar=RPLIDAR_A2, robot=ROBOT, tour=True):
+    """A simulated run by its name.
+
+    Parameters
+    ----------
+    world_name : str, one of NAMES
+    rng : numpy.random.Generator
+    lidar : Lidar
+    robot : DifferentialDrive; the polygon's runs have given odometry and do not use it
+    tour : bool; False starts with one reading and waits for ``drive``
+
+    Returns
+    -------
+    Simulation
+
+    Raises
+    ------
+    SourceError : there is no such run; the text lists those there are
+    """
+    if world_name not in NAMES:
+        raise SourceError(f"no simulation {world_name!r}; there are: {', '.join(NAMES)}")
+    if world_name in POLYGON_RUNS:
+        return _polygon(world_name, rng, lidar)
+    return _toured(world_name, rng, lidar, robot, tour)
+
+
+def _polygon(name, rng, lidar):
+    poses = [np.zeros(3)]
+    for motion in turn_then_drive(POLYGON_TRUE_STEPS):
+        poses.append(compose(poses[-1], motion))
+    odometry = [np.zeros(3), *turn_then_drive(POLYGON_RUNS[name])]
+    robot = RobotModel(distance_error=0.3, turn_error=0.3, turn_per_metre=0.3)
+    return Simulation(f"sim:{name}", worlds.polygon(), lidar, rng, poses, odometry, robot=robot)
+
+
+def _toured(name, rng, lidar, robot, tour):
+    simulator = Simulator(robot, rng.spawn(1)[0])
+    poses, odometry, controls = [simulator.pose], [np.zeros(3)], [None]
+    for command, motion in follow(simulator, TOURS[name] if tour else [], period=PERIOD):
+        poses.append(simulator.pose)
+        odometry.append(motion)
+        controls.append(command)
+    world, model = worlds.by_name(name), robot.model()
+    return Simulation(f"sim:{name}", world, lidar, rng, poses, odometry, controls, model, simulator)
+
+
+POLYGON_RUNS = {"polygon": POLYGON_TRUE_STEPS, "polygon-wrong": POLYGON_WRONG_STEPS}
+NAMES = (*TOURS, *POLYGON_RUNS)

@@ -1,0 +1,67 @@
+"""The models and Jacobians derived by sympy, under the names of models and jacobians.
+
+Angles are not wrapped here: h's bearing equals the code's up to whole turns.
+"""
+
+import numpy as np
+import sympy as sp
+
+x, y, theta = sp.symbols("x y theta", real=True)
+d, dtheta, V, gamma = sp.symbols("d Δθ V gamma", real=True)
+B, T = sp.symbols("B T", positive=True)
+p_x, p_y = sp.symbols("p_x p_y", real=True)
+r = sp.symbols("r", positive=True)
+beta = sp.symbols("beta", real=True)
+
+pose = sp.Matrix([x, y, theta])
+u_odometry = sp.Matrix([d, dtheta])
+u_steered = sp.Matrix([V, gamma])
+p = sp.Matrix([p_x, p_y])
+z = sp.Matrix([r, beta])
+
+f_odometry = sp.Matrix([x + d * sp.cos(theta), y + d * sp.sin(theta), theta + dtheta])
+
+f_steered = sp.Matrix(
+    [
+        x + T * V * sp.cos(theta + gamma),
+        y + T * V * sp.sin(theta + gamma),
+        theta + T * V / B * sp.sin(gamma),
+    ]
+)
+
+h = sp.Matrix([sp.sqrt((p_x - x) ** 2 + (p_y - y) ** 2), sp.atan2(p_y - y, p_x - x) - theta])
+
+g = sp.Matrix([x + r * sp.cos(theta + beta), y + r * sp.sin(theta + beta)])
+
+A_odometry = f_odometry.jacobian(pose)
+W_odometry = f_odometry.jacobian(u_odometry)
+A_steered = f_steered.jacobian(pose)
+W_steered = f_steered.jacobian(u_steered)
+H_robot = h.jacobian(pose)
+H_landmark = h.jacobian(p)
+J_xr = g.jacobian(pose)
+J_z = g.jacobian(z)
+
+
+def numeric(expression, *arguments):
+    """A function of numbers out of a sympy matrix, called like its twin in models or jacobians.
+
+    ``numeric(H_robot, pose, p)`` takes a pose ``(3,)`` and a landmark ``(2,)``.
+
+    Parameters
+    ----------
+    expression : sympy Matrix (k, m)
+    arguments : sympy column vectors and symbols, in the order of the call
+
+    Returns
+    -------
+    function of as many arrays and numbers -> (k, m) float array; (k,) for a column
+    """
+    names = [list(a) if isinstance(a, sp.MatrixBase) else a for a in arguments]
+    values = list(expression) if expression.shape[1] == 1 else expression
+    evaluate = sp.lambdify(names, values, "numpy")
+
+    def call(*numbers):
+        return np.array(evaluate(*numbers), dtype=float)
+
+    return call
