@@ -3,7 +3,8 @@
 Seen from the sensor an obstacle spans an interval of bearings and only beams inside it can meet it.
 So the work is a list of (obstacle, beam) pairs, not a table of all with all. For a wall on the line
 n·q = 1 (q from the sensor) the inverse range along the unit vector u is just n·u: no division a
-pair, and the nearest obstacle is the one with the largest inverse range.
+pair, and the nearest obstacle is the one with the largest inverse range. Near obstacles go first,
+so that those behind them need not be looked at.
 """
 
 import numpy as np
@@ -11,7 +12,8 @@ import numpy as np
 TOUCH = 1e-9  # a sensor this close to a wall stands on it [m]
 EDGE_ON = 1e-9  # a wall narrower than this is seen as its near end [rad]
 PAD = 1e-12  # so that no beam slips between two walls that share a corner [rad]
-BLOCK = 1 << 18  # pairs handled at once: bounds the memory
+FIRST = 64  # so many nearest obstacles go first: they hide most of the others
+PAIRS = 1 << 20  # pairs handled at once at most: bounds the memory
 
 
 def cast(position, directions, walls, circles=()):
@@ -44,12 +46,11 @@ def cast(position, directions, walls, circles=()):
     u = np.stack([np.cos(directions), np.sin(directions)])[:, beams]
     nearest = np.zeros(2 * len(directions))  # inverse ranges [1/m]
 
-    touched = False
-    if len(walls):
-        touched |= _cast_walls(position, walls, turns, u, nearest)
-    if len(circles):
-        touched |= _cast_circles(position, circles, turns, u, nearest)
-    if touched:
+    if not len(directions):
+        return np.empty(0)
+    if _cast_walls(position, walls, turns, u, nearest):
+        return np.zeros(len(directions))
+    if _cast_circles(position, circles, turns, u, nearest):
         return np.zeros(len(directions))
 
     ranges = np.empty(len(directions))
@@ -60,44 +61,48 @@ def cast(position, directions, walls, circles=()):
 
 def _cast_walls(position, walls, turns, u, nearest):
     """Raise ``nearest`` to the walls' inverse ranges; True if the position is on a wall."""
-    ax, ay, bx, by = (walls - np.tile(position, 2)).T
+    ax, ay, bx, by = ends = (walls - np.tile(position, 2)).T
     wx, wy = bx - ax, by - ay
-    cross, dot = ax * by - ay * bx, ax * bx + ay * by
-    span = np.abs(np.arctan2(cross, dot))
-
     length2 = wx * wx + wy * wy
     along = -(ax * wx + ay * wy) / np.where(length2 > 0, length2, 1)
     along = np.clip(along, 0, 1)
     near_x, near_y = ax + along * wx, ay + along * wy
-    near2 = near_x * near_x + near_y * near_y
-    if near2.min() <= TOUCH**2:
+    near = np.hypot(near_x, near_y)
+    if (near <= TOUCH).any():
         return True
 
-    # the wall's line as n·q = 1; edge-on, the perpendicular through the near end stands for it
-    edge_on = span < EDGE_ON
-    scale = np.where(edge_on, near2, cross)
-    nx = np.where(edge_on, near_x, wy) / scale
-    ny = np.where(edge_on, near_y, -wx) / scale
+    for chunk in _nearest_first(near, nearest):
+        ax, ay, bx, by = ends[:, chunk]
+        cross, dot = ax * by - ay * bx, ax * bx + ay * by
+        span = np.abs(np.arctan2(cross, dot))
+        # the wall's line as n·q = 1; edge-on, the perpendicular through the near end stands for it
+        edge_on = span < EDGE_ON
+        scale = np.where(edge_on, near[chunk] ** 2, cross)
+        nx = np.where(edge_on, near_x[chunk], by - ay) / scale
+        ny = np.where(edge_on, near_y[chunk], ax - bx) / scale
 
-    start = np.where(cross > 0, np.arctan2(ay, ax), np.arctan2(by, bx))
-    for wall, beam in _pairs(start, span, turns):
+        left = cross > 0
+        start = np.arctan2(np.where(left, ay, by), np.where(left, ax, bx))
+        wall, beam = _pairs(start, span, turns)
         np.maximum.at(nearest, beam, nx[wall] * u[0, beam] + ny[wall] * u[1, beam])
     return False
 
 
 def _cast_circles(position, circles, turns, u, nearest):
     """Raise ``nearest`` to the circles' inverse ranges; True if the position is on a rim."""
-    cx, cy = circles[:, 0] - position[0], circles[:, 1] - position[1]
-    radius = circles[:, 2]
-    distance = np.hypot(cx, cy)
-    if np.min(np.abs(distance - radius)) <= TOUCH:
+    x, y, radii = (circles - [*position, 0.0]).T
+    distance = np.hypot(x, y)
+    near = np.abs(distance - radii)
+    if (near <= TOUCH).any():
         return True
 
-    inside = distance < radius
-    half = np.where(inside, np.pi, np.arcsin(radius / np.maximum(distance, radius)))
-    start = np.where(inside, 0.0, np.arctan2(cy, cx) - half)
-    side = np.where(inside, 1.0, -1.0)  # from inside the far intersection is the one ahead
-    for circle, beam in _pairs(start, 2 * half, turns):
+    for chunk in _nearest_first(near, nearest):
+        cx, cy, radius = x[chunk], y[chunk], radii[chunk]
+        inside = distance[chunk] < radius
+        half = np.where(inside, np.pi, np.arcsin(radius / np.maximum(distance[chunk], radius)))
+        start = np.where(inside, 0.0, np.arctan2(cy, cx) - half)
+        side = np.where(inside, 1.0, -1.0)  # from inside the far intersection is the one ahead
+        circle, beam = _pairs(start, 2 * half, turns)
         ux, uy = u[:, beam]
         middle = cx[circle] * ux + cy[circle] * uy
         offset = cx[circle] * uy - cy[circle] * ux
@@ -106,15 +111,31 @@ def _cast_circles(position, circles, turns, u, nearest):
     return False
 
 
+def _nearest_first(near, nearest):
+    """Chunks of obstacles in order of distance, without those behind what every beam has met.
+
+    ``nearest`` is read again before each chunk: the caller raises it in between.
+    """
+    beams = len(nearest) // 2
+    todo, size = np.arange(len(near)), FIRST
+    while len(todo):
+        if len(todo) > size:
+            todo = todo[np.argpartition(near[todo], size)]
+        yield todo[:size]
+        todo = todo[size:]
+        farthest = np.maximum(*nearest.reshape(2, -1)).min()
+        todo = todo[near[todo] * farthest < 1]
+        size = max(FIRST, PAIRS // beams)
+
+
 def _pairs(start, span, turns):
-    """Blocks of index pairs (obstacle, beam) of the beams inside each obstacle's interval."""
+    """Index pairs (obstacle, beam): the beams inside each obstacle's interval of bearings."""
     start = np.mod(start - PAD, 2 * np.pi)
     first = np.searchsorted(turns, start)
     counts = np.searchsorted(turns, start + span + 2 * PAD, side="right") - first
     counts = np.minimum(counts, len(turns) // 2)
-    ends = np.cumsum(counts)
-    cut = np.searchsorted(ends, np.arange(BLOCK, ends[-1], BLOCK))
-    for block in np.split(np.arange(len(start)), cut):
-        n = counts[block]
-        skip = np.cumsum(n) - n
-        yield np.repeat(block, n), np.arange(n.sum()) + np.repeat(first[block] - skip, n)
+    skipped = np.cumsum(counts) - counts
+    return (
+        np.repeat(np.arange(len(start)), counts),
+        np.arange(counts.sum()) + np.repeat(first - skipped, counts),
+    )

@@ -81,7 +81,7 @@ def polygon():
         *[(-0.9, -1.5), (1.1, -1.5), (1.1, -0.3), (1.7, 0.1)],
         *[(1.7, 1.0), (0.3, 1.0), (0.1, 0.6), (-0.9, 0.6)],
     ]
-    walls = np.concatenate([ring(outer), box((0.75, -0.55), (0.35, 0.25), np.radians(15))])
+    walls = np.concatenate([ring(outer), box((0.75, -0.42), (0.35, 0.25), np.radians(15))])
     return World(walls, [(-0.45, -0.75, 0.15)], "polygon")
 
 
