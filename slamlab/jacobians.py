@@ -83,16 +83,20 @@ def H_robot(x, p):
     Parameters
     ----------
     x : (3,) pose [m, m, rad]
-    p : (2,) landmark [m]
+    p : (..., 2) landmarks [m]
 
     Returns
     -------
-    (2, 3)
+    (..., 2, 3)
     """
-    dx, dy = p[0] - x[0], p[1] - x[1]
+    d = np.asarray(p, dtype=float) - np.asarray(x, dtype=float)[:2]
+    dx, dy = d[..., 0], d[..., 1]
     q = dx * dx + dy * dy
     r = np.sqrt(q)
-    return np.array([[-dx / r, -dy / r, 0], [dy / q, -dx / q, -1.0]])
+    H = np.zeros((*q.shape, 2, 3))
+    H[..., 0, 0], H[..., 0, 1] = -dx / r, -dy / r
+    H[..., 1, 0], H[..., 1, 1], H[..., 1, 2] = dy / q, -dx / q, -1
+    return H
 
 
 def H_landmark(x, p):
@@ -101,13 +105,13 @@ def H_landmark(x, p):
     Parameters
     ----------
     x : (3,) pose [m, m, rad]
-    p : (2,) landmark [m]
+    p : (..., 2) landmarks [m]
 
     Returns
     -------
-    (2, 2)
+    (..., 2, 2)
     """
-    return -H_robot(x, p)[:, :2]
+    return -H_robot(x, p)[..., :2]
 
 
 def J_xr(x, z):
@@ -118,14 +122,18 @@ def J_xr(x, z):
     Parameters
     ----------
     x : (3,) pose [m, m, rad]
-    z : (2,) range [m], bearing [rad]
+    z : (..., 2) range [m], bearing [rad]
 
     Returns
     -------
-    (2, 3)
+    (..., 2, 3)
     """
-    direction = x[2] + z[1]
-    return np.array([[1, 0, -z[0] * np.sin(direction)], [0, 1, z[0] * np.cos(direction)]])
+    z = np.asarray(z, dtype=float)
+    r, direction = z[..., 0], x[2] + z[..., 1]
+    J = np.zeros((*r.shape, 2, 3))
+    J[..., 0, 0] = J[..., 1, 1] = 1
+    J[..., 0, 2], J[..., 1, 2] = -r * np.sin(direction), r * np.cos(direction)
+    return J
 
 
 def J_z(x, z):
@@ -136,11 +144,13 @@ def J_z(x, z):
     Parameters
     ----------
     x : (3,) pose [m, m, rad]
-    z : (2,) range [m], bearing [rad]
+    z : (..., 2) range [m], bearing [rad]
 
     Returns
     -------
-    (2, 2)
+    (..., 2, 2)
     """
-    c, s = np.cos(x[2] + z[1]), np.sin(x[2] + z[1])
-    return np.array([[c, -z[0] * s], [s, z[0] * c]])
+    z = np.asarray(z, dtype=float)
+    r, direction = z[..., 0], x[2] + z[..., 1]
+    c, s = np.cos(direction), np.sin(direction)
+    return np.stack([np.stack([c, -r * s], -1), np.stack([s, r * c], -1)], -2)
