@@ -1,6 +1,6 @@
 """Jacobians of the models: A and W of motion, H of observation, J_xr and J_z of a new landmark.
 
-Each equals its derivation in :mod:`slamlab.symbolic` and finite differences of :mod:`slamlab.models`.
+Each equals its derivation in :mod:`slamlab.symbolic` and finite differences of the model itself.
 """
 
 import numpy as np
