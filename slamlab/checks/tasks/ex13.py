@@ -1,0 +1,17 @@
+"""Exercise 13, scan matching: what it asks and what its solutions may import."""
+
+from slamlab.checks.task import Exercise
+from slamlab.checks.tasks.ex13_fit import BEST_MOTION, MIRROR
+from slamlab.checks.tasks.ex13_icp import ICP
+from slamlab.checks.tasks.ex13_trimmed import TRIMMED
+from slamlab.checks.tasks.ex13_walk import WALK
+
+EXERCISE = Exercise(
+    id="13",
+    notebook="13_scan_matching",
+    title="Scan matching",
+    tasks=(BEST_MOTION, MIRROR, ICP, TRIMMED, WALK),
+    drives="slamlab.checks.drives.ex13",
+    allows=("slamlab.geometry", "slamlab.layers", "slamlab.views"),
+    answers=("slamlab.scanmatching", "slamlab.estimators", "slamlab.runner"),
+)

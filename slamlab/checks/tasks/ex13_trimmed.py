@@ -1,0 +1,143 @@
+"""The task of exercise 13 about scans that overlap in part: ICP that trims."""
+
+import numpy as np
+
+from slamlab.checks.drives.ex13 import DRIVES, ROUNDS
+from slamlab.checks.task import Diagnosis, Law, Task
+from slamlab.checks.tasks.ex13_clouds import is_best
+from slamlab.checks.tasks.ex13_fit import fit
+from slamlab.checks.tasks.ex13_icp import (
+    SHAPES,
+    WRONG_SIDE,
+    answers,
+    first_pairs,
+    lands,
+    one_pair,
+    stacked,
+)
+
+CLUTTER = 14
+
+
+def cluttered(rng, count=4):
+    """Scans that overlap, but people stand in the source who were not there in the target."""
+    shares = rng.choice([0.6, 0.64, 0.68], count)
+    return stacked(one_pair(rng, CLUTTER, share) for share in shares) | {"share": shares}
+
+
+def kept_count(inputs):
+    """(k,) how many pairs the shares stand for."""
+    return np.rint(inputs["share"] * inputs["source"].shape[1]).astype(int)
+
+
+# ---- laws -----------------------------------------------------------------------------------
+
+
+def _first_round(inputs, outputs):
+    _, target, distances = first_pairs(inputs)
+    order, holds = distances.argsort(axis=1), False
+    # a share may be rounded either way
+    for off in (-1, 0, 1):
+        cases = zip(
+            outputs["one"], inputs["source"], target, order, kept_count(inputs), strict=True
+        )
+        kept = ((T, p, q, rows[: k + off]) for T, p, q, rows, k in cases)
+        holds |= np.array([is_best(T[None], p[None, r], q[None, r])[0] for T, p, q, r in kept])
+    return holds
+
+
+# ---- mistakes -------------------------------------------------------------------------------
+
+
+def first_step(inputs, choose):
+    """The best motion of the first pairs in rows choose(order by distance, how many to keep)."""
+    moved, target, distances = first_pairs(inputs)
+    steps = []
+    for p, q, d, count in zip(moved, target, distances, kept_count(inputs), strict=True):
+        of_source, of_target = choose(d.argsort(), count)
+        steps.append(fit(p[None, of_source], q[None, of_target]))
+    return np.concatenate(steps)
+
+
+def _same(rows):
+    return rows, rows
+
+
+def shortest(order, count):
+    return _same(order[:count])
+
+
+def longest(order, count):
+    return _same(order[-count:])
+
+
+def share_dropped(order, count):
+    return _same(order[:-count])
+
+
+def first_rows(order, count):
+    return _same(np.arange(count))
+
+
+def all_pairs(order, count):
+    return _same(order)
+
+
+def torn(order, count):
+    return order[:count], np.arange(count)
+
+
+def keeps(choose):
+    """Whether one round is that of the pairs that ``choose`` keeps."""
+    return answers("one", lambda inputs: first_step(inputs, choose) @ inputs["guess"])
+
+
+wrong_side = answers("one", lambda inputs: inputs["guess"] @ first_step(inputs, shortest))
+
+TRIMMED = Task(
+    id="13-trimmed",
+    title="Trimmed ICP",
+    drive=DRIVES["13-trimmed"],
+    inputs=cluttered,
+    shapes=SHAPES,
+    laws=(
+        Law(
+            "first-round",
+            1,
+            "one round is the best motion of the shortest share of the pairs",
+            _first_round,
+        ),
+        Law("lands", 2, f"after {ROUNDS} rounds all that both scans saw lies on itself", lands),
+    ),
+    diagnoses=(
+        Diagnosis(
+            "not-trimmed",
+            "All pairs were fitted: those who stood in one scan only drag the pose. Keep the share "
+            "of the pairs that is shortest.",
+            keeps(all_pairs),
+        ),
+        Diagnosis(
+            "longest-kept",
+            "The longest pairs were kept, which are the worst ones. Sort the other way.",
+            keeps(longest),
+        ),
+        Diagnosis(
+            "share-dropped",
+            "The share says how many pairs to keep; here that many were dropped.",
+            keeps(share_dropped),
+        ),
+        Diagnosis(
+            "first-rows",
+            "The first rows were kept, whatever their distance. Sort the pairs by distance first.",
+            keeps(first_rows),
+        ),
+        Diagnosis(
+            "torn-pairs",
+            "Source and target were put into different orders, which tears the pairs apart. "
+            "Use the same rows of both.",
+            keeps(torn),
+        ),
+        Diagnosis("wrong-side", WRONG_SIDE, wrong_side),
+    ),
+    needs=("13-best-motion",),
+)
