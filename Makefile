@@ -1,0 +1,56 @@
+# make lab opens the course, make test runs every test; both set up what they need.
+
+# The first suitable Python, unless one is named: make lab PYTHON=python3.12
+ifndef PYTHON
+PYTHON := $(shell for p in python3 python3.13 python3.12 python3.11 python; do \
+	$$p -B -c 'import lab, sys; sys.exit(not lab.supported())' >/dev/null 2>&1 && echo $$p && exit; \
+	done; echo python3)
+endif
+
+ENV = .venv-test
+RUN = PATH="$(CURDIR)/$(ENV)/bin:$$PATH" $(ENV)/bin/python -m
+NOTEBOOKS = $(wildcard notebooks/*.ipynb exercises/*.ipynb solutions/*.ipynb)
+# one worker a core of a small machine; the cells of a notebook must stay on one worker
+PYTEST = $(RUN) pytest -n 2 --dist loadfile
+
+.PHONY: lab test env lint format notebooks bench lock clean
+
+lab:  ## Set up and open the course; LAB_ARGS="--no-browser --port 9999" go to JupyterLab
+	@$(PYTHON) lab.py $(LAB_ARGS)
+
+test: lint  ## Set up and run every test; TEST_ARGS go to pytest
+	$(PYTEST) $(TEST_ARGS)
+	@test -n "$(NOTEBOOKS)" || { echo "There are no notebooks: make notebooks" >&2; exit 1; }
+	$(PYTEST) --nbval-lax --nbval-current-env \
+	    --nbval-sanitize-with tests/notebooks/nbval_sanitize.cfg \
+	    --nbval-cell-timeout=300 --nbval-kernel-startup-timeout=120 $(NOTEBOOKS)
+
+env:
+	@$(PYTHON) lab.py --venv $(ENV) --lock requirements-test.lock --install-only
+
+lint: env
+	$(RUN) ruff check .
+	$(RUN) ruff format --check .
+
+format: env
+	$(RUN) ruff check --fix .
+	$(RUN) ruff format .
+
+notebooks: env  ## Derive notebooks/, exercises/ and solutions/ from course/
+	$(RUN) course.build
+
+bench: env  ## Run every benchmark; BENCH_ARGS="--quick --json FILE"
+	$(RUN) benchmarks $(BENCH_ARGS)
+
+# Compile both locks together, keeping what is locked already; LOCK_ARGS=--upgrade renews.
+# Needs uv (pip install uv). The smaller lock takes its versions from the larger one.
+UV ?= uv
+COMPILE = echo 'flit_core>=3.12,<4' | $(UV) pip compile --quiet --universal --python-version 3.11 \
+	--generate-hashes --no-emit-index-url --no-emit-find-links --no-header --no-annotate
+lock:
+	$(COMPILE) $(LOCK_ARGS) --all-extras pyproject.toml - -o requirements-test.lock
+	$(COMPILE) -c requirements-test.lock pyproject.toml - -o requirements.lock
+
+clean:  ## Remove the environments and every cache
+	rm -rf .venv .venv-test .pytest_cache .ruff_cache .hypothesis build dist
+	find . -name __pycache__ -type d -prune -exec rm -rf {} +

@@ -1,0 +1,275 @@
+"""Set the course up in a folder of its own and open it in JupyterLab.
+
+    python lab.py                        set up if need be, then open the course
+    python lab.py --no-browser           other arguments go to JupyterLab
+    python lab.py --lecture              with jupyterlab-slideshow, for lecturing
+    python lab.py --install-only         set up, open nothing
+
+Only the standard library is used, and only syntax that every Python since 2.7 reads, so that an old
+Python can say what is wrong instead of failing on a line it does not know.
+"""
+
+import argparse
+import hashlib
+import json
+import os
+import shutil
+import subprocess
+import sys
+import time
+
+OLDEST, NEWEST = (3, 11), (3, 13)
+ROOT = os.path.dirname(os.path.abspath(__file__))
+START = "notebooks/00_start_here.ipynb"
+STAMP = "slamlab-stamp.json"
+LECTURE = (
+    "jupyterlab-slideshow",
+    "jupyterlab-fonts",
+)  # and what they need beyond JupyterLab: nothing
+NEWS = "@jupyterlab/apputils-extension:announcements"
+SPACE = 1.2e9  # bytes
+
+# What pip's output gives away, and what to tell the reader: the first that fits.
+FULL = "the disk is full; make room (about 1 GB) and start again"
+OFFLINE = "the package index cannot be reached; installing needs a network: connect and start again"
+TROUBLES = (
+    (("No space left", "Errno 28"), FULL),
+    (("DO NOT MATCH THE HASHES",), "a download is not what the lock names; start again"),
+    (("Retrying (", "Max retries", "ConnectionError", "Timeout"), OFFLINE),
+    (("No matching distribution",), "no network, or not offered for this computer and Python"),
+)
+
+
+class Trouble(SystemExit):
+    """Ends the program with one line that says what is wrong and what to do."""
+
+    def __init__(self, text):
+        SystemExit.__init__(self, "lab.py: " + text)
+        self.text = text
+
+
+def say(text):
+    sys.stderr.write("lab.py: %s\n" % text)
+    sys.stderr.flush()
+
+
+def supported():
+    return OLDEST <= sys.version_info[:2] <= NEWEST
+
+
+def check_python():
+    """Refuse a Python that cannot run the course."""
+    version = "%d.%d" % sys.version_info[:2]
+    if not supported():
+        age = "older" if sys.version_info[:2] < OLDEST else "newer"
+        found = other_python()
+        raise Trouble(
+            "Python %s is %s than the course supports, which is %d.%d to %d.%d; "
+            % ((version, age) + OLDEST + NEWEST)
+            + ("start it so: %s lab.py" % found if found else "install one of these")
+        )
+    try:
+        import ensurepip  # noqa: F401
+        import venv  # noqa: F401
+    except ImportError:
+        raise Trouble(
+            "this Python cannot make virtual environments (venv or ensurepip is missing); "
+            "on Debian or Ubuntu: sudo apt install python%s-venv" % version
+        )
+
+
+def other_python():
+    """The command of a suitable Python on this computer, or None."""
+    for minor in range(NEWEST[1], OLDEST[1] - 1, -1):
+        for command in (["python3.%d" % minor], ["py", "-3.%d" % minor]):
+            try:
+                subprocess.check_output(command + ["--version"], stderr=subprocess.STDOUT)
+                return " ".join(command)
+            except (OSError, subprocess.CalledProcessError):
+                continue
+    return None
+
+
+def python_of(venv):
+    where = ("Scripts", "python.exe") if os.name == "nt" else ("bin", "python")
+    return os.path.join(venv, *where)
+
+
+def log_of(venv):
+    return os.path.join(venv, "install.log")
+
+
+def environment():
+    """Variables for child processes, without those that let other packages in (ROS sets some)."""
+    leaks = ("PYTHONPATH", "PYTHONHOME", "PIP_TARGET", "PIP_PREFIX", "PIP_CONSTRAINT")
+    kept = {name: value for name, value in os.environ.items() if name not in leaks}
+    return dict(kept, PIP_USER="0", PIP_DISABLE_PIP_VERSION_CHECK="1", PYTHONUNBUFFERED="1")
+
+
+def run(venv, *arguments):
+    """Run a module of the environment to its end; its exit code, its output in the log."""
+    command = [python_of(venv), "-m"] + list(arguments)
+    began = time.time()
+    with open(log_of(venv), "ab") as log:
+        process = subprocess.Popen(
+            command, cwd=ROOT, env=environment(), stdin=subprocess.DEVNULL, stdout=log, stderr=log
+        )
+        try:
+            while process.poll() is None:
+                time.sleep(0.1)
+                if sys.stderr.isatty():
+                    sys.stderr.write("\r  %d s \r" % (time.time() - began))
+        except KeyboardInterrupt:
+            process.kill()
+            process.wait()
+            raise
+    return process.returncode
+
+
+def install(venv, *arguments):
+    """Run ``pip install`` for exactly what is named; raise Trouble in the reader's words."""
+    log = log_of(venv)
+    size = os.path.getsize(log) if os.path.exists(log) else 0
+    if run(venv, "pip", "install", "--no-deps", "--no-compile", *arguments) == 0:
+        return
+    with open(log, errors="replace") as file:
+        file.seek(size)
+        lines = file.read().splitlines()
+    output = "\n".join(lines)
+    fitting = [why for signs, why in TROUBLES if any(sign in output for sign in signs)]
+    why = fitting[0] if fitting else "pip failed; what it said is in " + log
+    errors = [line for line in lines if line.startswith("ERROR")] or lines[-1:]
+    raise Trouble(why + " (%s)" % "".join(errors[:1])[:160])
+
+
+def install_all(venv, lock, lecture):
+    """Install the lock, slides if wanted, and the project itself; compile; switch news off."""
+    locked = ("--require-hashes", "--only-binary", ":all:", "-r")
+    say("fetching and unpacking packages")
+    install(venv, *(locked + (os.path.join(ROOT, lock),)))
+    if lecture:
+        slides = os.path.join(venv, "lecture.lock")
+        with open(slides, "w") as file:
+            file.write(entries("requirements-test.lock", LECTURE))
+        install(venv, *(locked + (slides,)))
+    install(venv, "--no-index", "--no-build-isolation", "-e", ROOT)
+    say("compiling, so that notebooks start fast")
+    # On all cores, which pip does not do; some packages carry templates that no Python compiles.
+    library = os.path.join(venv, "Lib" if os.name == "nt" else "lib")
+    run(venv, "compileall", "-q", "-j", "0", library)
+    if run(venv, "jupyterlab.labextensions", "disable", NEWS):
+        raise Trouble("JupyterLab does not run; why is at the end of " + log_of(venv))
+
+
+def entries(lock, names):
+    """The text of the named packages' entries in a lock."""
+    with open(os.path.join(ROOT, lock)) as file:
+        blocks = file.read().replace("\n ", "\0").splitlines(True)
+    return "".join(b for b in blocks if b.split("==")[0] in names).replace("\0", "\n ")
+
+
+def read_stamp(venv):
+    try:
+        with open(os.path.join(venv, STAMP)) as file:
+            return json.load(file)
+    except (OSError, ValueError):
+        return {}
+
+
+def write_stamp(venv, stamp):
+    with open(os.path.join(venv, STAMP), "w") as file:
+        json.dump(stamp, file, indent=1)
+
+
+def digest(path):
+    with open(os.path.join(ROOT, path), "rb") as file:
+        return hashlib.sha256(file.read().replace(b"\r\n", b"\n")).hexdigest()
+
+
+def make_venv(venv):
+    """Make an empty environment, in place of one that is unfinished, moved or of another Python."""
+    import venv as builder
+
+    if os.path.isdir(venv) and os.listdir(venv):
+        if not any(os.path.exists(os.path.join(venv, mark)) for mark in (STAMP, "pyvenv.cfg")):
+            raise Trouble("%s is there and no virtual environment; move it away" % venv)
+        shutil.rmtree(venv)
+    if shutil.disk_usage(ROOT).free < SPACE:
+        raise Trouble(FULL)
+    os.makedirs(venv, exist_ok=True)
+    write_stamp(venv, {})
+    builder.EnvBuilder(with_pip=True, symlinks=os.name != "nt", prompt="slamlab").create(venv)
+
+
+def set_up(venv, lock, lecture):
+    """Bring the environment to what the lock and the project ask for, if it is not there yet.
+
+    The stamp says what was installed. It is empty while that is under way, so an installation that
+    was interrupted is known by it and made anew at the next start.
+    """
+    stamp = read_stamp(venv)
+    here = {"place": venv, "python": "%d.%d" % sys.version_info[:2]}
+    usable = all(stamp.get(key) == here[key] for key in here) and os.path.exists(python_of(venv))
+    wanted = dict(here, lock=digest(lock), project=digest("pyproject.toml"))
+    wanted["lecture"] = lecture or (usable and stamp["lecture"])
+    if usable and stamp == wanted:
+        return
+    began = time.time()
+    say("setting up %s, once; it takes a few minutes" % os.path.relpath(venv, ROOT))
+    if not usable:
+        make_venv(venv)
+        stamp = {}
+    write_stamp(venv, {})
+    try:
+        install_all(venv, lock, wanted["lecture"])
+    except Trouble as trouble:
+        if trouble.text.startswith(OFFLINE):  # nothing has been changed
+            write_stamp(venv, stamp)
+        raise
+    write_stamp(venv, wanted)
+    say("set up in %.0f s" % (time.time() - began))
+
+
+def open_lab(venv, arguments):
+    """Become JupyterLab, showing the first notebook."""
+    command = [python_of(venv), "-m", "jupyterlab", "--ServerApp.root_dir=" + ROOT]
+    command.append("--LabApp.default_url=/lab/tree/" + START)
+    if hasattr(os, "geteuid") and os.geteuid() == 0:
+        say("you are root, for whom JupyterLab would not start by itself; it is told to")
+        command.append("--allow-root")
+    command += arguments
+    os.chdir(ROOT)
+    if os.name != "nt":
+        os.execve(command[0], command, environment())
+    process = subprocess.Popen(command, env=environment())
+    while True:
+        try:
+            return process.wait()
+        except KeyboardInterrupt:  # JupyterLab has it too, and asks what is meant
+            continue
+
+
+def main(arguments):
+    check_python()
+    parser = argparse.ArgumentParser(
+        prog="lab.py",
+        description="Set up the course and open it in JupyterLab, which gets all other arguments.",
+        allow_abbrev=False,
+    )
+    parser.add_argument("--lecture", action="store_true", help="install jupyterlab-slideshow too")
+    parser.add_argument("--install-only", action="store_true", help="set up, open nothing")
+    parser.add_argument("--venv", default=".venv", help="where to install (.venv)")
+    parser.add_argument("--lock", default="requirements.lock", help="what (requirements.lock)")
+    options, rest = parser.parse_known_args(arguments)
+    venv = os.path.realpath(os.path.join(ROOT, options.venv))
+    try:
+        set_up(venv, options.lock, options.lecture)
+    except KeyboardInterrupt:
+        raise Trouble("stopped; start again to finish")
+    except (OSError, subprocess.CalledProcessError) as error:
+        raise Trouble(FULL if getattr(error, "errno", 0) == 28 else str(error))
+    return 0 if options.install_only else open_lab(venv, rest)
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
