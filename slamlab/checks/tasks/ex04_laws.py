@@ -1,0 +1,130 @@
+"""Laws of exercise 04: derivatives are differences of the models, covariances those of samples."""
+
+import numpy as np
+
+from slamlab import models
+
+TOLERANCE = 1e-4
+"""Share of a matrix's largest entry: one-sided differences pass, no classic mistake does."""
+
+STEP = 1e-6  # [m] or [rad]
+SAMPLE_PAIRS = 128
+SAMPLE_TOLERANCE = 0.01
+"""Of a covariance, as a share of the two standard deviations."""
+
+NARROW = 0.1
+"""Samples lie this much closer to their mean than the belief says: there the model is straight."""
+
+
+def close(got, want):
+    """Whether matrices agree, for each input.
+
+    Parameters
+    ----------
+    got, want : (n, ...)
+
+    Returns
+    -------
+    (n,) bool
+    """
+    error, size = (np.abs(a).reshape(len(got), -1).max(axis=1) for a in (got - want, want))
+    return error <= TOLERANCE * size
+
+
+def differences(f, x):
+    """∂f/∂x at one point by central differences.
+
+    Parameters
+    ----------
+    f : (k,) -> (m,)
+    x : (k,)
+
+    Returns
+    -------
+    (m, k)
+    """
+    steps = STEP * np.eye(len(x))
+    return np.column_stack([(f(x + e) - f(x - e)) / (2 * STEP) for e in steps])
+
+
+def by_robot(inputs):
+    """∂h/∂x by differences, (n, 2, 3)."""
+    return _each(lambda x, p: differences(lambda v: models.h(v, p), x), inputs["x"], inputs["p"])
+
+
+def by_landmark(inputs):
+    """∂h/∂p by differences, (n, 2, 2)."""
+    return _each(lambda x, p: differences(lambda v: models.h(x, v), p), inputs["x"], inputs["p"])
+
+
+def by_pose(inputs):
+    """∂f/∂x of the odometry model by differences, (n, 3, 3)."""
+    return _each(
+        lambda x, u: differences(lambda v: models.f_odometry(v, u), x), inputs["x"], inputs["u"]
+    )
+
+
+def new_by_robot(inputs):
+    """∂g/∂x by differences, (n, 2, 3)."""
+    return _each(lambda x, z: differences(lambda v: models.g(v, z), x), inputs["x"], inputs["z"])
+
+
+def new_by_measurement(inputs):
+    """∂g/∂z by differences, (n, 2, 2)."""
+    return _each(lambda x, z: differences(lambda v: models.g(x, v), z), inputs["x"], inputs["z"])
+
+
+def _each(derivative, *arrays):
+    return np.array([derivative(*row) for row in zip(*arrays, strict=True)])
+
+
+def sampled(inputs):
+    """Joint covariance of pose and new landmark, from samples of the pose and of the measurement.
+
+    Parameters
+    ----------
+    inputs : x (n, 3), P (n, 3, 3), z (n, 2), R (n, 2, 2)
+
+    Returns
+    -------
+    (n, 5, 5) : pose first, landmark last
+    """
+    return _each(_sampled, *(inputs[name] for name in ("x", "P", "z", "R")))
+
+
+def _sampled(x, P, z, R):
+    pose_errors = NARROW * WHITE[:, :3] @ np.linalg.cholesky(P).T
+    z_errors = NARROW * WHITE[:, 3:] @ np.linalg.cholesky(R).T
+    landmarks = models.g((x + pose_errors).T, z + z_errors)
+    return np.cov(np.hstack([pose_errors, landmarks]).T, bias=True) / NARROW**2
+
+
+def agree(got, block, inputs):
+    """Whether a block of the covariance agrees with the samples', in units of standard deviations.
+
+    Parameters
+    ----------
+    got : (n, a, b)
+    block : two slices of the joint covariance's rows and columns
+    inputs : of :func:`sampled`
+
+    Returns
+    -------
+    (n,) bool
+    """
+    covariance = sampled(inputs)
+    sigma = np.sqrt(np.diagonal(covariance, axis1=1, axis2=2))
+    scale = (sigma[:, :, None] * sigma[:, None, :])[:, *block]
+    error = np.abs(got - covariance[:, *block]) / scale
+    return (error <= SAMPLE_TOLERANCE).all(axis=(1, 2))
+
+
+def _white(rng, pairs, k):
+    """Samples with mean 0 and covariance 1, both exact: mirrored, then scaled."""
+    half = rng.standard_normal((pairs, k))
+    half = half @ np.linalg.inv(np.linalg.cholesky(half.T @ half / pairs)).T
+    return np.vstack([half, -half])
+
+
+WHITE = _white(np.random.default_rng(4), SAMPLE_PAIRS, 5)
+"""The same for everyone: a right answer differs by the model's curvature, never by chance."""
