@@ -1,0 +1,296 @@
+"""The tool that derives notebooks: what it strips, what it keeps, what it refuses."""
+
+import re
+import textwrap
+
+import nbformat
+import pytest
+
+from course import build as tool
+from course.exercise import STUB, SolutionError, regions, strip
+from course.source import CourseError
+from slamlab.checks import catalogue
+
+HEAD = """\
+# %% [markdown] slideshow={"slide_type": "slide"}
+# # 90 · A lesson
+# You will be able to add. 2 minutes. You need nothing before.
+
+# %% [markdown]
+# ## Two and two
+
+"""
+TAIL = """
+# %% [markdown]
+# Next: [the exercise](../exercises/90_sums.ipynb).
+"""
+ADD = """
+# %% tags=["nbval-check-output"]
+print(2 + 2)
+"""
+
+
+@pytest.fixture
+def root(tmp_path):
+    (tmp_path / "course" / "lessons").mkdir(parents=True)
+    (tmp_path / "course" / "exercises").mkdir()
+    return tmp_path
+
+
+def write(root, text, head=HEAD, tail=TAIL, kind="lessons", name="90_sums"):
+    path = root / "course" / kind / f"{name}.py"
+    path.write_text(head + textwrap.dedent(text) + tail, encoding="utf-8")
+    return path
+
+
+def stored(root, name="90_sums"):
+    return nbformat.read(root / "notebooks" / f"{name}.ipynb", as_version=4)
+
+
+def refused(path, root):
+    with pytest.raises(CourseError) as error:
+        tool.derive(path, root)
+    return str(error.value)
+
+
+# -- solutions
+
+
+def test_a_solution_becomes_a_stub_and_docstring_and_indent_stay():
+    cell = '''\
+def total(numbers):
+    """Their sum."""
+    s = 0
+    for n in numbers:
+        ### BEGIN SOLUTION
+        s += n
+        # done
+        ### END SOLUTION
+    return s'''
+    assert strip(cell) == (
+        'def total(numbers):\n    """Their sum."""\n    s = 0\n    for n in numbers:\n'
+        f"        {STUB}\n    return s"
+    )
+
+
+@pytest.mark.parametrize(
+    ("cell", "says"),
+    [
+        ("### BEGIN SOLUTION\nx = 1\n### END SOLUTION", "inside a function"),
+        ("### BEGIN SOLUTION\ndef f():\n    return 1\n### END SOLUTION", "inside a function"),
+        ("class C:\n    ### BEGIN SOLUTION\n    x = 1\n    ### END SOLUTION", "inside a function"),
+        ("def f():\n    ### BEGIN SOLUTION\n    return 1", "without ### END"),
+        ("def f():\n    return 1\n    ### END SOLUTION", "without ### BEGIN"),
+        ("def f():\n    x = 1\n    ### BEGIN SOLUTION\n    ### END SOLUTION", "empty solution"),
+        (
+            "def f():\n    ### BEGIN SOLUTION\n    for a in b:\n        c = a\n"
+            "    ### END SOLUTION\n        d = a",
+            "cut a statement",
+        ),
+        (
+            "def f():\n    ### BEGIN SOLUTION\n    return 1\ndef g():\n    return 2\n"
+            "    ### END SOLUTION",
+            "cut a statement",
+        ),
+        ("def f():\n    # BEGIN SOLUTION\n    return 1", "write the marks exactly"),
+    ],
+)
+def test_a_solution_that_is_marked_wrongly_is_refused(cell, says):
+    with pytest.raises(SolutionError, match=says):
+        regions(cell)
+
+
+# -- an exercise of the course, whichever it is
+
+
+@pytest.fixture(scope="module")
+def exercise():
+    path = next((tool.ROOT / "course" / "exercises").glob("*.py"))
+    unsolved, solved = tool.derive(path)
+    return unsolved.notebook, solved.notebook
+
+
+def test_exercise_and_solution_differ_in_solutions_and_checked_outputs_only(exercise):
+    for unsolved, solved in zip(*(notebook.cells for notebook in exercise), strict=True):
+        assert unsolved.id == solved.id
+        if "BEGIN SOLUTION" in solved.source:
+            assert unsolved.source == strip(solved.source)
+            assert unsolved.metadata.nbgrader.solution
+        else:
+            assert unsolved.source == solved.source
+
+
+def test_a_check_cannot_be_edited_away_and_a_solution_cannot_be_deleted(exercise):
+    for cell in exercise[0].cells:
+        mark = cell.metadata.get("nbgrader")
+        if mark:
+            assert cell.metadata.deletable is False
+            assert cell.metadata.get("editable", True) is not mark.grade
+
+
+def test_an_exercise_breaks_the_standards_without_its_checks(root):
+    source = next((tool.ROOT / "course" / "exercises").glob("*.py"))
+    text = source.read_text(encoding="utf-8").replace('check("', 'print("')
+    path = write(root, text, "", "", "exercises", source.stem)
+    for task in catalogue.exercise(source.stem[:2]).tasks:
+        assert f"the task {task.id!r} has no cell" in refused(path, root)
+
+
+@pytest.mark.parametrize(
+    ("cell", "says"),
+    [
+        ('check("{task}")', "checked more than once"),
+        ('x = 1\ncheck("{task}")', "a cell of its own"),
+        ('check("{number}-nothing")', "no task"),
+        ("import slamlab.grading", "not there at grading"),
+        ("from slamlab import grading", "not there at grading"),
+    ],
+)
+def test_what_an_exercise_may_not_hold_is_told_with_its_line(root, cell, says):
+    source = next((tool.ROOT / "course" / "exercises").glob("*.py"))
+    number = source.stem[:2]
+    cell = cell.format(task=catalogue.exercise(number).tasks[0].id, number=number)
+    lines = source.read_text(encoding="utf-8").rstrip().splitlines()
+    path = write(root, "\n".join([*lines, "", "# %%", cell]), "", "\n", "exercises", source.stem)
+    told = refused(path, root)
+    assert says in told
+    marker = len(lines) + 2
+    assert max(map(int, re.findall(r"\.py:(\d+): ", told))) in (marker, marker + 1)
+
+
+# -- lessons
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        ('# %% tags=["hide"]\nprint(1)', "unknown tag 'hide'"),
+        ('# %% slideshow={"slide_type": "pop"}\nprint(1)', "unknown slide type 'pop'"),
+        ("# %% Intro\nprint(1)", "unknown marker 'Intro'"),
+        ('# %% colour="red"\nprint(1)', "unknown marker 'colour'"),
+        ('# %% name="a b"\nprint(1)', "'a b' is no name"),
+        ('# %% name="a"\nprint(1)\n\n# %% name="a"\nprint(2)', "'a' stands already in line 8"),
+        ("# %%\nprint(1);", "a semicolon"),
+        ("# %%\n%matplotlib inline", "no plain Python"),
+        ("# %%\n" + "x = 1\n" * 31, "31 lines of code"),
+        ("# %%\ndef f():\n    ### BEGIN SOLUTION\n    return 1\n    ### END SOLUTION", "solution"),
+        ("# %% [raw]\n# text", "a raw cell"),
+    ],
+)
+def test_a_breach_of_the_standards_is_told_with_its_line(root, text, says):
+    told = refused(write(root, text), root)
+    assert says in told
+    assert "90_sums.py:" in told
+
+
+def test_first_and_last_cell_follow_the_convention(root):
+    told = refused(write(root, ADD, head="# %% [markdown]\n# # A lesson\n", tail=""), root)
+    assert "`# 90 · Title`" in told
+    assert "how many minutes" in told
+    assert "../exercises/90_sums.ipynb" in told
+
+
+def test_ids_are_names_or_sections_and_another_section_leaves_them_alone(root):
+    named = '\n# %% name="sum"\nprint(3)\n'
+    before = tool.derive(write(root, ADD + named), root)[0].notebook
+    assert [c.id for c in before.cells] == [
+        "90-a-lesson-1",
+        "two-and-two-1",
+        "two-and-two-2",
+        "sum",
+        "two-and-two-3",
+    ]
+    more = "# %% [markdown]\n# ## Before\n\n# %%\nprint(0)\n\n# %% [markdown]\n# ## Two and two\n"
+    head = HEAD.replace("# %% [markdown]\n# ## Two and two\n", more)
+    after = tool.derive(write(root, ADD + named, head), root)[0].notebook
+    assert {c.id for c in before.cells} < {c.id for c in after.cells}
+
+
+def test_slide_marks_and_notes_survive_and_layout_does_not(root):
+    note = '\n# %% [markdown] slideshow={"slide_type": "notes"}\n# Ask first.\n\n\n'
+    notebook = tool.derive(write(root, ADD + note), root)[0].notebook
+    assert notebook.cells[0].metadata == {"slideshow": {"slide_type": "slide"}}
+    assert notebook.cells[3].metadata == {"slideshow": {"slide_type": "notes"}}
+    assert "jupytext" not in notebook.metadata
+    assert notebook.metadata.slamlab == {"lesson": "90"}
+
+
+# -- running
+
+
+@pytest.fixture
+def runs(monkeypatch):
+    """The notebooks that were run, as a list that grows."""
+    ran, execute = [], tool.execute
+    monkeypatch.setattr(tool, "execute", lambda *a: ran.append(a) or execute(*a))
+    return ran
+
+
+def test_only_changed_code_runs_again_and_outputs_are_carried(root, runs):
+    path = write(root, ADD)
+    assert tool.build(path, root=root) == ["notebooks/90_sums.ipynb ran and written"]
+    assert stored(root).cells[2].outputs[0].text == "4\n"
+    assert tool.differences(path, root) == []
+
+    assert tool.build(path, root=root) == ["notebooks/90_sums.ipynb unchanged"]
+    write(root, ADD, head=HEAD.replace("to add", "to sum"))
+    assert tool.differences(path, root) == ["notebooks/90_sums.ipynb: differs in 90-a-lesson-1"]
+    assert tool.build(path, root=root) == ["notebooks/90_sums.ipynb written"]
+    assert stored(root).cells[2].outputs[0].text == "4\n"
+    assert len(runs) == 1
+
+    write(root, ADD.replace("2 + 2", "2 + 3"))
+    tool.build(path, root=root)
+    assert stored(root).cells[2].outputs[0].text == "5\n"
+    assert len(runs) == 2
+
+
+def test_what_is_stored_tells_nothing_of_the_machine_and_shows_a_picture_for_a_widget(root):
+    text = """
+    # %%
+    import pathlib, sys
+    import ipywidgets
+    from IPython.display import display
+
+    print(pathlib.Path.home() / "x")
+    print(sys.prefix)
+    view = ipywidgets.IntSlider()._repr_mimebundle_()
+    display(view | {"image/png": "AAAA"}, raw=True, metadata={"image/png": {"alt": "a dot"}})
+    """
+    tool.build(write(root, text), root=root)
+    notebook = stored(root)
+    printed, shown = notebook.cells[2].outputs
+    assert printed.text == "~/x\npython\n"
+    assert set(shown.data) == {"image/png", "text/plain"}
+    assert shown.metadata == {"image/png": {"alt": "a dot"}}
+    assert set(notebook.metadata) == {"kernelspec", "language_info", "slamlab"}
+    assert notebook.cells[2].execution_count == 1
+
+
+def test_a_cell_that_fails_is_told_with_its_line_and_nothing_is_written(root):
+    path = write(root, "\n# %%\nx = 1\n\n# %%\n1 / 0\n")
+    with pytest.raises(CourseError, match=r"90_sums.py:12: two-and-two-3 failed(.|\n)*ZeroDiv"):
+        tool.build(path, root=root)
+    assert not (root / "notebooks" / "90_sums.ipynb").exists()
+
+
+def test_a_checked_cell_that_shows_nothing_is_refused(root):
+    path = write(root, ADD.replace("print(2 + 2)", "x = 2 + 2"))
+    with pytest.raises(CourseError, match="shows nothing to compare"):
+        tool.build(path, root=root)
+
+
+def test_a_missing_a_foreign_and_a_cleared_notebook_are_told(root):
+    path = write(root, ADD)
+    assert tool.differences(path, root) == ["notebooks/90_sums.ipynb: is missing"]
+    derived = tool.derive(path, root)[0]
+    (root / "notebooks").mkdir()
+    nbformat.write(derived.notebook, derived.path)
+    assert tool.differences(path, root) == ["notebooks/90_sums.ipynb: was not run"]
+    nbformat.write(derived.notebook, root / "notebooks" / "91_mine.ipynb")
+    assert tool.strangers(root) == ["notebooks/91_mine.ipynb"]
+
+
+def test_an_unknown_name_is_told_without_a_traceback(capsys):
+    assert tool.main(["99"]) == 1
+    assert "99: no such source" in capsys.readouterr().err
