@@ -80,6 +80,8 @@ def _run(task, namespace):
         try:
             with limits.time_limit(task.drive.seconds):
                 verdict = task.run(namespace, task.draw(OPEN_SEED))
+            if verdict.kind == "missing":
+                verdict = task.failed("missing", f"{verdict.problem} yet: run the cell above")
         except limits.OutOfTime:
             verdict = task.failed("time", f"still running after {task.drive.seconds:g} s")
         except KeyboardInterrupt:

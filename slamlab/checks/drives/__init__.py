@@ -136,7 +136,7 @@ class Drive:
         functions = {}
         for name in self.functions:
             if not callable(namespace.get(name)):
-                raise StudentError("missing", f"{name} is not defined yet: run the cell above")
+                raise StudentError("missing", f"{name} is not defined")
             functions[name] = namespace[name]
         try:
             return self.run(functions, inputs)

@@ -1,0 +1,50 @@
+"""``slamlab check NOTEBOOK``: what the checks say of a notebook as it stands in its file."""
+
+import sys
+from pathlib import Path
+
+from slamlab.checks.report import number, points, say
+
+
+def add_parser(subparsers):
+    """Add the command to the command line."""
+    parser = subparsers.add_parser(
+        "check",
+        help="check an exercise notebook",
+        description=(
+            "Run a notebook's cells in order in a fresh process and all tasks of its exercise on "
+            "the functions they define, as grading does, with the inputs that check() uses."
+        ),
+    )
+    parser.add_argument("notebook", metavar="NOTEBOOK", type=Path)
+    parser.add_argument("--exercise", metavar="ID", help="where the notebook does not tell it")
+    parser.set_defaults(run=run)
+
+
+def run(arguments) -> int:
+    """Check; 0 when there is a verdict, 2 when the notebook cannot be read."""
+    from slamlab.checks import OPEN_SEED, catalogue
+    from slamlab.grading import judge, submissions
+    from slamlab.grading.client import CannotStart
+    from slamlab.grading.submissions import Submission, Unreadable
+
+    path = arguments.notebook
+    try:
+        if arguments.exercise is not None:
+            catalogue.exercise(arguments.exercise)
+        submission = Submission(path.name, path.stem, path)
+        notebook = submissions.read(submission)
+        exercise = submissions.exercise_of(submission, notebook, arguments.exercise)
+        result = judge.judge(exercise, notebook.cells, OPEN_SEED)
+    except (Unreadable, CannotStart, KeyError) as error:
+        print(f"slamlab check: {path}: {error.args[0]}", file=sys.stderr)
+        return 2
+    for note in notebook.notes:
+        print(f"note: {note}")
+    for cell, problem in result["cells"].items():
+        print(f"cell {cell} did not run to its end: {problem}")
+    for task, verdict in zip(exercise.tasks, result["verdicts"], strict=True):
+        print(say(task, verdict))
+    earned = sum(verdict.points for verdict in result["verdicts"])
+    print(f"{number(earned)} of {points(exercise.points)}")
+    return 0

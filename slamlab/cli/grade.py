@@ -1,0 +1,109 @@
+"""``slamlab grade FOLDER --out DIR``: grade the submissions of a class."""
+
+import os
+import sys
+from pathlib import Path
+
+from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+from rich.table import Table
+from rich.text import Text
+
+from slamlab.checks import catalogue
+from slamlab.checks.report import number
+
+MOST_ROWS = 60
+
+
+def add_parser(subparsers):
+    """Add the command to the command line."""
+    parser = subparsers.add_parser(
+        "grade",
+        help="grade a folder of submissions",
+        description=(
+            "Grade every notebook below FOLDER: flat files, STUDENT/EXERCISE folders, nbgrader's "
+            "submitted/STUDENT/ASSIGNMENT, or a download from Moodle or Canvas. Writes grades.csv, "
+            "and a record and a feedback page per submission. Student code runs in a process of "
+            "its own with a time limit, but is not kept from this machine's files and network."
+        ),
+    )
+    parser.add_argument("folder", metavar="FOLDER", type=Path, help="where the submissions are")
+    parser.add_argument("--out", metavar="DIR", type=Path, required=True, help="for the results")
+    parser.add_argument(
+        "--exercise",
+        metavar="ID",
+        help="the exercise of notebooks that tell it neither inside nor by their name, such as 04",
+    )
+    parser.add_argument(
+        "--secret",
+        metavar="FILE",
+        type=Path,
+        help="what inputs are drawn from; default: DIR/secret, made at the first run",
+    )
+    parser.add_argument(
+        "--jobs",
+        metavar="N",
+        type=int,
+        default=os.cpu_count() or 1,
+        help="submissions graded at once; default: one a processor",
+    )
+    parser.set_defaults(run=run)
+
+
+def run(arguments) -> int:
+    """Grade; 0 when every submission was graded or listed, 2 for wrong use."""
+    # imported late: what a help text needs should come at once
+    from slamlab.grading import folder
+    from slamlab.grading.submissions import Unreadable
+
+    try:
+        if arguments.jobs < 1:
+            raise Unreadable("--jobs must be at least 1")
+        if arguments.exercise is not None:
+            catalogue.exercise(arguments.exercise)
+        found, secret = folder.prepare(arguments.folder, arguments.out, arguments.secret)
+        graded = folder.grade_all(
+            found, secret, arguments.out, arguments.exercise, min(arguments.jobs, len(found))
+        )
+        records = _with_progress(graded, len(found))
+    except (Unreadable, KeyError) as error:
+        print(f"slamlab grade: {error.args[0]}", file=sys.stderr)
+        return 2
+    except OSError as error:
+        print(f"slamlab grade: {error.filename}: {error.strerror}", file=sys.stderr)
+        return 2
+    Console().print(_table(records))
+    print(_closing(records, arguments.out))
+    return 0
+
+
+def _with_progress(graded, count):
+    columns = (BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
+    text = TextColumn("{task.description}", markup=False)
+    records = []
+    with Progress(*columns, text, console=Console(stderr=True)) as progress:
+        bar = progress.add_task("starting", total=count)
+        for record in graded:
+            records.append(record)
+            progress.update(bar, advance=1, description=_line(record.submission))
+    return sorted(records, key=lambda record: record.submission)
+
+
+def _table(records):
+    shown = records if len(records) <= MOST_ROWS else [r for r in records if not r.graded]
+    table = Table("submission", "score", "of", "note")
+    for record in shown:
+        scores = (number(record.score), number(record.max_score)) if record.graded else ("–", "–")
+        # as Text, so that a name or a note cannot style the table
+        table.add_row(Text(_line(record.submission)), *scores, Text(_line(record.note)))
+    return table
+
+
+def _closing(records, out):
+    missing = sum(not record.graded for record in records)
+    lost = f", {missing} could not be graded" if missing else ""
+    return f"{len(records) - missing} graded{lost}: {out / 'grades.csv'}, records/, feedback/"
+
+
+def _line(text):
+    return "".join(c if c.isprintable() else " " for c in text)

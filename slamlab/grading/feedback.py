@@ -1,0 +1,36 @@
+"""A page for the student: each task, what it asked, what held, and what would gain the rest."""
+
+from pathlib import Path
+
+import jinja2
+
+from slamlab.checks.report import number, points
+from slamlab.grading.records import Record, write
+
+_PAGES = jinja2.Environment(
+    loader=jinja2.FileSystemLoader(Path(__file__).parent),
+    autoescape=True,
+    undefined=jinja2.StrictUndefined,
+    trim_blocks=True,
+    lstrip_blocks=True,
+)
+_PAGES.filters |= {"number": number, "points": points}
+
+
+def page(record: Record) -> str:
+    """The page of a submission; whatever the student wrote stands in it as text only.
+
+    Parameters
+    ----------
+    record : Record
+
+    Returns
+    -------
+    str, HTML without scripts or anything to load
+    """
+    return _PAGES.get_template("feedback.html").render(record=record)
+
+
+def write_page(out: Path, record: Record):
+    """Write the page to ``out/feedback``."""
+    write(out / "feedback" / f"{record.stem}.html", page(record))

@@ -1,0 +1,74 @@
+"""Grading all submissions of a folder, each written down when it is known."""
+
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from pathlib import Path
+
+from slamlab.checks import catalogue
+from slamlab.grading import feedback, judge, records, submissions
+from slamlab.grading.submissions import Unreadable
+
+
+def prepare(folder: Path, out: Path, secret: Path | None = None):
+    """Find the submissions, the secret and the place for what becomes known.
+
+    Parameters
+    ----------
+    folder : Path, of submissions
+    out : Path, made where it is missing
+    secret : Path or None, the file of the secret; None: ``out/secret``, made where it is missing
+
+    Returns
+    -------
+    (list of Submission, bytes)
+
+    Raises
+    ------
+    Unreadable : when one of them cannot be used
+    """
+    if out.resolve() == folder.resolve():
+        raise Unreadable("the results need another folder than the submissions'")
+    found = submissions.find(folder, out)
+    if not found:
+        raise Unreadable(f"there is no notebook in {folder}")
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise Unreadable(f"{out} cannot be made: {error.strerror}") from None
+    return found, judge.secret_from(secret or out / "secret", make=secret is None)
+
+
+def grade_all(found, secret: bytes, out: Path, default=None, jobs=1):
+    """Grade submissions side by side; records come as they are done, already written.
+
+    Parameters
+    ----------
+    found : list of Submission
+    secret : bytes
+    out : Path
+    default : str or None, the exercise of notebooks that do not tell it
+    jobs : int, how many at once
+
+    Yields
+    ------
+    Record
+    """
+    done = []
+    pool = ThreadPoolExecutor(jobs)
+    try:
+        for future in as_completed([pool.submit(judge.grade, s, secret, default) for s in found]):
+            record = future.result()
+            done.append(record)
+            records.write_json(out, record)
+            feedback.write_page(out, record)
+            records.write_csv(out, done, tasks_of(done, default))
+            yield record
+    finally:
+        pool.shutdown(cancel_futures=True)
+
+
+def tasks_of(done, default=None):
+    """The ids of all tasks of the exercises among some records, in order."""
+    ids = {record.exercise for record in done if record.exercise} | (
+        {default} if default else set()
+    )
+    return [task.id for id in sorted(ids) for task in catalogue.exercise(id).tasks]

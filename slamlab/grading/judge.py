@@ -1,0 +1,123 @@
+"""Grading one submission: inputs from a secret, a worker, verdicts, a record."""
+
+import hashlib
+import hmac
+import importlib.metadata
+import os
+import platform
+import secrets
+import time
+from pathlib import Path
+
+from slamlab import __version__
+from slamlab.checks.drives import StudentError
+from slamlab.grading import process, submissions
+from slamlab.grading.client import CannotStart, Client
+from slamlab.grading.records import Record
+from slamlab.grading.submissions import Submission, Unreadable
+
+SHORTEST_SECRET = 16
+
+
+def secret_from(file: Path, make=False) -> bytes:
+    """The secret that inputs are drawn from.
+
+    Parameters
+    ----------
+    file : Path
+    make : bool, whether to make one where there is none, readable by its owner only
+
+    Raises
+    ------
+    Unreadable
+    """
+    if make and not file.exists():
+        handle = os.open(file, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600)
+        with os.fdopen(handle, "w") as stream:
+            stream.write(secrets.token_hex(32) + "\n")
+    try:
+        secret = file.read_bytes().strip()
+    except OSError as error:
+        raise Unreadable(f"the secret {file} cannot be read: {error.strerror}") from None
+    if len(secret) < SHORTEST_SECRET:
+        raise Unreadable(f"the secret {file} is shorter than {SHORTEST_SECRET} bytes")
+    return secret
+
+
+def seed_for(secret: bytes, exercise_id: str, sha256: str) -> bytes:
+    """The seed of a submission: the same for the same content, unknown without the secret."""
+    return hmac.digest(secret, f"{exercise_id} {sha256}".encode(), hashlib.sha256)
+
+
+def grade(submission: Submission, secret: bytes, default=None) -> Record:
+    """Grade a submission, whatever it is.
+
+    Parameters
+    ----------
+    submission : Submission
+    secret : bytes
+    default : str or None, the exercise of notebooks that do not tell it
+
+    Returns
+    -------
+    Record, with a reason where it could not be graded
+    """
+    names = {"submission": submission.name, "student": submission.student}
+    try:
+        notebook = submissions.read(submission)
+        names |= {"sha256": notebook.sha256, "notes": notebook.notes}
+        exercise = submissions.exercise_of(submission, notebook, default)
+        names |= {"exercise": exercise.id}
+        seed = seed_for(secret, exercise.id, notebook.sha256)
+        return Record(**names, seed=seed.hex(), **judge(exercise, notebook.cells, seed))
+    except (Unreadable, CannotStart) as error:
+        return Record(**names, reason=str(error))
+    except Exception as error:  # a fault of the grader's own must not end the class
+        return Record(**names, reason=f"the grader failed: {type(error).__name__}: {error}")
+
+
+def judge(exercise, cells, seed: bytes, start=process.Process) -> dict:
+    """Judge a notebook's cells with the inputs of a seed.
+
+    Parameters
+    ----------
+    exercise : Exercise
+    cells : (number, source) in order
+    seed : bytes
+    start : exercise -> Process
+
+    Returns
+    -------
+    what a Record holds of it, by field name
+
+    Raises
+    ------
+    CannotStart
+    """
+    begin, judging = time.monotonic(), time.thread_time()
+    with Client(exercise, cells, start) as client:
+
+        def judge_one(task):
+            inputs = task.draw(seed)
+            try:
+                return task.judge(inputs, client.run(task, inputs))
+            except StudentError as error:
+                return task.failed(error.kind, error.message)
+
+        verdicts = exercise.verdicts(judge_one)
+    seconds = {"wall": time.monotonic() - begin}
+    seconds |= {"judge_cpu": time.thread_time() - judging, "worker_cpu": client.cpu}
+    return {
+        "verdicts": tuple(verdicts.values()),
+        "cells": dict(sorted(client.problems.items())),
+        "isolation": process.ISOLATION,
+        "versions": versions(),
+        "seconds": {name: round(value, 3) for name, value in seconds.items()},
+        "titles": {task.id: task.title for task in exercise.tasks},
+    }
+
+
+def versions():
+    """The versions of what graded."""
+    libraries = {name: importlib.metadata.version(name) for name in ("numpy", "sympy")}
+    return {"slamlab": __version__, "python": platform.python_version()} | libraries

@@ -1,0 +1,136 @@
+"""What is known of each submission, written as soon as it is known."""
+
+import csv
+import hashlib
+import io
+import json
+import os
+import re
+import tempfile
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+
+from slamlab.checks.report import number
+from slamlab.checks.task import Verdict
+
+COLUMNS = ("submission", "score", "max_score", "note")
+
+
+@dataclass(frozen=True)
+class Record:
+    """How a submission came out.
+
+    Parameters
+    ----------
+    submission, student : str
+    exercise : str or None, its number
+    reason : str or None, why it could not be graded; that is not the same as a score of 0
+    verdicts : one a task, in order
+    cells : what went wrong in which cell of the notebook
+    notes : what was odd about the file
+    sha256 : str or None, of the file
+    seed : str, hexadecimal; regrading with it is exact
+    isolation : str, how the worker was bounded
+    versions : of what graded
+    seconds : wall and CPU time [s] by stage
+    titles : task id to title
+    """
+
+    submission: str
+    student: str
+    exercise: str | None = None
+    reason: str | None = None
+    verdicts: tuple[Verdict, ...] = ()
+    cells: dict[int, str] = field(default_factory=dict)
+    notes: tuple[str, ...] = ()
+    sha256: str | None = None
+    seed: str | None = None
+    isolation: str | None = None
+    versions: dict[str, str] = field(default_factory=dict)
+    seconds: dict[str, float] = field(default_factory=dict)
+    titles: dict[str, str] = field(default_factory=dict)
+
+    @property
+    def graded(self):
+        """Whether there is a score at all."""
+        return self.reason is None
+
+    @property
+    def score(self):
+        """Points earned, None when it could not be graded."""
+        return sum(v.points for v in self.verdicts) if self.graded else None
+
+    @property
+    def max_score(self):
+        """The most that could be earned, None when it could not be graded."""
+        return sum(v.max_points for v in self.verdicts) if self.graded else None
+
+    @property
+    def note(self):
+        """One line for the table of grades."""
+        if not self.graded:
+            return f"could not be graded: {self.reason}"
+        said = [
+            f"{v.task}: {v.problem or v.diagnosis or _broken(v)}"
+            for v in self.verdicts
+            if not v.full
+        ]
+        return "; ".join([*self.notes, *said])
+
+    @property
+    def stem(self):
+        """A file name of its own, whatever the submission is called."""
+        readable = re.sub(r"[^A-Za-z0-9]+", "-", self.submission.removesuffix(".ipynb")).strip("-")
+        return f"{readable[:60]}-{hashlib.sha256(self.submission.encode()).hexdigest()[:8]}"
+
+
+def _broken(verdict):
+    return "broken: " + ", ".join(law.name for law in verdict.laws if law.failed)
+
+
+def write_json(out: Path, record: Record):
+    """Write a record to ``out/records``."""
+    content = {"state": "graded" if record.graded else "not graded"}
+    content |= {"score": record.score, "max_score": record.max_score} | asdict(record)
+    titles = content.pop("titles")
+    content["tasks"] = [{"title": titles[v["task"]]} | v for v in content.pop("verdicts")]
+    text = json.dumps(content, indent=1, ensure_ascii=False)
+    write(out / "records" / f"{record.stem}.json", text)
+
+
+def write_csv(out: Path, records, tasks):
+    """Write ``grades.csv``: submission, score, max_score, note, then the points of each task.
+
+    Parameters
+    ----------
+    records : list of Record
+    tasks : ids of the tasks, one column each
+    """
+    text = io.StringIO(newline="")
+    table = csv.writer(text, lineterminator="\n")
+    table.writerow([*COLUMNS, *tasks])
+    for record in sorted(records, key=lambda record: record.submission):
+        points = {v.task: number(v.points) for v in record.verdicts}
+        score, most = ("", "") if not record.graded else (record.score, record.max_score)
+        scores = [number(value) if record.graded else "" for value in (score, most)]
+        table.writerow(
+            [_harmless(record.submission), *scores, _harmless(record.note)]
+            + [points.get(task, "") for task in tasks]
+        )
+    write(out / "grades.csv", text.getvalue())
+
+
+def write(path: Path, text: str):
+    """Write a file so that it is there whole or not at all."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    handle, partial = tempfile.mkstemp(dir=path.parent, prefix=".", suffix=".part")
+    with os.fdopen(handle, "w", encoding="utf-8", errors="backslashreplace", newline="") as file:
+        file.write(text)
+    os.chmod(partial, 0o644)
+    os.replace(partial, path)
+
+
+def _harmless(text):
+    """Text that no spreadsheet takes for a formula."""
+    text = "".join(c if c.isprintable() else " " for c in text)
+    return f"'{text}" if text[:1] in "=+-@" and text else text

@@ -1,0 +1,241 @@
+"""Finding submissions in a folder and reading notebooks that may be anything."""
+
+import hashlib
+import json
+import os
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+from slamlab.checks import catalogue
+
+MOST_BYTES = 20 << 20
+
+_MOODLE = re.compile(r"(?P<student>.+?)_\d+_assignsubmission_file_?(?P<file>.*)", re.S)
+_CANVAS = re.compile(r"(?P<student>[^_]+)_(LATE_)?\d+_\d+_(?P<file>.+)", re.S)
+_CHECK = re.compile(r"\s*(check\(\s*[\"'][^\"']*[\"']\s*\)\s*;?\s*)+")
+
+
+class Unreadable(Exception):
+    """A submission cannot be graded; the message says why."""
+
+
+@dataclass(frozen=True)
+class Submission:
+    """A file, or what stands where one should be.
+
+    Parameters
+    ----------
+    name : str, the path in the folder graded
+    student : str, told by the path
+    path : Path
+    problem : str or None, why there is nothing to read
+    """
+
+    name: str
+    student: str
+    path: Path
+    problem: str | None = None
+
+
+@dataclass(frozen=True)
+class Notebook:
+    """What a submission holds.
+
+    Parameters
+    ----------
+    cells : (number, source) of the student's code cells in order, check cells left out
+    exercise : str or None, the exercise its metadata names
+    sha256 : str, of the file's bytes
+    notes : what was odd about the file
+    """
+
+    cells: tuple[tuple[int, str], ...]
+    exercise: str | None
+    sha256: str
+    notes: tuple[str, ...] = ()
+
+
+def find(folder: Path, out: Path | None = None) -> list[Submission]:
+    """All submissions in a folder, whatever their layout, sorted by name.
+
+    Flat files, ``STUDENT/EXERCISE/`` folders, nbgrader's ``submitted/STUDENT/ASSIGNMENT/``, and
+    Moodle's and Canvas' downloads; a student's folder without a notebook is one with a problem.
+
+    Parameters
+    ----------
+    folder : Path
+    out : Path or None, a folder that is not looked into
+
+    Raises
+    ------
+    Unreadable : when the folder is none
+    """
+    if not folder.is_dir():
+        raise Unreadable(f"{folder} is no folder")
+    if (folder / "submitted").is_dir():
+        folder = folder / "submitted"
+    skipped = out.resolve() if out else None
+    found, empty = [], []
+    for place, folders, files in os.walk(folder):
+        place = Path(place)
+        folders[:] = [f for f in folders if _is_searched(place / f, skipped)]
+        notebooks = [f for f in files if f.lower().endswith(".ipynb") and not f.startswith(".")]
+        found += [_submission(folder, place / file) for file in notebooks]
+        empty += [place / f for f in folders if place == folder or f.lower().endswith(".ipynb")]
+    for place in empty:
+        if not any(place in submission.path.parents for submission in found):
+            reason = "a folder without a notebook in it"
+            found.append(_submission(folder, place, reason))
+    return sorted(found, key=lambda submission: submission.name)
+
+
+def read(submission: Submission) -> Notebook:
+    """The notebook of a submission.
+
+    Raises
+    ------
+    Unreadable : with the reason, in words for the grader
+    """
+    if submission.problem:
+        raise Unreadable(submission.problem)
+    try:
+        if submission.path.is_symlink():
+            raise Unreadable("a link, not a file")
+        if not submission.path.is_file():
+            raise Unreadable("not a file")
+        size = submission.path.stat().st_size
+        if size > MOST_BYTES:
+            megabytes = f"{size / 2**20:.0f} MB, more than {MOST_BYTES >> 20}"
+            raise Unreadable(f"the file has {megabytes}: hand it in with its outputs cleared")
+        data = submission.path.read_bytes()
+    except OSError as error:
+        raise Unreadable(f"cannot be read: {error.strerror}") from None
+    return parse(data)
+
+
+def parse(data: bytes) -> Notebook:
+    """The notebook that some bytes are.
+
+    Raises
+    ------
+    Unreadable
+    """
+    if not data.strip():
+        raise Unreadable("the file is empty")
+    text, notes = _decoded(data)
+    try:
+        content = json.loads(text)
+    except RecursionError:
+        raise Unreadable("nested too deeply to be a notebook") from None
+    except ValueError as error:
+        raise Unreadable(f"not a notebook, or a part of one: {error}") from None
+    if not isinstance(content, dict):
+        raise Unreadable("not a notebook: no cells and no metadata")
+    if "worksheets" in content or content.get("nbformat") in (1, 2, 3):
+        content = _upgraded(content)
+        notes.append("an old notebook format, upgraded")
+    if not isinstance(content.get("cells"), list):
+        raise Unreadable("not a notebook: it has no list of cells")
+    cells = tuple(_code(content["cells"]))
+    if not cells:
+        notes.append("no code cells")
+    own = tuple((number, source) for number, source in cells if not _CHECK.fullmatch(source))
+    return Notebook(own, _named(content), hashlib.sha256(data).hexdigest(), tuple(notes))
+
+
+def exercise_of(submission: Submission, notebook: Notebook, default=None):
+    """The exercise of a submission: by the notebook's metadata, else its path, else a default.
+
+    Parameters
+    ----------
+    default : str or None, an exercise's number
+
+    Returns
+    -------
+    Exercise
+
+    Raises
+    ------
+    Unreadable : when nothing tells it
+    """
+    known = list(catalogue.EXERCISES)
+    if notebook.exercise in known:
+        return catalogue.exercise(notebook.exercise)
+    parts = Path(submission.name).parts
+    for part in (_original(parts[-1]), *reversed(parts[:-1])):
+        for id in re.findall(r"(?<!\d)(\d\d)(?=[_\-. ]|$)", part):
+            if id in known:
+                return catalogue.exercise(id)
+    if default is None:
+        raise Unreadable(
+            "which exercise it is stands neither in it nor in its name: say --exercise"
+        )
+    return catalogue.exercise(default)
+
+
+def _is_searched(folder, skipped):
+    if folder.name.startswith(".") or folder.name == "__MACOSX" or folder.is_symlink():
+        return False
+    return skipped is None or folder.resolve() != skipped
+
+
+def _submission(folder, path, problem=None):
+    relative = path.relative_to(folder)
+    first = relative.parts[0]
+    match = _MOODLE.fullmatch(first) or (len(relative.parts) == 1 and _CANVAS.fullmatch(first))
+    own = relative.stem if len(relative.parts) == 1 else first
+    student = match["student"] if match else own
+    return Submission(_printable(relative.as_posix()), _printable(student), path, problem)
+
+
+def _original(name):
+    """A file's name before Moodle or Canvas put the student's into it."""
+    match = _MOODLE.fullmatch(name) or _CANVAS.fullmatch(name)
+    return match["file"] if match else name
+
+
+def _printable(text):
+    # names on disk may hold bytes that are no text
+    return text.encode("utf-8", "surrogateescape").decode("utf-8", "backslashreplace")
+
+
+def _decoded(data):
+    for encoding in (
+        ("utf-8-sig", "utf-16") if data[:2] in (b"\xff\xfe", b"\xfe\xff") else ("utf-8-sig",)
+    ):
+        try:
+            return data.decode(encoding), []
+        except UnicodeDecodeError:
+            continue
+    return data.decode("latin-1"), ["not UTF-8, read as Latin-1"]
+
+
+def _upgraded(content):
+    import nbformat
+
+    try:
+        return nbformat.convert(nbformat.from_dict(content), 4)
+    except Exception as error:  # the converters expect what they expect
+        raise Unreadable(
+            f"an old notebook that cannot be upgraded: {type(error).__name__}"
+        ) from None
+
+
+def _code(cells):
+    for number, cell in enumerate(cells, 1):
+        if not isinstance(cell, dict) or cell.get("cell_type") != "code":
+            continue
+        source = cell.get("source", "")
+        if isinstance(source, list):
+            source = "".join(line for line in source if isinstance(line, str))
+        if isinstance(source, str):
+            # half a character, legal in JSON, cannot be sent on
+            yield number, source.encode("utf-8", "replace").decode("utf-8")
+
+
+def _named(content):
+    metadata = content.get("metadata")
+    ours = metadata.get("slamlab") if isinstance(metadata, dict) else None
+    named = ours.get("exercise") if isinstance(ours, dict) else None
+    return named if isinstance(named, str) else None

@@ -1,0 +1,137 @@
+"""The worker: a process that runs a student's cells and drives the functions they define.
+
+It answers each frame with one frame. It holds the modules its exercise allows and no truth, and
+nothing that it says is believed: the judge judges the arrays that come back.
+"""
+
+import ast
+import builtins
+import importlib
+import os
+import sys
+import types
+
+from slamlab.checks.drives import StudentError, describe
+from slamlab.grading import wire
+
+MEMORY = 4 << 30
+MAGICS_THAT_RUN = {"time", "timeit", "capture", "prun"}
+
+
+def main(drives):
+    """Answer frames until the judge hangs up.
+
+    Parameters
+    ----------
+    drives : str, the module that holds the exercise's DRIVES
+    """
+    receiving, sending = _take_streams()
+    _limit_resources()
+    drives = importlib.import_module(drives).DRIVES
+    names = fresh_namespace()
+    wire.send(sending, {"ready": True})
+    while (frame := wire.receive(receiving)) is not None:
+        head, arrays = frame
+        answer = (
+            _run_cell(head, names) if head["do"] == "cell" else _drive(head, arrays, drives, names)
+        )
+        answer_head, answer_arrays = answer
+        answer_head["turn"] = head["turn"]
+        try:
+            wire.send(sending, answer_head, answer_arrays)
+        except wire.WireError:
+            too_much = {"kind": "malformed", "problem": "returned more than can be judged"}
+            wire.send(sending, too_much | {"turn": head["turn"]})
+
+
+def fresh_namespace():
+    """The names a notebook starts with, as those of the module ``__main__``."""
+    notebook = types.ModuleType("__main__")
+    sys.modules["__main__"] = notebook
+    names = vars(notebook)
+    names["__builtins__"] = builtins
+    names["get_ipython"] = lambda: _Shell(names)
+    return names
+
+
+def run_cell(source, number, names):
+    """Run one cell.
+
+    Parameters
+    ----------
+    source : str
+    number : int, its place in the notebook
+    names : the notebook's names, changed in place
+
+    Returns
+    -------
+    str or None, what went wrong
+    """
+    try:
+        exec(compile(_as_python(source), f"<cell {number}>", "exec", dont_inherit=True), names)
+    except NotImplementedError:
+        return "not attempted yet"
+    except BaseException as error:  # a cell that fails, or calls sys.exit(), is noted, no more
+        return describe(error)
+    return None
+
+
+def _run_cell(head, names):
+    return {"problem": run_cell(head["source"], head["number"], names)}, {}
+
+
+def _drive(head, inputs, drives, names):
+    try:
+        return {}, drives[head["task"]](names, inputs)
+    except StudentError as error:
+        return {"kind": str(error.kind), "problem": str(error.message)}, {}
+    except BaseException as error:
+        return {"kind": "raised", "problem": describe(error)}, {}
+
+
+def _as_python(source):
+    try:
+        ast.parse(source)
+        return source
+    except SyntaxError:
+        # perhaps magics or shell lines; imported only now because it takes long
+        from IPython.core.inputtransformer2 import TransformerManager
+
+        return TransformerManager().transform_cell(source)
+
+
+class _Shell:
+    """What ``get_ipython()`` gives in a worker: magics and shell lines do nothing."""
+
+    def __init__(self, names):
+        self.user_ns = names
+
+    def run_cell_magic(self, name, line, cell):
+        if name in MAGICS_THAT_RUN:
+            exec(compile(_as_python(cell), f"<cell %%{name}>", "exec"), self.user_ns)
+
+    def getoutput(self, command):
+        return []
+
+    def __getattr__(self, name):
+        if name.startswith("__"):
+            raise AttributeError(name)
+        return lambda *_, **__: None
+
+
+def _take_streams():
+    # the pipe moves away from where prints go, also those of C code
+    receiving, sending = os.fdopen(os.dup(0), "rb"), os.fdopen(os.dup(1), "wb")
+    nowhere = os.open(os.devnull, os.O_RDWR)
+    for number in (0, 1, 2):
+        os.dup2(nowhere, number)
+    return receiving, sending
+
+
+def _limit_resources():
+    try:
+        import resource
+    except ImportError:  # not on Windows
+        return
+    resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
+    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
