@@ -4,7 +4,8 @@ Drawing takes plain arrays (:mod:`slamlab.layers`): it computes no pose and no m
 """
 
 from slamlab.views.figures import COLOURS, axes, chart, panels, png, show
-from slamlab.views.layers import draw, side_by_side
+from slamlab.views.layers import draw, legend, side_by_side
+from slamlab.views.sketches import frames
 from slamlab.views.widgets import explore
 
 __all__ = [
@@ -13,6 +14,8 @@ __all__ = [
     "chart",
     "draw",
     "explore",
+    "frames",
+    "legend",
     "panels",
     "png",
     "show",

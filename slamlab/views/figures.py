@@ -17,6 +17,7 @@ COLOURS = {
     "corrected": "#0072B2",
     "map": "#0072B2",
     "scan": "#E69F00",
+    "robot": "#CC79A7",
     "landmark": "#009E73",
     "box": "#56B4E9",
     "sample": "#CC79A7",

@@ -2,6 +2,7 @@
 
 import numpy as np
 from matplotlib.collections import LineCollection, PatchCollection
+from matplotlib.lines import Line2D
 from matplotlib.markers import MarkerStyle
 from matplotlib.patches import Ellipse, Rectangle
 from matplotlib.path import Path
@@ -57,8 +58,27 @@ def side_by_side(layers_by_title, size=(11, 5)):
     for ax, layers in zip(all_axes, layers_by_title.values(), strict=True):
         for layer in layers:
             draw(ax, layer)
-        ax.legend(loc="upper right", fontsize="small")
+        legend(ax, loc="upper right", fontsize="small")
     return fig, all_axes
+
+
+def legend(ax, **style):
+    """A legend in which the small points of a map can be seen.
+
+    Parameters
+    ----------
+    ax : Axes
+    style : what matplotlib's legend takes, such as ``loc``
+
+    Returns
+    -------
+    Legend
+    """
+    made = ax.legend(**style)
+    for handle in made.legend_handles:
+        if isinstance(handle, Line2D) and handle.get_marker() == ".":
+            handle.set_markersize(8)
+    return made
 
 
 def _points(ax, layer, style):

@@ -7,7 +7,7 @@ import ipywidgets
 import numpy as np
 import pytest
 
-from slamlab import views
+from slamlab import models, views
 from slamlab.layers import Boxes, Ellipses, Points, Poses, Samples, Segments
 from slamlab.views import figures, widgets
 
@@ -211,3 +211,21 @@ def test_a_control_that_starts_outside_its_range_is_refused_by_name():
 def test_views_bring_no_answer_of_an_exercise_along(room):
     code = f"import slamlab.views, sys; sys.exit('slamlab.{room}' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code]).returncode == 0
+
+
+def test_a_legend_shows_the_small_points_of_a_map_large_enough():
+    _, ax = views.axes()
+    views.draw(ax, Points("map", np.zeros((3000, 2))))
+    (handle,) = views.legend(ax).legend_handles
+    assert handle.get_markersize() > ax.lines[0].get_markersize()
+
+
+def test_the_sketch_of_the_frames_has_range_and_bearing_to_scale():
+    pose, landmark = np.array([2.5, 1.0, 0.4]), np.array([5.0, 4.5])
+    (ax,) = views.frames(pose, landmark).axes
+    heading, bearing = (np.radians([arc.theta1, arc.theta2]) for arc in ax.patches)
+    r, beta = models.h(pose, landmark)
+    assert np.diff(heading) == pytest.approx(pose[2])
+    assert np.diff(bearing) == pytest.approx(beta)
+    (ray,) = [line for line in ax.lines if line.get_linestyle() == "--"]
+    assert np.hypot(*np.diff(ray.get_xydata(), axis=0)[0]) == pytest.approx(r)

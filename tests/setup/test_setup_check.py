@@ -1,0 +1,33 @@
+"""The set-up check of lesson 00 says what is wrong and what to do."""
+
+import pytest
+from packaging.requirements import Requirement
+
+from slamlab import setup_check
+
+
+def test_this_machine_is_fit_for_the_course(capsys):
+    setup_check.report()
+    assert "All is well" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("version", ["3.10.14", "3.14.0"])
+def test_a_python_the_course_is_not_tested_on_is_told_with_the_remedy(version):
+    finding = setup_check.python_finding(">=3.11,<3.14", version)
+    assert version in finding.found and ">=3.11" in finding.remedy
+
+
+@pytest.mark.parametrize(
+    ("requirement", "found"),
+    [("no-such-package>=1", "missing"), ("numpy<1", "but the course needs <1")],
+)
+def test_a_package_that_will_not_do_is_told_with_the_remedy(requirement, found):
+    finding = setup_check.package_finding(Requirement(requirement))
+    assert found in finding.found and "make lab" in finding.remedy
+
+
+def test_what_is_wrong_is_counted_at_the_end(monkeypatch, capsys):
+    wrong = setup_check.Finding("numpy", "missing", "install it")
+    monkeypatch.setattr(setup_check, "findings", lambda: [wrong])
+    setup_check.report()
+    assert capsys.readouterr().out.splitlines()[-1].startswith("1 to mend")
