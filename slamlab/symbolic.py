@@ -5,6 +5,7 @@ Angles are not wrapped here: h's bearing equals the code's up to whole turns.
 
 import numpy as np
 import sympy as sp
+from sympy import ImmutableMatrix as Matrix
 
 x, y, theta = sp.symbols("x y theta", real=True)
 d, dtheta, V, gamma = sp.symbols("d Δθ V gamma", real=True)
@@ -13,15 +14,15 @@ p_x, p_y = sp.symbols("p_x p_y", real=True)
 r = sp.symbols("r", positive=True)
 beta = sp.symbols("beta", real=True)
 
-pose = sp.Matrix([x, y, theta])
-u_odometry = sp.Matrix([d, dtheta])
-u_steered = sp.Matrix([V, gamma])
-p = sp.Matrix([p_x, p_y])
-z = sp.Matrix([r, beta])
+pose = Matrix([x, y, theta])
+u_odometry = Matrix([d, dtheta])
+u_steered = Matrix([V, gamma])
+p = Matrix([p_x, p_y])
+z = Matrix([r, beta])
 
-f_odometry = sp.Matrix([x + d * sp.cos(theta), y + d * sp.sin(theta), theta + dtheta])
+f_odometry = Matrix([x + d * sp.cos(theta), y + d * sp.sin(theta), theta + dtheta])
 
-f_steered = sp.Matrix(
+f_steered = Matrix(
     [
         x + T * V * sp.cos(theta + gamma),
         y + T * V * sp.sin(theta + gamma),
@@ -29,9 +30,9 @@ f_steered = sp.Matrix(
     ]
 )
 
-h = sp.Matrix([sp.sqrt((p_x - x) ** 2 + (p_y - y) ** 2), sp.atan2(p_y - y, p_x - x) - theta])
+h = Matrix([sp.sqrt((p_x - x) ** 2 + (p_y - y) ** 2), sp.atan2(p_y - y, p_x - x) - theta])
 
-g = sp.Matrix([x + r * sp.cos(theta + beta), y + r * sp.sin(theta + beta)])
+g = Matrix([x + r * sp.cos(theta + beta), y + r * sp.sin(theta + beta)])
 
 A_odometry = f_odometry.jacobian(pose)
 W_odometry = f_odometry.jacobian(u_odometry)

@@ -12,10 +12,8 @@ from slamlab.sources.base import Source, SourceError
 
 PERIOD = 0.5  # between readings [s]
 
-ROBOT = DifferentialDrive(
-    left_scale=0.999, right_scale=1.001, base_scale=1.01, slip=0.003, tick=0.001
-)
-"""A small indoor robot: wheels unequal by 0.2 %, base misjudged by 1 %, a little slip."""
+ROBOT = DifferentialDrive(left_scale=0.9985, right_scale=1.0015, base_scale=0.99, slip=0.003)
+"""A small indoor robot: wheels unequal by 0.3 %, base misjudged by 1 %, a little slip."""
 
 TOURS = {
     "room": [(3.1, -0.6), (4.9, -0.9), (4.9, 1.2), (3.6, 2.6), (1.6, 2.3), (0.3, 1.6), (0.0, 0.0)],

@@ -1,0 +1,125 @@
+"""Models and their Jacobians: round trips, finite differences, agreement with the group."""
+
+import numpy as np
+import pytest
+from hypothesis import assume, given
+
+from slamlab import jacobians, models
+from slamlab.geometry import compose, matrix
+from tests.laws import (
+    assert_same_pose,
+    bases,
+    finite_differences,
+    odometry_controls,
+    periods,
+    points,
+    poses,
+    sightings,
+    steered_controls,
+)
+
+POSE_ROWS = np.array([False, False, True])
+SIGHTING_ROWS = np.array([False, True])
+NO_ANGLE = np.array([False, False])
+
+
+def close(actual, expected):
+    np.testing.assert_allclose(actual, expected, rtol=1e-6, atol=1e-6)
+
+
+@given(poses, sightings)
+def test_the_landmark_put_where_it_was_seen_is_seen_there_again(x, z):
+    np.testing.assert_allclose(models.h(x, models.g(x, z)), z, atol=1e-9)
+
+
+@given(poses, points)
+def test_the_landmark_seen_is_put_back_where_it_is(x, p):
+    np.testing.assert_allclose(models.g(x, models.h(x, p)), p, atol=1e-9)
+
+
+@given(poses, points, poses)
+def test_moving_robot_and_landmark_together_changes_no_observation(x, p, frame):
+    assume(np.hypot(*(p - x[:2])) > 0.1)
+    moved = (matrix(frame) @ np.append(p, 1))[:2]
+    r, bearing = models.h(x, p)
+    r_moved, bearing_moved = models.h(compose(frame, x), moved)
+    assert r_moved == pytest.approx(r)
+    assert abs(np.angle(np.exp(1j * (bearing - bearing_moved)))) < 1e-9
+
+
+def test_many_landmarks_are_seen_and_placed_at_once_as_one_by_one():
+    rng = np.random.default_rng(2)
+    x, p = np.array([1.0, -2.0, 2.5]), rng.normal(0, 5, (30, 2))
+    np.testing.assert_allclose(models.h(x, p), [models.h(x, q) for q in p])
+    z = models.h(x, p)
+    np.testing.assert_allclose(models.g(x, z), [models.g(x, one) for one in z])
+
+
+@given(poses, odometry_controls)
+def test_odometry_drives_along_the_old_heading_and_then_turns(x, u):
+    assert_same_pose(models.f_odometry(x, u), compose(x, np.array([u[0], 0.0, u[1]])))
+
+
+@given(poses, steered_controls, bases, periods)
+def test_steering_is_composing_with_the_motion_in_the_robots_frame(x, u, B, T):
+    V, gamma = u
+    motion = [T * V * np.cos(gamma), T * V * np.sin(gamma), T * V / B * np.sin(gamma)]
+    assert_same_pose(models.f_steered(x, u, B, T), compose(x, np.array(motion)))
+
+
+@given(poses, odometry_controls)
+def test_A_and_W_of_odometry_are_the_slopes_of_f(x, u):
+    f = models.f_odometry
+    A = finite_differences(lambda x: f(x, u), x, POSE_ROWS)
+    W = finite_differences(lambda u: f(x, u), u, POSE_ROWS)
+    close(jacobians.A_odometry(x, u), A)
+    close(jacobians.W_odometry(x, u), W)
+
+
+@given(poses, steered_controls, bases, periods)
+def test_A_and_W_of_steering_are_the_slopes_of_f(x, u, B, T):
+    f = models.f_steered
+    A = finite_differences(lambda x: f(x, u, B, T), x, POSE_ROWS)
+    W = finite_differences(lambda u: f(x, u, B, T), u, POSE_ROWS)
+    close(jacobians.A_steered(x, u, B, T), A)
+    close(jacobians.W_steered(x, u, B, T), W)
+
+
+@given(poses, odometry_controls)
+def test_A_holds_the_step_that_was_driven(x, u):
+    dx, dy, _ = models.f_odometry(x, u) - x
+    A = [[1, 0, -dy], [0, 1, dx], [0, 0, 1]]
+    np.testing.assert_allclose(jacobians.A_odometry(x, u), A, atol=1e-12)
+
+
+@given(poses, odometry_controls, odometry_controls)
+def test_A_of_two_steps_is_the_product_of_their_A(x, u1, u2):
+    def two_steps(x):
+        return models.f_odometry(models.f_odometry(x, u1), u2)
+
+    middle = models.f_odometry(x, u1)
+    product = jacobians.A_odometry(middle, u2) @ jacobians.A_odometry(x, u1)
+    close(product, finite_differences(two_steps, x, POSE_ROWS))
+
+
+@given(poses, points)
+def test_H_is_the_slope_of_h_by_robot_and_by_landmark(x, p):
+    assume(np.hypot(*(p - x[:2])) > 0.3)
+    robot = finite_differences(lambda x: models.h(x, p), x, SIGHTING_ROWS)
+    landmark = finite_differences(lambda p: models.h(x, p), p, SIGHTING_ROWS)
+    close(jacobians.H_robot(x, p), robot)
+    close(jacobians.H_landmark(x, p), landmark)
+
+
+@given(poses, sightings)
+def test_J_is_the_slope_of_g_by_robot_and_by_sighting(x, z):
+    close(jacobians.J_xr(x, z), finite_differences(lambda x: models.g(x, z), x, NO_ANGLE))
+    close(jacobians.J_z(x, z), finite_differences(lambda z: models.g(x, z), z, NO_ANGLE))
+
+
+@given(poses, sightings)
+def test_the_jacobians_of_h_and_g_undo_each_other(x, z):
+    p = models.g(x, z)
+    H_x, H_p = jacobians.H_robot(x, p), jacobians.H_landmark(x, p)
+    np.testing.assert_allclose(H_p @ jacobians.J_z(x, z), np.eye(2), atol=1e-8)
+    np.testing.assert_allclose(H_x + H_p @ jacobians.J_xr(x, z), 0, atol=1e-8)
