@@ -1,0 +1,126 @@
+"""The linear Kalman filter, as lesson 03 derives it."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.linalg import cholesky, solve_triangular
+
+from slamlab.filters.step import Step, covariance, matrix, vector
+
+
+@dataclass(frozen=True)
+class Belief:
+    """A mean and its covariance.
+
+    Parameters
+    ----------
+    x : (n,)
+    P : (n, n) symmetric positive semidefinite
+    """
+
+    x: np.ndarray
+    P: np.ndarray
+
+
+def belief(x, P):
+    """A belief from numbers of outside, checked.
+
+    Parameters
+    ----------
+    x : (n,)
+    P : (n, n)
+
+    Returns
+    -------
+    Belief
+
+    Raises
+    ------
+    ValueError : wrong shape, NaN, or P no covariance
+    """
+    x = vector("x", x)
+    return Belief(x, covariance("P", P, len(x)))
+
+
+def predict(b, F, Q, G=None, u=None):
+    """Let time pass: x ← F x + G u,  P ← F P Fᵀ + Q (MAK thesis, chapter 2).
+
+    Parameters
+    ----------
+    b : Belief of size n
+    F : (n, n)
+    Q : (n, n) process noise
+    G : (n, k) or None
+    u : (k,) or None
+
+    Returns
+    -------
+    Belief
+
+    Raises
+    ------
+    ValueError
+    """
+    n = len(b.x)
+    F, Q = matrix("F", F, n, n), covariance("Q", Q, n)
+    x = F @ b.x
+    if u is not None:
+        u = vector("u", u)
+        x = x + matrix("G", G, n, len(u)) @ u
+    P = F @ b.P @ F.T + Q
+    return Belief(x, (P + P.T) / 2)
+
+
+def update(b, z, H, R):
+    """Take a measurement in: the gain K = P Hᵀ S⁻¹ that minimises trace P (MAK thesis, chapter 2).
+
+    Parameters
+    ----------
+    b : Belief of size n
+    z : (m,)
+    H : (m, n)
+    R : (m, m) measurement noise
+
+    Returns
+    -------
+    Belief, Step
+
+    Raises
+    ------
+    ValueError
+    """
+    z = vector("z", z)
+    H, R = matrix("H", H, len(z), len(b.x)), covariance("R", R, len(z))
+    return correct(b, z - H @ b.x, H, R)
+
+
+def correct(b, innovation, H, R):
+    """The update proper, for an innovation already formed (and wrapped); Joseph's form.
+
+    P ← (I − K H) P (I − K H)ᵀ + K R Kᵀ
+
+    Parameters
+    ----------
+    b : Belief of size n
+    innovation : (m,)
+    H : (m, n)
+    R : (m, m)
+
+    Returns
+    -------
+    Belief, Step
+
+    Raises
+    ------
+    ValueError : S is singular
+    """
+    PHt = b.P @ H.T
+    S = H @ PHt + R
+    try:
+        root = cholesky(S, lower=True)
+    except np.linalg.LinAlgError:
+        raise ValueError("S = H P Hᵀ + R is singular: give R a positive variance") from None
+    step = Step(innovation, S, root, solve_triangular(root, PHt.T, lower=True).T)
+    I_KH = np.eye(len(b.x)) - step.K @ H
+    P = I_KH @ b.P @ I_KH.T + step.K @ R @ step.K.T
+    return Belief(b.x + step.K @ innovation, (P + P.T) / 2), step

@@ -1,0 +1,60 @@
+"""Localisation in a known map: the robot's half of the problem (MAK thesis, 4.1)."""
+
+import numpy as np
+
+from slamlab import jacobians, models
+from slamlab.filters.linear import Belief, correct
+from slamlab.filters.step import covariance, vector
+from slamlab.geometry import wrap
+
+
+def predict(b, x, A, Q):
+    """Move: the pose becomes x = f(x, u), P ← A P Aᵀ + Q.
+
+    Parameters
+    ----------
+    b : Belief of the pose, size 3
+    x : (3,) f(b.x, u) [m, m, rad]
+    A : (3, 3) ∂f/∂x at b.x
+    Q : (3, 3)
+
+    Returns
+    -------
+    Belief
+
+    Raises
+    ------
+    ValueError
+    """
+    x, Q = vector("x", x, 3), covariance("Q", Q, 3)
+    P = A @ b.P @ A.T + Q
+    return Belief(np.array([x[0], x[1], wrap(x[2])]), (P + P.T) / 2)
+
+
+def update(b, z, p, R):
+    """See landmarks whose places are known; all of one scan at once.
+
+    Parameters
+    ----------
+    b : Belief of the pose, size 3
+    z : (m, 2) range [m] and bearing [rad]
+    p : (m, 2) the landmarks [m]
+    R : (2, 2) noise of one observation
+
+    Returns
+    -------
+    Belief, Step
+
+    Raises
+    ------
+    ValueError
+    """
+    z, p = np.atleast_2d(z), np.atleast_2d(p)
+    if z.shape != p.shape or z.shape[1:] != (2,) or not np.isfinite([z, p]).all():
+        raise ValueError(f"z and p must be finite and (m, 2) both, got {z.shape} and {p.shape}")
+    R = np.kron(np.eye(len(z)), covariance("R", R, 2))
+    v = z - models.h(b.x, p)
+    v[:, 1] = wrap(v[:, 1])
+    H = jacobians.H_robot(b.x, p).reshape(-1, 3)
+    after, step = correct(b, v.ravel(), H, R)
+    return Belief(np.array([*after.x[:2], wrap(after.x[2])]), after.P), step

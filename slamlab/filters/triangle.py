@@ -1,0 +1,110 @@
+"""A covariance that grows: one triangle, in place, in memory allocated ahead.
+
+The lower triangle of the n × n matrix lies in a column-major prefix of a flat buffer. A prefix is
+contiguous, so BLAS works on it without a copy; a block of a larger matrix it would silently copy.
+"""
+
+import numpy as np
+from scipy.linalg.blas import dsyrk
+
+
+class Triangle:
+    """A symmetric matrix of which only the lower triangle is kept up to date.
+
+    Parameters
+    ----------
+    P : (n, n) symmetric
+    capacity : int, rows to allocate memory for
+    """
+
+    def __init__(self, P, capacity=0):
+        n = len(P)
+        self._flat = np.empty(max(n, capacity) ** 2)
+        self._shape(n)
+        self.lower[:] = P
+
+    def _shape(self, n):
+        self.n = n
+        self.lower = self._flat[: n * n].reshape((n, n), order="F")
+        self.diagonal = self._flat[: n * n : n + 1]
+
+    def full(self):
+        """(n, n) a copy with both triangles."""
+        L = np.tril(self.lower)
+        return L + np.tril(L, -1).T
+
+    def columns(self, index):
+        """Whole columns, gathered from both sides of the diagonal.
+
+        Parameters
+        ----------
+        index : sequence of k row numbers
+
+        Returns
+        -------
+        (n, k) column-major
+        """
+        out = np.asfortranarray(self.lower[:, index])
+        for k, j in enumerate(index):
+            out[:j, k] = self.lower[j, :j]
+        return out
+
+    def block(self, rows):
+        """The sub-matrix of some rows and the same columns.
+
+        Parameters
+        ----------
+        rows : (k,) int array
+
+        Returns
+        -------
+        (k, k)
+        """
+        i, j = np.maximum(rows[:, None], rows), np.minimum(rows[:, None], rows)
+        return self.lower[i, j]
+
+    def subtract(self, B):
+        """P ← P − B Bᵀ in place, and kept positive semidefinite against rounding.
+
+        Each entry of the result is off by at most γ √(P_ii P_jj) with γ = (m + 2) u, so adding
+        n γ P_ii to the diagonal outweighs whatever rounding did (Higham 2002, §3.5).
+
+        Parameters
+        ----------
+        B : (n, m) column-major
+        """
+        n, m = B.shape
+        guard = self.diagonal * (n * (m + 2) * np.finfo(float).eps / 2)
+        dsyrk(-1.0, B, beta=1.0, c=self.lower, lower=1, overwrite_c=1)
+        self.diagonal += guard
+
+    def append(self, cross, corner):
+        """Grow by k rows and columns.
+
+        Parameters
+        ----------
+        cross : (k, n) the new rows left of the corner
+        corner : (k, k)
+        """
+        n, k = self.n, len(corner)
+        old = self.lower
+        if (n + k) ** 2 > len(self._flat):
+            self._flat = np.empty((2 * (n + k)) ** 2)
+        else:
+            old = old.copy(order="F")  # source and target overlap
+        self._shape(n + k)
+        self.lower[:n, :n] = old
+        self.lower[n:, :n] = cross
+        self.lower[n:, n:] = corner
+
+    def delete(self, rows):
+        """Drop rows and columns.
+
+        Parameters
+        ----------
+        rows : sequence of row numbers
+        """
+        keep = np.setdiff1d(np.arange(self.n), rows)
+        kept = self.lower[np.ix_(keep, keep)]
+        self._shape(len(keep))
+        self.lower[:] = kept
