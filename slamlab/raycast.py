@@ -39,18 +39,19 @@ def cast(position, directions, walls, circles=()):
     circles = np.asarray(circles, dtype=float).reshape(-1, 3)
 
     bearings = np.mod(directions, 2 * np.pi)
-    order = np.argsort(bearings)
+    order = np.argsort(bearings, kind="stable")  # linear where they come sorted
+    bearings = bearings[order]
     # a second turn of beams: an interval that passes 2 pi needs no splitting
-    turns = np.concatenate([bearings[order], bearings[order] + 2 * np.pi])
-    beams = np.concatenate([order, order])
-    u = np.stack([np.cos(directions), np.sin(directions)])[:, beams]
-    nearest = np.zeros(2 * len(directions))  # inverse ranges [1/m]
+    turns = np.concatenate([bearings, bearings + 2 * np.pi])
+    ux, uy = np.cos(bearings), np.sin(bearings)
+    u = np.concatenate([ux, ux]), np.concatenate([uy, uy])
+    nearest = np.zeros(len(turns))  # inverse ranges [1/m]
 
     if not len(directions):
         return np.empty(0)
     if _cast_walls(position, walls, turns, u, nearest):
         return np.zeros(len(directions))
-    if _cast_circles(position, circles, turns, u, nearest):
+    if len(circles) and _cast_circles(position, circles, turns, u, nearest):
         return np.zeros(len(directions))
 
     ranges = np.empty(len(directions))
@@ -61,11 +62,12 @@ def cast(position, directions, walls, circles=()):
 
 def _cast_walls(position, walls, turns, u, nearest):
     """Raise ``nearest`` to the walls' inverse ranges; True if the position is on a wall."""
-    ax, ay, bx, by = ends = (walls - np.tile(position, 2)).T
+    ends = np.ascontiguousarray((walls - np.concatenate([position, position])).T)
+    ax, ay, bx, by = ends
     wx, wy = bx - ax, by - ay
     length2 = wx * wx + wy * wy
     along = -(ax * wx + ay * wy) / np.where(length2 > 0, length2, 1)
-    along = np.clip(along, 0, 1)
+    along = np.minimum(np.maximum(along, 0), 1)
     near_x, near_y = ax + along * wx, ay + along * wy
     near = np.hypot(near_x, near_y)
     if (near <= TOUCH).any():
@@ -84,7 +86,7 @@ def _cast_walls(position, walls, turns, u, nearest):
         left = cross > 0
         start = np.arctan2(np.where(left, ay, by), np.where(left, ax, bx))
         wall, beam = _pairs(start, span, turns)
-        np.maximum.at(nearest, beam, nx[wall] * u[0, beam] + ny[wall] * u[1, beam])
+        np.maximum.at(nearest, beam, nx[wall] * u[0][beam] + ny[wall] * u[1][beam])
     return False
 
 
@@ -103,7 +105,7 @@ def _cast_circles(position, circles, turns, u, nearest):
         start = np.where(inside, 0.0, np.arctan2(cy, cx) - half)
         side = np.where(inside, 1.0, -1.0)  # from inside the far intersection is the one ahead
         circle, beam = _pairs(start, 2 * half, turns)
-        ux, uy = u[:, beam]
+        ux, uy = u[0][beam], u[1][beam]
         middle = cx[circle] * ux + cy[circle] * uy
         offset = cx[circle] * uy - cy[circle] * ux
         root = np.sqrt(np.maximum(radius[circle] ** 2 - offset**2, 0))
@@ -116,16 +118,18 @@ def _nearest_first(near, nearest):
 
     ``nearest`` is read again before each chunk: the caller raises it in between.
     """
-    beams = len(nearest) // 2
+    if len(near) <= FIRST:
+        yield slice(None)
+        return
     todo, size = np.arange(len(near)), FIRST
     while len(todo):
         if len(todo) > size:
             todo = todo[np.argpartition(near[todo], size)]
         yield todo[:size]
-        todo = todo[size:]
         farthest = np.maximum(*nearest.reshape(2, -1)).min()
+        todo = todo[size:]
         todo = todo[near[todo] * farthest < 1]
-        size = max(FIRST, PAIRS // beams)
+        size = max(FIRST, 2 * PAIRS // len(nearest))
 
 
 def _pairs(start, span, turns):

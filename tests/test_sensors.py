@@ -1,5 +1,7 @@
 """A lidar reports the world, with the noise, gaps and limits it says it has."""
 
+import subprocess
+import sys
 from dataclasses import replace
 
 import numpy as np
@@ -109,3 +111,9 @@ def test_the_a2_lies_within_what_real_recordings_show():
 def test_a_lidar_that_makes_no_sense_is_refused(wrong, message):
     with pytest.raises(ValueError, match=message):
         Lidar(**wrong)
+
+
+def test_worlds_and_sensors_need_no_geometry_so_exercises_on_it_may_use_them():
+    code = "import sys, slamlab.worlds, slamlab.sensors; print('slamlab.geometry' in sys.modules)"
+    shown = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert shown.stdout.strip() == "False"

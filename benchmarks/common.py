@@ -1,0 +1,132 @@
+"""What the benchmarks share: interleaved timing, rows, the table, the command line.
+
+A benchmark is a module with ``TITLE`` and ``run(quick) -> rows``. Only ratios of one run mean
+anything: methods take turns, so that a busy machine is busy for all of them alike.
+"""
+
+import argparse
+import json
+import statistics
+import sys
+import time
+from pathlib import Path
+
+from rich.console import Console
+from rich.table import Table
+
+TURN = 0.004  # a method's turn lasts at least this long, so the clock's grain does not show [s]
+
+
+def row(name, value, unit, reference, ratio):
+    """One line of a benchmark's result.
+
+    Parameters
+    ----------
+    name : str, what was measured
+    value : float
+    unit : str
+    reference : str, what it is compared with
+    ratio : float, how many times better than the reference (faster, or smaller in error)
+
+    Returns
+    -------
+    dict
+    """
+    ratio = float(ratio)
+    return dict(name=name, value=float(value), unit=unit, reference=reference, ratio=ratio)
+
+
+def cpu_times(methods, quick, seconds=6.0):
+    """Median CPU time of each method's call, the methods taking turns.
+
+    Parameters
+    ----------
+    methods : {name: function without arguments}; called once before the clock runs
+    quick : bool, an eighth of the time
+    seconds : float, CPU time to spend, at least three turns each (one when quick) [s]
+
+    Returns
+    -------
+    {name: float} [s]
+    """
+    for method in methods.values():
+        method()
+    samples = {name: [] for name in methods}
+    least, seconds = (1, seconds / 8) if quick else (3, seconds)
+    begin = time.process_time()
+    while len(next(iter(samples.values()))) < least or time.process_time() - begin < seconds:
+        for name, method in methods.items():
+            samples[name].append(_turn(method))
+    return {name: statistics.median(values) for name, values in samples.items()}
+
+
+def _turn(method):
+    """Mean CPU time of the calls of one turn [s]."""
+    start, calls = time.process_time(), 0
+    while True:
+        method()
+        calls += 1
+        spent = time.process_time() - start
+        if spent >= TURN:
+            return spent / calls
+
+
+def speed_rows(label, times):
+    """Rows that compare every method's time with the first one's.
+
+    Parameters
+    ----------
+    label : str, the case
+    times : {method: float} [s], the reference first
+
+    Returns
+    -------
+    list of rows, in milliseconds
+    """
+    reference, slow = next(iter(times.items()))
+    return [row(f"{label}: {m}", 1e3 * t, "ms", reference, slow / t) for m, t in times.items()]
+
+
+def table(title, rows):
+    """Print rows as a table."""
+    shown = Table(title=title)
+    shown.add_column("name")
+    shown.add_column("value", justify="right")
+    shown.add_column("unit")
+    shown.add_column("reference")
+    shown.add_column("ratio", justify="right")
+    for r in rows:
+        ratio = f"{r['ratio']:.3g} x"
+        shown.add_row(r["name"], f"{r['value']:.4g}", r["unit"], r["reference"], ratio)
+    Console().print(shown)
+
+
+def main(benchmarks, prog, argv=None):
+    """The command line of one benchmark or of several.
+
+    Parameters
+    ----------
+    benchmarks : {title: run}, with run(quick) -> rows
+    prog : str, how it is called
+    argv : list of str or None for the process' own
+
+    Returns
+    -------
+    int, exit code: 0 done, 2 the file cannot be written
+    """
+    parser = argparse.ArgumentParser(prog=prog, description=", ".join(benchmarks))
+    parser.add_argument("--json", type=Path, metavar="FILE", help="write the rows there")
+    parser.add_argument("--quick", action="store_true", help="fewer repetitions: under 40 s each")
+    options = parser.parse_args(argv)
+    rows = []
+    for title, run in benchmarks.items():
+        found = run(options.quick)
+        table(title, found)
+        rows += found
+    if options.json:
+        try:
+            options.json.write_text(json.dumps(rows, indent=1) + "\n", encoding="utf-8")
+        except OSError as error:
+            print(f"cannot write {options.json}: {error.strerror}", file=sys.stderr)
+            return 2
+    return 0
