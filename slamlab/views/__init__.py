@@ -3,7 +3,9 @@
 Drawing takes plain arrays (:mod:`slamlab.layers`): it computes no pose and no map.
 """
 
+from slamlab.views.compare import cloud, curves
 from slamlab.views.figures import COLOURS, axes, chart, panels, png, show
+from slamlab.views.growth import growth
 from slamlab.views.layers import draw, legend, side_by_side
 from slamlab.views.sketches import frames
 from slamlab.views.widgets import explore
@@ -12,9 +14,12 @@ __all__ = [
     "COLOURS",
     "axes",
     "chart",
+    "cloud",
+    "curves",
     "draw",
     "explore",
     "frames",
+    "growth",
     "legend",
     "panels",
     "png",

@@ -229,3 +229,12 @@ def test_the_sketch_of_the_frames_has_range_and_bearing_to_scale():
     assert np.diff(bearing) == pytest.approx(beta)
     (ray,) = [line for line in ax.lines if line.get_linestyle() == "--"]
     assert np.hypot(*np.diff(ray.get_xydata(), axis=0)[0]) == pytest.approx(r)
+
+
+def test_growth_shows_measurements_as_marks_and_predictions_as_lines():
+    x = np.array([1.0, 4, 16])
+    _, ax = views.growth(x, {"measured": x**1.5}, {"n √n": x**1.5}, "way [m]", "error [m]")
+    marks, line = ax.lines
+    assert (marks.get_linestyle(), line.get_marker()) == ("None", "None")
+    assert ax.get_xscale() == ax.get_yscale() == "log"
+    assert [label.get_text() for label in ax.get_xticklabels()] == ["1", "4", "16"]
