@@ -104,7 +104,7 @@ def unpack(header: bytes, payload: bytes):
         if name in arrays or start + size > len(payload):
             raise WireError(f"array {name} stands twice or is longer than the payload")
         array = np.frombuffer(payload, kind, math.prod(shape), start).reshape(shape)
-        arrays[name] = array != 0 if kind == _TYPES["b1"] else array.astype(kind.newbyteorder("="))
+        arrays[name] = np.array(array != 0 if kind == _TYPES["b1"] else array)
         start += size
     if start != len(payload):
         raise WireError("the payload is longer than its arrays")
