@@ -120,7 +120,8 @@ def correct(b, innovation, H, R):
         root = cholesky(S, lower=True)
     except np.linalg.LinAlgError:
         raise ValueError("S = H P Hᵀ + R is singular: give R a positive variance") from None
-    step = Step(innovation, S, root, solve_triangular(root, PHt.T, lower=True).T)
+    B = solve_triangular(root, PHt.T, lower=True).T
+    step = Step(innovation, S, root, B, H, np.arange(len(b.x)))
     I_KH = np.eye(len(b.x)) - step.K @ H
     P = I_KH @ b.P @ I_KH.T + step.K @ R @ step.K.T
     return Belief(b.x + step.K @ innovation, (P + P.T) / 2), step

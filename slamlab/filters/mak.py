@@ -101,6 +101,10 @@ class MAK:
         x : (3,) the new pose f(pose, u) [m, m, rad]
         Q : (3, 3) covariance of the motion
 
+        Returns
+        -------
+        (3, 3) A
+
         Raises
         ------
         ValueError
@@ -115,6 +119,7 @@ class MAK:
         L[3:, :3] = L[3:, :3] @ A.T
         self._x[:3] = x[0], x[1], wrap(x[2])
         self._predicted = x[:2].copy()
+        return A
 
     def update(self, ids, z, R):
         """See landmarks again, all of one scan at once.
@@ -150,7 +155,7 @@ class MAK:
         self._x[2] = wrap(self._x[2])
         self._P.subtract(B)
         self._forget_cross_terms()
-        return Step(v, S, root, B)
+        return Step(v, S, root, B, H, index)
 
     def add(self, ids, z, R):
         """See landmarks for the first time: the state grows (Smolec (16), (17)).
@@ -206,6 +211,54 @@ class MAK:
         self._P.delete(rows)
         left = [i for i in self._row if i not in set(ids)]
         self._row = {i: 3 + 2 * j for j, i in enumerate(left)}
+
+    def block(self, rows):
+        """(k, k) the covariance of some rows of the state, such as those of :meth:`rows`."""
+        return self._P.block(np.asarray(rows))
+
+    def part(self, ids):
+        """The robot and some of its landmarks, as a filter of their own.
+
+        Parameters
+        ----------
+        ids : (k,) which
+
+        Returns
+        -------
+        MAK
+
+        Raises
+        ------
+        ValueError
+        """
+        rows = np.concatenate([[0, 1, 2], self.rows(ids)])
+        part = MAK(self.pose, np.eye(3), 0, first_estimates=self.first_estimates)
+        part._x, part._P = self._x[rows], Triangle(self.block(rows))
+        part._predicted = self._predicted.copy()
+        part._first = self._first[(rows[3::2] - 3) // 2]
+        part._row = {i: 3 + 2 * k for k, i in enumerate(ids)}
+        return part
+
+    def settle(self, rows, part, phi, psi, theta):
+        """Take back a part that went on alone, and bring the rest up to date.
+
+        P_AB ← φ P_AB,  P_BB ← P_BB − P_BA ψ P_AB,  x_B ← x_B + P_BA θ (see CompressedMAK)
+
+        Parameters
+        ----------
+        rows : (k,) the part's rows in this filter
+        part : MAK of size k
+        phi, psi : (k, k)
+        theta : (k,)
+        """
+        rest = np.setdiff1d(np.arange(self._P.n), rows)
+        P_A = self._P.columns(rows)
+        self._x[rest] += P_A[rest] @ theta
+        self._x[rows] = part.x
+        values, vectors = np.linalg.eigh(psi)
+        self._P.subtract(np.asfortranarray(P_A @ (vectors * np.sqrt(np.maximum(values, 0)))))
+        self._P.put(rows, P_A @ phi.T, part.P)
+        self._predicted = part._predicted.copy()
 
     def _linearise(self, rows, z):
         """Innovation (2m,), H over the columns it touches (2m, 3 + 2m), and those columns."""

@@ -19,12 +19,16 @@ class Step:
     S : (m, m) H P Hᵀ + R
     root : (m, m) lower Cholesky root L of S = L Lᵀ
     B : (n, m) P Hᵀ L⁻ᵀ, so that P − B Bᵀ is the updated covariance
+    H : (m, k) the Jacobian, over the columns that it touches
+    columns : (k,) int, which those are
     """
 
     innovation: np.ndarray
     S: np.ndarray
     root: np.ndarray
     B: np.ndarray
+    H: np.ndarray
+    columns: np.ndarray
 
     @cached_property
     def K(self):

@@ -78,6 +78,21 @@ class Triangle:
         dsyrk(-1.0, B, beta=1.0, c=self.lower, lower=1, overwrite_c=1)
         self.diagonal += guard
 
+    def put(self, index, columns, corner):
+        """Overwrite some rows and columns.
+
+        Parameters
+        ----------
+        index : (k,) row numbers
+        columns : (n, k) their columns; entries that fall among themselves are not used
+        corner : (k, k) the entries among themselves
+        """
+        L = self.lower
+        for k, j in enumerate(index):
+            L[j, :j] = columns[:j, k]
+            L[j:, j] = columns[j:, k]
+        L[np.ix_(index, index)] = corner
+
     def append(self, cross, corner):
         """Grow by k rows and columns.
 

@@ -1,0 +1,84 @@
+"""The compressed EKF: work on a few landmarks, settle with the rest later, exactly.
+
+Guivant & Nebot (2001), named by the MAK thesis in chapter 5. While only landmarks of a region A are
+seen, the others (B) are touched through three small sums φ, ψ, θ; settling brings them up to date:
+
+    P_AB ← φ P_AB,   P_BB ← P_BB − P_BA ψ P_AB,   x_B ← x_B + P_BA θ
+"""
+
+import numpy as np
+from scipy.linalg import solve_triangular
+
+from slamlab.filters.mak import MAK
+
+
+class CompressedMAK:
+    """A MAK filter that pays for the whole map only when the robot changes region.
+
+    Parameters
+    ----------
+    mak : MAK, the whole; out of date for landmarks outside the region until :meth:`settle`
+    """
+
+    def __init__(self, mak: MAK):
+        self.whole = mak
+        self._local: MAK | None = None
+
+    @property
+    def local(self) -> MAK:
+        """The filter of the region; read it, but move and look through this class.
+
+        Raises
+        ------
+        ValueError : no region was chosen
+        """
+        if self._local is None:
+            raise ValueError("no region: call focus with the ids of the landmarks around first")
+        return self._local
+
+    def focus(self, ids):
+        """Choose the region; settles the one before.
+
+        Parameters
+        ----------
+        ids : landmarks that will be seen next
+
+        Raises
+        ------
+        ValueError : an id that is not in the map
+        """
+        rows = self.whole.rows(ids)
+        self.settle()
+        self._rows = np.concatenate([[0, 1, 2], rows])
+        self._local = self.whole.part(ids)
+        n = len(self._rows)
+        self._phi, self._psi, self._theta = np.eye(n), np.zeros((n, n)), np.zeros(n)
+
+    def predict(self, x, Q):
+        """As :meth:`MAK.predict`, in the region: φ ← A φ."""
+        A = self.local.predict(x, Q)
+        self._phi[:3] = A @ self._phi[:3]
+
+    def update(self, ids, z, R):
+        """As :meth:`MAK.update`, in the region.
+
+        ψ ← ψ + φᵀ Hᵀ S⁻¹ H φ,  θ ← θ + φᵀ Hᵀ S⁻¹ v,  φ ← (I − K H) φ
+
+        Returns
+        -------
+        Step, of the region's state
+        """
+        step = self.local.update(ids, z, R)
+        H_phi = step.H @ self._phi[step.columns]
+        white = solve_triangular(step.root, H_phi, lower=True)
+        self._psi += white.T @ white
+        self._theta += white.T @ solve_triangular(step.root, step.innovation, lower=True)
+        self._phi -= step.B @ white
+        return step
+
+    def settle(self):
+        """Bring every landmark outside the region up to date."""
+        if self._local is None:
+            return
+        self.whole.settle(self._rows, self._local, self._phi, self._psi, self._theta)
+        self._local = None
