@@ -1,11 +1,12 @@
 """What is declared in pyproject.toml, in environment.yml and in the two locks is one thing."""
 
+import ast
 import re
 import subprocess
 import sys
 import tomllib
 from functools import cache
-from importlib.metadata import requires
+from importlib.metadata import packages_distributions, requires
 
 import pytest
 import yaml
@@ -110,6 +111,21 @@ def test_slides_need_nothing_that_lab_does_not_install_for_lecturers():
         needed = [Requirement(text) for text in requires(name) or []]
         always = [r for r in needed if r.marker is None or r.marker.evaluate({"extra": ""})]
         assert {canonicalize_name(r.name) for r in always} <= known | set(LECTURE)
+
+
+def test_the_package_imports_only_what_it_declares():
+    distributions = packages_distributions()
+    declared = specifiers(DECLARED).keys()
+    for path in (ROOT / "slamlab").rglob("*.py"):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            names = []
+            if isinstance(node, ast.Import):
+                names = [alias.name for alias in node.names]
+            elif isinstance(node, ast.ImportFrom) and not node.level:
+                names = [node.module]
+            for name in {name.split(".")[0] for name in names} - sys.stdlib_module_names:
+                origin = {canonicalize_name(found) for found in distributions.get(name, [])}
+                assert name == "slamlab" or origin & declared, f"{path.name} imports {name}"
 
 
 def test_importing_the_package_loads_no_library_of_drawing_algebra_or_filtering():
