@@ -9,7 +9,6 @@ endif
 
 ENV = .venv-test
 RUN = PATH="$(CURDIR)/$(ENV)/bin:$$PATH" $(ENV)/bin/python -m
-NOTEBOOKS = $(wildcard notebooks/*.ipynb exercises/*.ipynb solutions/*.ipynb)
 # one worker a core of a small machine; the cells of a notebook must stay on one worker
 PYTEST = $(RUN) pytest -n 2 --dist loadfile
 
@@ -20,10 +19,7 @@ lab:  ## Set up and open the course; LAB_ARGS="--no-browser --port 9999" go to J
 
 test: lint  ## Set up and run every test; TEST_ARGS go to pytest
 	$(PYTEST) $(TEST_ARGS)
-	@test -n "$(NOTEBOOKS)" || { echo "There are no notebooks: make notebooks" >&2; exit 1; }
-	$(PYTEST) --nbval-lax --nbval-current-env \
-	    --nbval-sanitize-with tests/notebooks/nbval_sanitize.cfg \
-	    --nbval-cell-timeout=300 --nbval-kernel-startup-timeout=120 $(NOTEBOOKS)
+	PYTHONHASHSEED=0 $(RUN) pytest @tests/notebooks/nbval.args notebooks exercises solutions
 
 env:
 	@$(PYTHON) lab.py --venv $(ENV) --lock requirements-test.lock --install-only

@@ -2,6 +2,7 @@
 
 import ast
 import re
+from itertools import pairwise
 
 from course.exercise import SolutionError, regions
 from course.source import CHECK, ID, METADATA, heading
@@ -43,6 +44,7 @@ def lint(source, exercise=None):
         problems += [f"{source.at(cell)}: {text}" for text in _markers(cell)]
         if cell.type == "code":
             problems += [f"{source.at(cell, line)}: {text}" for line, text in _code(source, cell)]
+    problems += [f"{source.at(cell)}: {text}" for cell, text in _slides(source)]
     problems += [f"{source.at(cell)}: {text}" for cell, text in _frame(source)]
     if source.kind == "exercise":
         problems += [f"{source.at(cell)}: {text}" for cell, text in _checks(source, exercise)]
@@ -101,6 +103,13 @@ def _code(source, cell):
         return
     if marked and source.kind == "lesson":
         yield marked[0][0], "a lesson holds no solution: that is for exercises"
+
+
+def _slides(source):
+    """Problems of hidden cells: on a slide, Shift+Enter goes to the next cell, hidden or not."""
+    for before, cell in pairwise(source.cells):
+        if cell.slide in ("notes", "skip") and before.type == "code":
+            yield cell, f"{cell.slide} behind code: run on a slide, it would end on an empty page"
 
 
 def _frame(source):

@@ -175,6 +175,10 @@ def test_what_an_exercise_may_not_hold_is_told_with_its_line(root, cell, says):
         ("# %%\n" + "x = 1\n" * 31, "31 lines of code"),
         ("# %%\ndef f():\n    ### BEGIN SOLUTION\n    return 1\n    ### END SOLUTION", "solution"),
         ("# %% [raw]\n# text", "a raw cell"),
+        (
+            '# %%\nprint(1)\n\n# %% [markdown] slideshow={"slide_type": "notes"}\n# Ask.',
+            "notes behind code",
+        ),
     ],
 )
 def test_a_breach_of_the_standards_is_told_with_its_line(root, text, says):
@@ -208,9 +212,9 @@ def test_ids_are_names_or_sections_and_another_section_leaves_them_alone(root):
 
 def test_slide_marks_and_notes_survive_and_layout_does_not(root):
     note = '\n# %% [markdown] slideshow={"slide_type": "notes"}\n# Ask first.\n\n\n'
-    notebook = tool.derive(write(root, ADD + note), root)[0].notebook
+    notebook = tool.derive(write(root, note + ADD), root)[0].notebook
     assert notebook.cells[0].metadata == {"slideshow": {"slide_type": "slide"}}
-    assert notebook.cells[3].metadata == {"slideshow": {"slide_type": "notes"}}
+    assert notebook.cells[2].metadata == {"slideshow": {"slide_type": "notes"}}
     assert "jupytext" not in notebook.metadata
     assert notebook.metadata.slamlab == {"lesson": "90"}
 
