@@ -3,10 +3,11 @@
 from itertools import cycle
 
 import numpy as np
+from matplotlib.ticker import MaxNLocator
 
 from slamlab.layers import Ellipses, Points
 from slamlab.views.figures import COLOURS, axes, chart
-from slamlab.views.layers import draw
+from slamlab.views.layers import draw, legend
 
 # told apart without colour, too
 _STYLES = [
@@ -17,7 +18,7 @@ _STYLES = [
 ]
 
 
-def cloud(samples, covariances, title=None, size=(6, 4.5)):
+def cloud(samples, covariances, title=None, size=(6, 4.5), layers=()):
     """Samples in the plane, and the 95 % ellipses of covariances round their mean.
 
     Parameters
@@ -26,6 +27,7 @@ def cloud(samples, covariances, title=None, size=(6, 4.5)):
     covariances : dict, name for the legend to (2, 2) or larger [m²]
     title : str or None
     size : (width, height) [inch]
+    layers : what else to draw, such as the way driven
 
     Returns
     -------
@@ -38,7 +40,9 @@ def cloud(samples, covariances, title=None, size=(6, 4.5)):
         ellipse = Ellipses(name, [xy.mean(axis=0)], [np.asarray(covariance)[:2, :2]])
         _, entry = draw(ax, ellipse, color=colour, linewidth=2, linestyle=line)
         entry.set_linestyle(line)
-    ax.legend()
+    for layer in layers:
+        draw(ax, layer, color=COLOURS["truth"])
+    legend(ax)
     return fig, ax
 
 
@@ -58,6 +62,8 @@ def curves(x, ys, xlabel, ylabel, title=None, size=(6, 3.5)):
     (Figure, Axes)
     """
     fig, ax = chart(xlabel, ylabel, title, size)
+    if np.asarray(x).dtype.kind in "iu":
+        ax.xaxis.set_major_locator(MaxNLocator(integer=True))
     for (name, y), (colour, line) in zip(ys.items(), cycle(_STYLES)):
         ax.plot(x, y, color=colour, linestyle=line, linewidth=2, label=name)
     ax.legend()
