@@ -41,7 +41,7 @@ def cpu_times(methods, quick, seconds=6.0):
 
     Parameters
     ----------
-    methods : {name: function without arguments}; called once before the clock runs
+    methods : {name: function without arguments}; called before, to hold their results equal
     quick : bool, an eighth of the time
     seconds : float, CPU time to spend, at least three turns each (one when quick) [s]
 
@@ -49,8 +49,6 @@ def cpu_times(methods, quick, seconds=6.0):
     -------
     {name: float} [s]
     """
-    for method in methods.values():
-        method()
     samples = {name: [] for name in methods}
     least, seconds = (1, seconds / 8) if quick else (3, seconds)
     begin = time.process_time()

@@ -88,6 +88,17 @@ def test_thousands_of_walls_hide_each_other_rightly():
     np.testing.assert_allclose(ranges, np.min(in_parts, axis=0), rtol=1e-12)
 
 
+def test_walls_behind_others_are_left_out_only_where_they_cannot_be_seen():
+    rng = np.random.default_rng(11)
+    centres, half = rng.uniform(-10, 10, (400, 2)), rng.normal(0, 0.1, (400, 2))
+    screen = np.array([[-9.0, 2.0, 0.0, 2.5], [0.0, 2.5, 9.5, -8.0], [9.5, -8.0, -9.0, 2.0]])
+    walls = np.vstack([np.hstack([centres - half, centres + half]), screen])
+    directions = np.linspace(-np.pi, np.pi, 20_000)
+    ranges = cast((0.5, 0.3), directions, walls)
+    in_parts = [cast((0.5, 0.3), directions, part) for part in np.array_split(walls, 10)]
+    np.testing.assert_allclose(ranges, np.min(in_parts, axis=0), rtol=1e-12)
+
+
 def test_many_beams_on_many_far_walls_are_handled_in_parts():
     rng = np.random.default_rng(5)
     angles = rng.uniform(-np.pi, np.pi, 2000)
