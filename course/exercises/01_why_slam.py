@@ -120,7 +120,9 @@ def _():
 # ## 3 · The map
 #
 # The lidar reports points in the robot's frame: x ahead, y to the left. Put them where they
-# belong in the world: turned by the robot's heading, then moved to where it stands.
+# belong in the world: turned by the robot's heading, then moved to where it stands. The points stand
+# in rows; mind that when you turn them by a matrix (the conventions in
+# [00](../notebooks/00_start_here.ipynb) say how).
 
 # %% name="place"
 def place(pose, points):

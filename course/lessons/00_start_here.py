@@ -1,0 +1,233 @@
+# %% [markdown] slideshow={"slide_type": "slide"}
+# # 00 · Start here
+#
+# **Afterwards you will be able to** run a lesson, predict before you run, move its sliders, check an
+# exercise, read every symbol and unit of the course, and get help.
+#
+# 15 min. You need nothing before; a little Python and some school trigonometry help.
+
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* run the set-up check before the class comes in. With *View → Presentation Mode* the letters
+# grow. The one thing to get across here is the habit of predicting: let everybody write a number down
+# before the first scan is run.
+
+# %% [markdown] slideshow={"slide_type": "slide"}
+# ## Is everything there?
+#
+# Click into the next cell and press **Shift+Enter**: the cell runs and the next one is selected.
+# It looks at Python and at every package the course rests on, and says what to do where one is
+# not right.
+
+# %% name="setup-check"
+from slamlab import setup_check
+
+setup_check.report()
+
+# %% [markdown]
+# A tick on every line: go on. If instead you see `ModuleNotFoundError: No module named 'slamlab'`,
+# the notebook runs on another Python than the course's: close it, run `make lab` in the project's
+# folder (Windows: `python lab.py`), and open it in the JupyterLab that comes up.
+
+# %% [markdown] slideshow={"slide_type": "slide"}
+# ## How a lesson works
+#
+# Each section goes the same way: a **question**, your **prediction**, a cell to **run**, an
+# **explanation**. The prediction is the part that teaches: write it down before you run, even if
+# it is a guess. A cell that is run without a prediction is a film.
+#
+# Try it. A lidar turns once in a room and measures 400 distances, 0.9° apart. It is a good one, but
+# now and then a beam gets lost on something black or shiny.
+#
+# **Predict:** how many of the 400 beams come back?
+
+# %% name="first-scan" tags=["nbval-check-output"]
+import numpy as np
+
+from slamlab import views, worlds
+from slamlab.geometry import transform
+from slamlab.layers import Points, Poses, Segments
+from slamlab.sensors import RPLIDAR_A2
+
+rng = np.random.default_rng(7)
+room, pose = worlds.room(), np.array([1.0, 0.0, 0.5])
+scan = RPLIDAR_A2.scan(room, pose, rng)
+print(f"{scan.valid.sum()} of {len(scan.ranges)} beams came back")
+
+# %% [markdown]
+# Real lidars of this kind lose two to four beams in a hundred: that was measured, and the simulated one
+# does the same. Everything random in the course comes from a generator `rng` with a
+# written-down seed, so you get the number printed here. Change the 7 and you get another one.
+#
+# **Predict:** the lidar sees in every direction. Which parts of the room will be missing from
+# the picture?
+
+# %% name="first-picture"
+fig, ax = views.axes("One turn of the lidar in a room")
+views.draw(ax, Segments("walls", room.outline()), lw=0.8)
+views.draw(ax, Points("scan", transform(pose, scan.points())))
+views.draw(ax, Poses("robot", pose))
+views.legend(ax, loc="upper right")
+views.show(fig, alt="Walls of a room in grey; a scan's points lie on those that face the lidar.")
+
+# %% [markdown]
+# The points lie on what faces the lidar. Behind the table in the middle, the cupboards and the
+# pillars there is nothing: **a scan is never the room, it is what one place sees of it**. That is why
+# a robot has to drive, and why it has to know where it was.
+
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# ### Sliders
+#
+# Many figures have sliders. Drag one, or click on it and use the arrow keys; the figure is drawn
+# when you let go. In a notebook that was not run you see the figure without its sliders: run the
+# cell. **Predict:** where must the lidar stand to see the cupboard at the left wall?
+
+# %% name="first-slider"
+def look(x, y):
+    """The room and what a lidar at x, y sees of it."""
+    seen = RPLIDAR_A2.scan(room, [x, y, 0.0], np.random.default_rng(7))
+    fig, ax = views.axes(f"Seen from ({x:.1f} m, {y:.1f} m)")
+    views.draw(ax, Segments("walls", room.outline()), lw=0.8)
+    views.draw(ax, Points("scan", transform([x, y, 0.0], seen.points())))
+    views.draw(ax, Poses("robot", np.array([x, y, 0.0])))
+    return fig
+
+
+views.explore(
+    look,
+    alt="From the right of the room the table hides the left of it; sliders move the lidar.",
+    x=(-1.2, 5.2, 3.6),
+    y=(-1.4, 2.2, 0.9),
+)
+
+# %% [markdown]
+# From here the table in the middle hides the left of the room: not one point lies on the cupboard.
+# Move the lidar past the table, to the left or to the top, and the cupboard's front appears.
+#
+# When a notebook gets muddled, because cells ran out of order, choose *Kernel → Restart Kernel and
+# Run All Cells*. Nothing can be broken: `git restore notebooks` in a
+# terminal brings every lesson back as it was.
+
+# %% [markdown] slideshow={"slide_type": "slide"}
+# ## How an exercise works
+#
+# At the end of each lesson you find its exercise. You fill in functions; below each stands a cell
+# such as `check("01-next-pose")`. It tries your function on random inputs and judges it by **laws**: a
+# robot must move as far as its step is long, a derivative must be what finite differences say. So
+# any right solution passes, however it is written. Where a classic mistake is recognised, you are told
+# which one: degrees for radians, a turn the wrong way, a transposed matrix.
+#
+# Check as often as you like. Your points are those of a fresh run on other random inputs; nothing
+# else is hidden. `slamlab check NOTEBOOK` in a terminal does the same for a whole notebook.
+
+# %% [markdown] slideshow={"slide_type": "slide"}
+# ## Conventions
+#
+# | | here | not |
+# | --- | --- | --- |
+# | lengths | metres | millimetres, centimetres |
+# | angles | radians, wrapped to (−π, π] | degrees (only in text and on axes) |
+# | time | seconds | |
+# | turning | counter-clockwise is positive | clockwise, as many devices count |
+# | robot's frame | x ahead, y to the left | y ahead, as in the eMIR's documents |
+# | points | one a row, `(n, 2)` | one a column |
+# | matrices | act on columns: `p' = R p`; rows of points take `points @ R.T` | |
+# | uncertainty | covariances, in units squared | standard deviations, unless it says so |
+#
+# Devices and files speak their own units. They are converted once, where they enter.
+
+# %% name="frames"
+views.show(
+    views.frames(pose=np.array([2.5, 1.0, np.radians(25)]), landmark=np.array([5.0, 4.5])),
+    alt="World and robot frames; heading θ from the world's x axis, bearing β from the robot's.",
+)
+
+# %% [markdown]
+# The heading θ is measured from the world's x axis to the robot's, the bearing β from the robot's
+# x axis to the landmark, both counter-clockwise. The landmark stands at angle θ + β as seen in the world.
+#
+# **Predict:** the robot turns on the spot by +90°. What becomes of θ, of β, of r?
+
+# %% name="turn-on-the-spot" tags=["nbval-check-output"]
+from slamlab import models
+
+landmark = np.array([5.0, 4.5])
+for theta in (25, 115):
+    r, beta = models.h(np.array([2.5, 1.0, np.radians(theta)]), landmark)
+    print(f"θ = {theta:3d}°   r = {r:.2f} m   β = {np.degrees(beta):6.1f}°")
+
+# %% [markdown]
+# The bearing loses what the heading gains, the range does not care. A robot that misjudges its heading
+# therefore misjudges the direction of **everything** it sees. Remember that in lesson 01.
+
+# %% [markdown] slideshow={"slide_type": "slide"} name="notation"
+# ## Notation
+#
+# Names in the code are the symbols of the text. A row without a function is an argument of those
+# with one. This table is tested: each function exists and returns that shape.
+#
+# | Symbol | In the code | Shape | Unit | What it is |
+# | --- | --- | --- | --- | --- |
+# | x | `x` | (3,) | m, m, rad | pose of the robot: x, y, θ |
+# | u | `u` | (2,) | m, rad | control: distance d and turn Δθ; steered robot: speed V [m/s], angle γ [rad] |
+# | p | `p` | (2,) | m | a landmark's position |
+# | z | `z` | (2,) | m, rad | one observation: range r and bearing β |
+# | a, b | `a`, `b` | (3,) | m, m, rad | any two poses |
+# | f | `models.f_odometry(x, u)` | (3,) | m, m, rad | motion: the pose after driving d and turning Δθ |
+# | f | `models.f_steered(x, u, B, T)` | (3,) | m, m, rad | motion of a steered robot with wheel base B in time T |
+# | h | `models.h(x, p)` | (2,) | m, rad | observation: range and bearing of a landmark |
+# | g | `models.g(x, z)` | (2,) | m | the landmark that was observed: the inverse of h |
+# | A | `jacobians.A_odometry(x, u)` | (3, 3) | | ∂f/∂x |
+# | A | `jacobians.A_steered(x, u, B, T)` | (3, 3) | | ∂f/∂x of the steered robot |
+# | W | `jacobians.W_odometry(x, u)` | (3, 2) | | ∂f/∂u |
+# | W | `jacobians.W_steered(x, u, B, T)` | (3, 2) | | ∂f/∂u of the steered robot |
+# | H | `jacobians.H_robot(x, p)` | (2, 3) | | ∂h/∂x, the robot's part of H |
+# | H | `jacobians.H_landmark(x, p)` | (2, 2) | | ∂h/∂p, the landmark's part of H |
+# | J_xr | `jacobians.J_xr(x, z)` | (2, 3) | | ∂g/∂x: a new landmark moves with the robot |
+# | J_z | `jacobians.J_z(x, z)` | (2, 2) | | ∂g/∂z: a new landmark moves with its observation |
+# | C | `noise.C_odometry(u, distance_error, turn_error)` | (2, 2) | m², rad² | covariance of the control |
+# | Q | `noise.Q(W, C)` | (3, 3) | m², rad² | covariance a motion adds to the pose: W C Wᵀ |
+# | R | `noise.R(r, range_error, bearing_sigma)` | (2, 2) | m², rad² | covariance of one observation |
+# | | `geometry.wrap(angle)` | () | rad | the same angle in (−π, π] |
+# | a ⊕ b | `geometry.compose(a, b)` | (3,) | m, m, rad | pose b, given in a's frame, in the frame a is given in |
+# | ⊖ a | `geometry.inverse(a)` | (3,) | m, m, rad | the pose that undoes a |
+# | ⊖ a ⊕ b | `geometry.between(a, b)` | (3,) | m, m, rad | pose b as seen from pose a |
+# | T | `geometry.matrix(a)` | (3, 3) | | homogeneous matrix of a pose |
+# | | `geometry.from_matrix(T)` | (3,) | m, m, rad | the pose of a homogeneous matrix |
+# | | `geometry.transform(a, points)` | (n, 2) | m | points (n, 2) of a's frame in the frame a is given in |
+#
+# Put the cursor behind a name in any cell and press **Shift+Tab** to read what it does.
+
+# %% [markdown] slideshow={"slide_type": "slide"} name="map-of-lessons"
+# ## Map of the lessons
+#
+# | | lesson | what it shows | lesson | exercise |
+# | --- | --- | --- | --- | --- |
+# | 00 | [Start here](00_start_here.ipynb) | how all this works | 15 min | |
+# | 01 | [Why SLAM](01_why_slam.ipynb) | a robot that believes its wheels draws a map that does not close | 40 min | 40 min |
+#
+# They are numbered in the order in which to read them; the numbers leave room for lessons between.
+
+# %% [markdown] slideshow={"slide_type": "skip"}
+# ## If you give the lecture
+#
+# Every lesson holds slide marks and speaker's notes; derivations open one line per key press.
+#
+# - *View → Presentation Mode* makes everything larger. It always works.
+# - With the extra `lecture` installed (`pip install "slamlab[lecture]"` from the project's folder:
+#   `pip install -e ".[lecture]"`) JupyterLab has a slideshow: select a cell, then *View → Activate Command
+#   Palette → Start Deck*. Sliders stay alive on the slides.
+# - Notes are cells of slide type *notes*; you see them in the notebook, not on the slides.
+
+# %% [markdown]
+# ## Where help is
+#
+# - **A function:** Shift+Tab behind its name, or `help(name)`. Every one says its equation, the shape and
+#   the unit of each argument.
+# - **A check that fails:** read its first ✗ line; it says which law broke and on how many inputs, and
+#   the hint below it names the mistake where it is a known one.
+# - **A cell that fails:** the last line of the message says what went wrong; *Kernel → Restart Kernel
+#   and Run All Cells* mends what came from cells run out of order.
+# - **Everything else:** the `README.md` of the project, and who gave you the course.
+#
+# **What comes next:** [01 · Why SLAM](01_why_slam.ipynb). A robot drives round a corridor and comes
+# home, but its map does not.
