@@ -109,7 +109,10 @@ def _slides(source):
     """Problems of hidden cells: on a slide, Shift+Enter goes to the next cell, hidden or not."""
     for before, cell in pairwise(source.cells):
         if cell.slide in ("notes", "skip") and before.type == "code":
-            yield cell, f"{cell.slide} behind code: run on a slide, it would end on an empty page"
+            yield (
+                cell,
+                f"{cell.slide} behind code, where Shift+Enter ends on an empty slide: move it up",
+            )
 
 
 def _frame(source):
