@@ -11,7 +11,7 @@ def _sums(functions, inputs):
 
 
 DRIVES = {
-    "99-double": Drive(("double",), seconds=1.0),
-    "99-turn": Drive(("turn",), seconds=1.0),
-    "99-total": Drive(("total", "double"), _sums, seconds=1.0),
+    "99-double": Drive(("double",), seconds=3.0),
+    "99-turn": Drive(("turn",), seconds=3.0),
+    "99-total": Drive(("total", "double"), _sums, seconds=3.0),
 }

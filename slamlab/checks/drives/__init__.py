@@ -53,8 +53,10 @@ def numbers(value, function):
             "malformed", f"{function} returned nothing: is there a return at its end?"
         )
     try:
+        if isinstance(value, str | bytes):  # which astype would read as numbers
+            raise TypeError
         array = np.asarray(value)
-        if array.dtype.kind not in "biufO":  # text would pass astype, complex lose half of itself
+        if array.dtype.kind not in "biufO":  # of complex numbers astype would take the half
             raise TypeError
         if array.size > MOST_NUMBERS:
             raise StudentError("malformed", f"{function} returned {array.size} numbers: too many")
@@ -168,7 +170,7 @@ def describe(error: BaseException) -> str:
             where = f" (line {traceback.tb_lineno} of the cell{inside})"
         traceback = traceback.tb_next
     try:
-        text = str(error).strip().splitlines()
+        text = str(error)[:1000].strip().splitlines()
     except Exception:  # an exception class of the student's own may fail at this, too
         text = []
     return f"{type(error).__name__}: {text[0][:300] if text else 'no message'}{where}"

@@ -1,0 +1,59 @@
+"""Judging: what comes from outside is measured before it is judged."""
+
+import dataclasses
+import re
+
+import numpy as np
+import pytest
+
+from slamlab.checks.task import Exercise, Law
+from tests.grading import fake
+
+TURN = fake.EXERCISE.task("99-turn")
+INPUTS = TURN.draw(b"seed")
+C, S, V = np.cos(INPUTS["angle"]), np.sin(INPUTS["angle"]), INPUTS["v"]
+RIGHT = np.stack([C * V[:, 0] - S * V[:, 1], S * V[:, 0] + C * V[:, 1]], axis=1)
+
+
+def test_inputs_are_told_by_the_seed_and_the_task():
+    again = TURN.draw(b"seed")
+    assert all(np.array_equal(INPUTS[name], again[name]) for name in INPUTS)
+    assert not np.array_equal(TURN.draw(b"other")["v"], INPUTS["v"])
+
+
+@pytest.mark.parametrize(
+    ("outputs", "said"),
+    [
+        ({}, "missing"),
+        ({"result": RIGHT[:5]}, "answered 5 of 20 calls"),
+        ({"result": np.array(1.0)}, "answered 0 of 20 calls"),
+        ({"result": RIGHT[:, :1]}, r"shape \(1,\), expected \(2,\)"),
+        ({"result": RIGHT[:, :, None]}, r"shape \(2, 1\), expected \(2,\)"),
+        ({"result": RIGHT * np.nan}, "NaN or infinity"),
+    ],
+)
+def test_malformed_outputs_earn_nothing(outputs, said):
+    verdict = TURN.judge(INPUTS, outputs)
+    assert (verdict.points, verdict.kind) == (0, "malformed")
+    assert re.search(said, verdict.problem)
+
+
+def test_the_right_outputs_earn_everything_whatever_their_number_type():
+    assert TURN.judge(INPUTS, {"result": RIGHT, "more": np.zeros(3)}).full
+    assert TURN.judge(INPUTS, {"result": RIGHT > 0}).points == 0
+
+
+def test_a_law_that_fails_on_wild_numbers_does_not_hold():
+    def wild(inputs, outputs):
+        raise np.linalg.LinAlgError
+
+    task = dataclasses.replace(TURN, laws=(Law("wild", 1, "", wild), *TURN.laws))
+    verdict = task.judge(INPUTS, {"result": RIGHT})
+    assert [law.failed for law in verdict.laws] == [1, 0]
+    assert verdict.points == 2
+
+
+def test_a_task_may_only_need_one_that_stands_before_it():
+    backwards = tuple(reversed(fake.EXERCISE.tasks))
+    with pytest.raises(ValueError, match="99-total needs a task"):
+        Exercise("99", "x", "x", backwards, "x")
