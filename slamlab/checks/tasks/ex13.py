@@ -12,6 +12,12 @@ EXERCISE = Exercise(
     title="Scan matching",
     tasks=(BEST_MOTION, MIRROR, ICP, TRIMMED, WALK),
     drives="slamlab.checks.drives.ex13",
-    allows=("slamlab.geometry", "slamlab.layers", "slamlab.views"),
+    allows=(
+        "slamlab.geometry",
+        "slamlab.layers",
+        "slamlab.sensors",
+        "slamlab.views",
+        "slamlab.worlds",
+    ),
     answers=("slamlab.scanmatching", "slamlab.estimators", "slamlab.runner"),
 )

@@ -10,8 +10,7 @@ from slamlab.checks.drives.ex13 import ROUNDS
 from slamlab.geometry import from_matrix, matrix
 from slamlab.scanmatching import point_to_point
 
-RIGHT_PAIRS = 0.4, 0.85
-"""Share of the nearest pairs that a first guess gets right."""
+PATIENT = {"tolerance": 1e-12, "max_rounds": ROUNDS - 3}
 
 # turns all the way round, and small steps to each side of an optimum
 _TURNS = np.concatenate([np.arange(1, 12) * np.pi / 6, [1e-3, -1e-3], np.zeros(4)])
@@ -64,28 +63,29 @@ def nearest(source, target):
     return index, np.sqrt(np.take_along_axis(squared, index[..., None], axis=-1)[..., 0])
 
 
-def good_guess(rng, T, source, target, clutter=None, keep=1.0):
+def good_guess(rng, T, source, target, clutter=None, shares=(1.0,), low=0.4, high=0.85):
     """A first guess that gets only some of the pairs right, yet leads to T.
 
     Parameters
     ----------
     T : (3, 3) lands the source (n, 2) on points of the target (m, 2)
     clutter : (k, 2) further points of the source, or None
-    keep : float, share of the pairs that the matcher fits
+    shares : floats, shares of the pairs: a matcher that fits any of them must get there
+    low, high : float, bounds of the share of nearest pairs that are right at the guess
     """
     right, size = nearest(carried(T, source), target)[0], 1.0
     seen = source if clutter is None else np.concatenate([source, clutter])
     while True:
         guess = nudged(rng, T, target.mean(axis=0), size)
         share = np.mean(nearest(carried(guess, source), target)[0] == right)
-        if RIGHT_PAIRS[0] <= share <= RIGHT_PAIRS[1]:
-            first = from_matrix(guess)
-            match = point_to_point(
-                seen, target, first, tolerance=1e-12, max_rounds=ROUNDS - 3, keep=keep
+        if low <= share <= high:
+            ends = (
+                point_to_point(seen, target, from_matrix(guess), keep=keep, **PATIENT).pose
+                for keep in shares
             )
-            if landed(matrix(match.pose), source, target) == len(source):
+            if all(landed(matrix(end), source, target) == len(source) for end in ends):
                 return guess
-        size *= 0.9 if share < RIGHT_PAIRS[0] else 1.1
+        size *= 0.9 if share < low else 1.1
 
 
 def paired(pairs, target):

@@ -48,6 +48,12 @@ def turned_over(M):
     return np.swapaxes(M, -1, -2)
 
 
+def rotation(U, V):
+    """The rotation nearest to V Uᵀ: V diag(1, det V Uᵀ) Uᵀ, as a stack."""
+    least = V[..., 1] * np.linalg.det(V @ turned_over(U))[..., None]
+    return np.stack([V[..., 0], least], axis=-1) @ turned_over(U)
+
+
 def assembled(R, t):
     """Homogeneous matrices (k, 3, 3) of blocks R (k, 2, 2) and t (k, 2)."""
     T = np.zeros((len(R), 3, 3))
@@ -63,9 +69,7 @@ def about_centroids(R, source, target):
 
 def fit(source, target):
     """The best motion of paired clouds, as one of the right ways computes it."""
-    U, V = factors(cross_covariance(source, target))
-    V[..., 1] *= np.linalg.det(V @ turned_over(U))[..., None]
-    return about_centroids(V @ turned_over(U), source, target)
+    return about_centroids(rotation(*factors(cross_covariance(source, target))), source, target)
 
 
 # ---- mistakes: the wrong formula, computed on the same clouds -------------------------------
@@ -76,14 +80,14 @@ def rotation_transposed(source, target):
     return about_centroids(U @ turned_over(V), source, target)
 
 
-def v_for_vt(source, target):
-    U, V = factors(cross_covariance(source, target))
-    return about_centroids(turned_over(V) @ turned_over(U), source, target)
-
-
 def not_centred(source, target):
     U, V = factors(cross_covariance(source, target, centred=False))
     return about_centroids(V @ turned_over(U), source, target)
+
+
+def not_centred_never_mirrored(source, target):
+    U, V = factors(cross_covariance(source, target, centred=False))
+    return about_centroids(rotation(U, V), source, target)
 
 
 def centroid_not_turned(source, target):
@@ -108,6 +112,11 @@ def for_rows(source, target):
 def mirrored(source, target):
     U, V = factors(cross_covariance(source, target))
     return about_centroids(V @ turned_over(U), source, target)
+
+
+def v_for_vt(source, target):
+    U, V = factors(cross_covariance(source, target))
+    return about_centroids(turned_over(V) @ turned_over(U), source, target)
 
 
 def negated(source, target):
@@ -177,16 +186,10 @@ BEST_MOTION = Task(
             answers_with(rotation_transposed),
         ),
         Diagnosis(
-            "v-for-vt",
-            "numpy's svd returns U, S and Vᵀ, not V: the third result has to be transposed "
-            "in R = V Uᵀ.",
-            answers_with(v_for_vt),
-        ),
-        Diagnosis(
             "not-centred",
             "Take the centroids off both clouds before H is summed: turning is about the centroid, "
             "not about the origin.",
-            answers_with(not_centred),
+            answers_with(not_centred, not_centred_never_mirrored),
         ),
         Diagnosis(
             "centroid-not-turned",
@@ -229,6 +232,12 @@ MIRROR = Task(
             "det R = −1: this lays the wall over itself by turning it inside out. Where det(V Uᵀ) "
             "is negative, change the sign of V's last column, that of the least singular value.",
             answers_with(mirrored),
+        ),
+        Diagnosis(
+            "v-for-vt",
+            "numpy's svd returns U, S and Vᵀ, not V, so R = Vt.T @ U.T. In the plane V may be its "
+            "own transpose, which hid the mistake until now.",
+            answers_with(v_for_vt),
         ),
         Diagnosis(
             "negated",

@@ -16,16 +16,16 @@ from slamlab.checks.tasks.ex13_icp import stacked
 from slamlab.geometry import matrix
 from slamlab.scanmatching import point_to_point
 
-COURSES, SCANS, SEEN = 2, 5, 36
+COURSES, SCANS, SEEN = 2, 4, 36
 
 
 def courses(rng):
-    """Robots that turn and drive through a room, scan it five times and misjudge every step."""
+    """Robots that turn and drive through a room, scan it four times and misjudge every step."""
     return stacked(one_course(rng) for _ in range(COURSES))
 
 
 def one_course(rng):
-    """(5, n, 2) scans, each in the robot's frame, and (4, 3, 3) steps as odometry tells them."""
+    """(4, n, 2) scans, each in the robot's frame, and (3, 3, 3) steps as odometry tells them."""
     room = outline(rng, SEEN)
     scans, steps = [room], []
     for _ in range(SCANS - 1):
@@ -61,7 +61,7 @@ def _lands(inputs, outputs):
 
 
 def steps_between(outputs):
-    """(c, 4, 3, 3) the motion from each pose to the next, seen from the former."""
+    """(c, 3, 3, 3) the motion from each pose to the next, seen from the former."""
     poses = outputs["poses"]
     return np.linalg.inv(poses[:, :-1]) @ poses[:, 1:]
 
