@@ -193,7 +193,11 @@ def make_venv(venv):
     if os.path.isdir(venv) and os.listdir(venv):
         if not any(os.path.exists(os.path.join(venv, mark)) for mark in (STAMP, "pyvenv.cfg")):
             raise Trouble("%s is there and no virtual environment; move it away" % venv)
-        shutil.rmtree(venv)
+        write_stamp(venv, {})  # first written, last removed: the mark of a folder that is ours
+        for entry in os.scandir(venv):
+            if entry.name != STAMP:
+                real = entry.is_dir(follow_symlinks=False)
+                (shutil.rmtree if real else os.remove)(entry.path)
     if shutil.disk_usage(ROOT).free < SPACE:
         raise Trouble(FULL)
     os.makedirs(venv, exist_ok=True)

@@ -110,6 +110,20 @@ def test_an_interrupted_installation_is_made_anew(lab):
     assert lab.calls[0] == "venv"
 
 
+def test_an_environment_half_removed_is_made_anew(lab, monkeypatch):
+    lab.start()
+    lab.stamp.write_text("{}")
+
+    def stopped(path):
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as patch:
+        patch.setattr(lab.module.shutil, "rmtree", stopped)
+        assert "start again" in message(lab)
+    lab.start()
+    assert lab.calls[0] == "venv"
+
+
 def test_an_environment_whose_python_is_gone_is_made_anew(lab):
     lab.start()
     os.remove(lab.module.python_of(str(lab.folder / ".venv")))
