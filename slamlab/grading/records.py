@@ -133,4 +133,4 @@ def write(path: Path, text: str):
 def _harmless(text):
     """Text that no spreadsheet takes for a formula."""
     text = "".join(c if c.isprintable() else " " for c in text)
-    return f"'{text}" if text[:1] in "=+-@" and text else text
+    return f"'{text}" if text.lstrip().startswith(("=", "+", "-", "@")) else text

@@ -1,0 +1,71 @@
+"""The course's own exercises: solutions earn everything, what is handed out nothing."""
+
+import ast
+import json
+from pathlib import Path
+
+import pytest
+
+from slamlab.checks import catalogue
+from slamlab.grading import judge, submissions
+
+ROOT = Path(__file__).resolve().parents[2]
+EXERCISES = list(catalogue.EXERCISES)
+
+
+def judged(folder, exercise, change=lambda cells: cells):
+    data = (ROOT / folder / f"{exercise.notebook}.ipynb").read_bytes()
+    notebook = submissions.parse(data)
+    assert notebook.exercise == exercise.id
+    return judge.judge(exercise, change(notebook.cells), b"a seed of the suite")
+
+
+@pytest.mark.parametrize("id", EXERCISES)
+def test_a_solution_earns_full_marks_and_all_its_cells_run_in_a_worker(id):
+    result = judged("solutions", catalogue.exercise(id))
+    assert [v.task for v in result["verdicts"] if not v.full] == []
+    assert result["cells"] == {}
+
+
+@pytest.mark.parametrize("id", EXERCISES)
+def test_what_is_handed_out_earns_nothing_and_all_its_cells_run_in_a_worker(id):
+    result = judged("exercises", catalogue.exercise(id))
+    assert {v.points for v in result["verdicts"]} == {0}
+    assert {v.kind for v in result["verdicts"]} <= {"not attempted", "needs"}
+    assert result["cells"] == {}
+
+
+def without(function):
+    def change(cells):
+        return [
+            (number, source.replace(f"def {function}(", f"def not_{function}("))
+            for number, source in cells
+        ]
+
+    return change
+
+
+def defined_in(id):
+    path = ROOT / "solutions" / f"{catalogue.exercise(id).notebook}.ipynb"
+    cells = json.loads(path.read_text("utf-8"))["cells"]
+    code = "\n".join("".join(c["source"]) for c in cells if c["cell_type"] == "code")
+    return {node.name for node in ast.parse(code).body if isinstance(node, ast.FunctionDef)}
+
+
+@pytest.mark.parametrize("id", EXERCISES)
+def test_one_missing_function_loses_its_task_and_those_that_need_it_and_is_named(id):
+    exercise = catalogue.exercise(id)
+    needed = {need for task in exercise.tasks for need in task.needs}
+    task = next((t for t in exercise.tasks if t.id in needed), exercise.tasks[0])
+    function = task.drive.functions[0]
+    assert function in defined_in(id)
+    verdicts = {v.task: v for v in judged("solutions", exercise, without(function))["verdicts"]}
+    for other in exercise.tasks:
+        verdict = verdicts[other.id]
+        if other is task:
+            assert (verdict.points, verdict.problem) == (0, f"{function} is not defined")
+        elif task.id in other.needs:
+            assert (verdict.points, verdict.kind) == (0, "needs")
+            assert task.id in verdict.problem
+        elif function not in other.drive.functions and not other.needs:
+            assert verdict.full

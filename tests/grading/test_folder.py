@@ -1,0 +1,244 @@
+"""A whole class: everyone is graded or listed, results are whole files, text stays text."""
+
+import argparse
+import csv
+import html.parser
+import json
+import os
+import stat
+
+import pytest
+
+from slamlab.checks.task import LawResult, Verdict
+from slamlab.cli import check, grade
+from slamlab.grading import feedback, judge, records
+from slamlab.grading.records import Record
+from tests.grading import fake
+from tests.grading.conftest import notebook
+
+HTML = "<script>alert(1)</script><img src=x onerror=y>"
+
+
+def command(*arguments):
+    """The exit code of ``slamlab check`` or ``slamlab grade``."""
+    parser = argparse.ArgumentParser()
+    subparsers = parser.add_subparsers()
+    for module in (check, grade):
+        module.add_parser(subparsers)
+    parsed = parser.parse_args([str(argument) for argument in arguments])
+    return parsed.run(parsed)
+
+
+def table(out):
+    with open(out / "grades.csv", encoding="utf-8", newline="") as file:
+        return {row["submission"]: row for row in csv.DictReader(file)}
+
+
+@pytest.fixture(scope="module")
+def class_folder(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("class")
+    silent = notebook(fake.SOLUTION, exercise=None)
+    texts = {
+        "full.ipynb": notebook(fake.SOLUTION),
+        "as it was.ipynb": notebook("def double(a):\n    raise NotImplementedError('here')"),
+        "missing/99_fake/99_fake.ipynb": notebook(fake.SOLUTION, "del double", exercise=None),
+        "=1+1.ipynb": notebook(
+            fake.SOLUTION + f"\ndef turn(v, a):\n    raise ValueError('{HTML}')"
+        ),
+        "silent.ipynb": silent,
+        "empty.ipynb": "",
+        "cut.ipynb": silent[:200],
+        "none.ipynb": json.dumps({"cells": [], "metadata": {"slamlab": {"exercise": "99"}}}),
+        "nobody/readme.txt": "later",
+    }
+    for name, text in texts.items():
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_text(text, encoding="utf-8")
+    return folder
+
+
+def test_a_class_is_graded_and_everyone_is_listed(class_folder, tmp_path, capsys):
+    out = tmp_path / "results"
+    assert command("grade", class_folder, "--out", out, "--jobs", 2) == 0
+    rows = table(out)
+    scores = {name: (row["score"], row["max_score"]) for name, row in rows.items()}
+    assert scores == {
+        "full.ipynb": ("6.5", "6.5"),
+        "as it was.ipynb": ("0", "6.5"),
+        "missing/99_fake/99_fake.ipynb": ("2", "6.5"),
+        "'=1+1.ipynb": ("4.5", "6.5"),
+        "silent.ipynb": ("", ""),
+        "empty.ipynb": ("", ""),
+        "cut.ipynb": ("", ""),
+        "none.ipynb": ("0", "6.5"),
+        "nobody": ("", ""),
+    }
+    first = (out / "grades.csv").read_text("utf-8").splitlines()[0]
+    assert first == "submission,score,max_score,note,99-double,99-turn,99-total"
+    assert rows["full.ipynb"]["note"] == ""
+    assert "99-double: not attempted yet" in rows["as it was.ipynb"]["note"]
+    note = rows["missing/99_fake/99_fake.ipynb"]["note"]
+    assert note.startswith("99-double: double is not defined; 99-total: needs 99-double")
+    for name in ("silent.ipynb", "empty.ipynb", "cut.ipynb", "nobody"):
+        assert rows[name]["note"].startswith("could not be graded: ")
+    said = capsys.readouterr().out
+    assert "5 graded, 4 could not be graded" in said
+    assert len(list((out / "records").iterdir())) == len(list((out / "feedback").iterdir())) == 9
+    assert {path.name for path in out.iterdir()} == {"grades.csv", "records", "feedback", "secret"}
+
+
+def test_a_record_holds_what_defends_a_grade(class_folder, tmp_path):
+    out = tmp_path / "results"
+    secret = tmp_path / "kept"
+    secret.write_bytes(b"0123456789abcdef")
+    command("grade", class_folder, "--out", out, "--secret", secret, "--exercise", "99")
+    found = {
+        content["submission"]: content
+        for content in (json.loads(p.read_text("utf-8")) for p in (out / "records").iterdir())
+    }
+    full, silent = found["full.ipynb"], found["silent.ipynb"]
+    assert (full["state"], full["score"], full["exercise"], full["student"]) == (
+        "graded", 6.5, "99", "full",
+    )  # fmt: skip
+    assert len(full["sha256"]) == 64
+    seed = judge.seed_for(b"0123456789abcdef", "99", full["sha256"])
+    assert full["seed"] == seed.hex()
+    assert set(full["versions"]) == {"slamlab", "python", "numpy", "sympy"}
+    assert full["isolation"] == "none"
+    assert [task["task"] for task in full["tasks"]] == ["99-double", "99-turn", "99-total"]
+    assert [law["points"] for law in full["tasks"][0]["laws"]] == [1, 2]
+    assert set(full["seconds"]) == {"wall", "judge_cpu", "worker_cpu"}
+    assert silent["state"] == "graded"
+    assert found["cut.ipynb"]["state"] == "not graded"
+    assert found["cut.ipynb"]["score"] is None
+    assert not (out / "secret").exists()
+
+
+def test_grading_again_gives_the_same_and_a_new_secret_other_inputs(class_folder, tmp_path):
+    def seeds(out):
+        command("grade", class_folder, "--out", out)
+        paths = sorted((out / "records").iterdir())
+        found = [json.loads(path.read_text("utf-8")) for path in paths]
+        for content in found:
+            content.pop("seconds")
+        return found
+
+    first, again, other = (seeds(tmp_path / name) for name in ("a", "a", "b"))
+    assert first == again
+    assert [r["seed"] for r in first] != [r["seed"] for r in other]
+    assert [r["score"] for r in first] == [r["score"] for r in other]
+    if os.name == "posix":
+        assert stat.S_IMODE((tmp_path / "a" / "secret").stat().st_mode) == 0o600
+
+
+def test_results_within_the_folder_are_not_graded(class_folder, tmp_path):
+    out = class_folder / "out"
+    command("grade", class_folder, "--out", out)
+    (out / "x.ipynb").write_text(notebook(fake.SOLUTION))
+    command("grade", class_folder, "--out", out)
+    assert len(table(out)) == 9
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["nowhere", "--out", "out"], "nowhere is no folder"),
+        (["full", "--out", "out", "--exercise", "77"], "no exercise '77'; there are "),
+        (["full", "--out", "out", "--secret", "none"], "the secret none cannot be read"),
+        (["full", "--out", "out", "--secret", "short"], "shorter than 16 bytes"),
+        (["full", "--out", "full"], "another folder than the submissions'"),
+        (["full", "--out", "short"], "short cannot be made"),
+        (["empty", "--out", "out"], "there is no notebook in empty"),
+        (["full", "--out", "out", "--jobs", "0"], "--jobs must be at least 1"),
+    ],
+)
+def test_wrong_use_is_told_in_one_line(arguments, said, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "full").mkdir()
+    (tmp_path / "full" / "anna.ipynb").write_text(notebook(fake.SOLUTION))
+    (tmp_path / "empty").mkdir()
+    (tmp_path / "short").write_text("abc")
+    assert command("grade", *arguments) == 2
+    error = capsys.readouterr().err
+    assert said in error
+    assert error.count("\n") == 1
+
+
+def test_a_notebook_is_checked_from_the_command_line(class_folder, capsys):
+    assert command("check", class_folder / "full.ipynb") == 0
+    said = capsys.readouterr().out
+    assert "✓ 99-turn · Turn a vector: 2 of 2 points" in said
+    assert said.endswith("6.5 of 6.5 points\n")
+    assert command("check", class_folder / "missing" / "99_fake" / "99_fake.ipynb") == 0
+    assert "double is not defined" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("name", ["cut.ipynb", "empty.ipynb", "silent.ipynb", "nobody", "absent"])
+def test_a_notebook_that_cannot_be_checked_is_told_in_one_line(name, class_folder, capsys):
+    assert command("check", class_folder / name) == 2
+    error = capsys.readouterr().err
+    assert name in error
+    assert error.count("\n") == 1
+
+
+class Tags(html.parser.HTMLParser):
+    """Collects the tags of a page."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.tags = set()
+        self.feed(text)
+
+    def handle_starttag(self, tag, attributes):
+        self.tags.add(tag)
+        assert not [name for name, _ in attributes if name.startswith("on")]
+
+
+OURS = {"html", "head", "meta", "title", "style", "body", "h1", "h2", "p", "div", "section", "span"}
+OURS |= {"ul", "li", "strong", "code"}
+
+
+def test_feedback_says_what_held_what_broke_and_what_gains_the_rest():
+    laws = (LawResult("a", "is <even>", 1, 1, 0, 20), LawResult("b", "grows", 0.0, 2, 7, 20))
+    verdict = Verdict("99-turn", 1, 3, laws, "right", "turn the other way")
+    text = feedback.page(Record("x.ipynb", "x", "99", verdicts=(verdict,), titles={"99-turn": "T"}))
+    for expected in ("is &lt;even&gt;", "broken by 7 of 20 inputs", "turn the other way"):
+        assert expected in text
+    assert "To gain 2 points" in text
+    assert "1 of 3 points" in text
+    assert "right" not in Tags(text).tags
+
+
+def test_whatever_stands_in_a_submission_is_text_in_its_feedback():
+    problem = Verdict("99-turn", 0, 2, problem=HTML, kind="raised", hint=HTML)
+    graded = Record(
+        HTML,
+        HTML,
+        HTML,
+        verdicts=(problem,),
+        cells={3: HTML},
+        notes=(HTML,),
+        titles={"99-turn": HTML},
+    )
+    for record in (graded, Record(HTML, HTML, reason=HTML)):
+        text = feedback.page(record)
+        assert Tags(text).tags <= OURS
+        assert "&lt;script&gt;" in text
+
+
+@pytest.mark.parametrize("start", ["=", "+", "-", "@", "\t=", "\r@", "\n+"])
+def test_no_cell_of_the_table_is_a_formula(start, tmp_path):
+    name = f'{start}cmd|"/c calc"!A1'
+    records.write_csv(tmp_path, [Record(name, name, reason=name)], [])
+    (row,) = table(tmp_path).values()
+    assert row["submission"].lstrip()[0] not in "=+-@"
+    assert row["note"].startswith("could not be graded")
+
+
+def test_files_are_named_apart_whatever_submissions_are_called(tmp_path):
+    names = ["a/b.ipynb", "a-b.ipynb", "a b.ipynb", "../../a.ipynb", "", "Я.ipynb", "x" * 400]
+    stems = {Record(name, "x").stem for name in names}
+    assert len(stems) == len(names)
+    for stem in stems:
+        records.write(tmp_path / f"{stem}.json", "half a character: \udce9")
+    assert len(list(tmp_path.iterdir())) == len(names)
