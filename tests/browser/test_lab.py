@@ -4,7 +4,6 @@ from course.source import ROOT
 from tests.notebooks import load
 
 HIDDEN = ("notes", "skip")
-AT = '[data-windowed-list-index="{}"]'  # a cell by its position in the notebook
 
 
 def test_the_course_opens_without_an_error_and_asks_no_other_machine_for_anything(visit):
@@ -21,14 +20,9 @@ def test_a_key_reveals_one_line_of_a_derivation_after_another(visit):
     assert len(lines) >= 3, "no derivation is marked to be revealed line by line"
 
     visit.open(notebook.name)
-    start = max(n for n in range(lines[0]) if types[n] in ("slide", "subslide"))
-    visit.page.keyboard.press("Escape")
-    for _ in range(start):
-        visit.page.keyboard.press("j")
-    visit.page.wait_for_selector(f".jp-mod-active{AT.format(start)}")
     visit.page.click('[data-jp-item-name="deck"]')
-    wait_for_active(visit, start)
-    for stop in (n for n in range(start + 1, lines[-1] + 1) if types[n] not in HIDDEN):
+    wait_for_active(visit, 0)
+    for stop in (n for n in range(1, lines[-1] + 1) if types[n] not in HIDDEN):
         visit.page.keyboard.press("Space")
         wait_for_active(visit, stop)
         if stop in lines:
@@ -54,7 +48,9 @@ def derivation(types):
 
 def wait_for_active(visit, position):
     """Wait until the deck stands at a cell, given by its position in the notebook."""
-    visit.page.wait_for_selector(f".jp-deck-mod-visible.jp-mod-active{AT.format(position)}")
+    visit.page.wait_for_selector(
+        f'.jp-deck-mod-visible.jp-mod-active[data-windowed-list-index="{position}"]'
+    )
 
 
 def visible(visit):
