@@ -12,9 +12,10 @@
 # *Key:* a model says what happens, its Jacobian says what happens to a small error.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# Each line of a derivation is a cell of its own: press the key, and ask the class for the next line
-# before it appears. The first half stands alone as a lecture; the errata make a second one, or
-# homework in pairs: one types the printed formula, the other predicts the harm.
+# *For the lecturer:* Each line of a derivation is a cell of its own: press the key, and ask the
+# class for the next line before it appears. The first half stands alone as a lecture; the errata
+# make a second one, or homework in pairs: one types the printed formula, the other predicts the
+# harm.
 
 # %% slideshow={"slide_type": "skip"}
 import numpy as np
@@ -36,8 +37,8 @@ from slamlab.layers import Poses
 # **Predict** the shape of the 1000 end points: a disc, a streak along the way, a streak across it?
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# Take a vote. Most say "along the way", because they think of wheels that slip. Nothing slips here:
-# the control is exact, the streak comes from the heading alone.
+# *For the lecturer:* Take a vote. Most say "along the way", because they think of wheels that
+# slip. Nothing slips here: the control is exact, the streak comes from the heading alone.
 
 # %% slideshow={"slide_type": "fragment"}
 rng = np.random.default_rng(4)
@@ -108,8 +109,9 @@ views.explore(
 # errors: an EKF must never let its heading get this bad, for its formulas will not tell.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# Let someone find the σ at which they would stop trusting the ellipse (0.2 to 0.3 rad, most say).
-# Ask: would a longer drive help? No: the banana only grows. Samples (lesson 11) have no such limit.
+# *For the lecturer:* Let someone find the σ at which they would stop trusting the ellipse (0.2 to
+# 0.3 rad, most say). Ask: would a longer drive help? No: the banana only grows. Samples (lesson
+# 11) have no such limit.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## The observation model h
@@ -133,8 +135,8 @@ range_of
 # The bearing is the landmark's direction in the world, less the robot's heading:
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# Ask what atan2 has that tan⁻¹ of the quotient has not (the landmark behind the robot). Leave it at
-# that: the harm is shown below.
+# *For the lecturer:* Ask what atan2 has that tan⁻¹ of the quotient has not (the landmark behind
+# the robot). Leave it at that: the harm is shown below.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 bearing_of = sp.atan2(p_y - y, p_x - x) - theta
@@ -168,7 +170,7 @@ in_r(sp.diff(range_of, y))
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 sp.diff(range_of, theta)
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
+# %% [markdown] slideshow={"slide_type": "subslide"}
 # Turning on the spot brings no landmark nearer. Now the bearing; the derivative of atan2 has r²
 # below:
 
@@ -181,7 +183,7 @@ in_r(sp.diff(bearing_of, y))
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 sp.diff(bearing_of, theta)
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
+# %% [markdown] slideshow={"slide_type": "subslide"}
 # Turn left, and the whole world turns right: −1. Together:
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
@@ -194,8 +196,9 @@ H_robot.applyfunc(in_r)
 # where you are, and as much as a near one about where you look.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# What usually goes wrong: the sign of the second row's second entry. Do it with the body: look at a
-# student, step left, the student moves to the right: the bearing shrinks. So −(p_x − x)/r².
+# *For the lecturer:* What usually goes wrong: the sign of the second row's second entry. Do it
+# with the body: look at a student, step left, the student moves to the right: the bearing shrinks.
+# So −(p_x − x)/r².
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Trust nothing: three ways to the same matrix
@@ -227,6 +230,9 @@ def hold(name, derived, twin, code, differences, point=POINT):
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 by_differences = slopes(lambda pose: models.h(pose, LANDMARK), POSE)
 hold("H_robot", H_robot, symbolic.H_robot, jacobians.H_robot(POSE, LANDMARK), by_differences)
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# Three zeros: the derivation, the code and the model agree.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## The landmark's part of H
@@ -274,15 +280,10 @@ def update(x, P, z, p, H, R, wrapped=True):
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 believed, behind = np.array([0, 0, 0.0]), np.array([-3.0, 0.05])
-measured, P, R = (
-    np.array([3.0, -np.radians(179)]),
-    np.diag([0.1, 0.1, 0.1]) ** 2,
-    noise.R(3, 0.01, 0.02),
-)
+measured, P = np.array([3.0, -np.radians(179)]), np.diag([0.1, 0.1, 0.1]) ** 2
+H_behind, R = jacobians.H_robot(believed, behind), noise.R(3, 0.01, 0.02)
 for wrapped in (True, False):
-    after, _ = update(
-        believed, P, measured, behind, jacobians.H_robot(believed, behind), R, wrapped
-    )
+    after, _ = update(believed, P, measured, behind, H_behind, R, wrapped)
     print(f"wrapped {wrapped!s:5}: heading {np.degrees(after[2]):7.1f}°, y {after[1]:6.2f} m")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
@@ -290,8 +291,8 @@ for wrapped in (True, False):
 # almost once round. No source says "wrap"; every one that runs must.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# This bug shows only when a landmark passes behind the robot: tests with everything in front are
-# green. Ask who has had such a bug in a compass or a clock.
+# *For the lecturer:* This bug shows only when a landmark passes behind the robot: tests with
+# everything in front are green. Ask who has had such a bug in a compass or a clock.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## The motion model f, and A
@@ -365,7 +366,7 @@ f_steered
 A_steered = f_steered.jacobian(pose)
 A_steered
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
+# %% [markdown] slideshow={"slide_type": "subslide"}
 # Again (−Δy, Δx): only the step's direction is another. The noise adds to V and γ, so W has their
 # two columns:
 
@@ -393,7 +394,7 @@ C = sp.diag(s_d**2, s_turn**2)
 Q = W * C * W.T
 Q
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
+# %% [markdown] slideshow={"slide_type": "subslide"}
 # Units: σ_d in metres, σ_Δθ in radians, so the upper left block is in m², the corner in rad².
 # Angles in degrees would be legal here; they are not in A, as we shall see.
 #
@@ -454,7 +455,7 @@ J_xr
 J_z = g.jacobian([r, beta])
 J_z
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
+# %% [markdown] slideshow={"slide_type": "subslide"}
 # J_xr looks like two rows of A: the landmark is a point at the end of a stick of length r, and a
 # turn swings it sideways. J_z is a turn into the world's frame whose second column is stretched by
 # r.
@@ -470,8 +471,8 @@ hold("J_z", J_z, symbolic.J_z, jacobians.J_z(POSE, SEEN), by_measurement)
 # H_landmark J_z must be I, and moving the robot must change nothing, H_robot + H_landmark J_xr = 0.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# The chain rule as a test. A student who has one right Jacobian and doubts the other can use it in
-# an exam without a computer: multiply the two.
+# *For the lecturer:* The chain rule as a test. A student who has one right Jacobian and doubts the
+# other can use it in an exam without a computer: multiply the two.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 there = {p_x: g[0], p_y: g[1]}
@@ -539,8 +540,9 @@ views.show(
 
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# Say it once: these are good theses, read by committees, and every text of this size has such
-# errors. The point is the method. Our own formulas were tested the same way a minute ago.
+# *For the lecturer:* Say it once: these are good theses, read by committees, and every text of
+# this size has such errors. The point is the method. Our own formulas were tested the same way a
+# minute ago.
 
 # %% slideshow={"slide_type": "fragment"}
 errata = {}
@@ -757,9 +759,10 @@ harm(
 # 1]], is right.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# Which is it on a real robot? The wheels count distance and turn; any Δx, Δy was made with some
-# heading. If that heading is the filter's, A as in §4.1. If it is the odometry's own, then its
-# error is shared with no state of the filter, and A = I understates what θ does later on.
+# *For the lecturer:* which is it on a real robot? The wheels count distance and turn; any Δx, Δy
+# was made with some heading. If that heading is the filter's, A is as in §4.1. If it is the
+# odometry's own, A = I is right for one step, but the same heading error enters every step, and a
+# Q with independent steps does not know it.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Smolec (6)–(8): a Q that does not multiply
@@ -775,7 +778,7 @@ try:
 except sp.matrices.exceptions.ShapeError:
     print("refused:", printed_W.shape, "times", printed_C.shape)
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
+# %% [markdown] slideshow={"slide_type": "subslide"}
 # The third component is Δt in (6) and (8), Δθ in (7). What (8) means is c·w wᵀ with w = (Δx, Δy,
 # Δθ). Beside the derived W C Wᵀ:
 
@@ -804,8 +807,9 @@ harm(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# A filter that is sure of its heading takes no correction of it, for ever. The EKF note too makes
-# the noise proportional to Δx, Δy and Δt; the third should be Δθ, and even so the rank is one.
+# A filter that is sure of its heading takes no correction of it. The EKF note too makes the noise
+# proportional to Δx, Δy and Δt (it calls Δt the change of speed; by its formulas it is the length
+# of the step). The third should be Δθ, and even so the rank is one.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Smolec (9): deviation or variance?
@@ -842,7 +846,8 @@ printed_J_xr = sp.Matrix([[1, 0, -sp.sin(theta)], [0, 1, sp.cos(theta)]])
 compare("Smolec (10), J_xr", printed_J_xr, J_xr)
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-printed_J_z = J_z.subs(r, 1)
+c_there, s_there = sp.cos(theta + beta), sp.sin(theta + beta)
+printed_J_z = sp.Matrix([[c_there, -s_there], [s_there, c_there]])
 compare("Smolec (11), J_z", printed_J_z, J_z)
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
@@ -853,12 +858,13 @@ compare("Smolec (11), J_z", printed_J_z, J_z)
 numbers = [0, 0, where[2], *seen]
 as_printed = [sp.lambdify([x, y, theta, r, beta], J)(*numbers) for J in (printed_J_xr, printed_J_z)]
 claims = {"derived": P_new(*J_right), "as printed in (10), (11)": P_new(*as_printed)}
-fig, ax = views.cloud(placed, claims, "The landmark seen once, at 5 m", layers=[line])
+fig, ax = views.cloud(placed, claims, "The landmark seen once, at 5 m")
 views.show(fig, "The derived ellipse covers the samples, the printed one is far too narrow.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** the dashed ellipse leaves out most of the samples. The filter will refuse its own
-# landmark when it sees it again, or bend the robot's pose to it.
+# **See:** the printed ellipse is short across the line of sight, where the landmark is least sure.
+# A filter with a gate will refuse its own landmark when it sees it again; one without will bend
+# the robot's pose to it.
 #
 # How bad is each alone? The *squared error in units of the covariance* is 2 on average where the
 # covariance is right. (11) shows where SLAM starts: there the pose is exact, P = 0.
@@ -915,13 +921,9 @@ compare("Smolec (15), X", correction, X + correction)
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 believed, p = np.array([4.0, 3.0, 0.5]), np.array([6.0, 4.0])
-P, R, H_here = (
-    np.diag([0.1, 0.1, 0.05]) ** 2,
-    np.diag([0.05, 0.02]) ** 2,
-    jacobians.H_robot(believed, p),
-)
+P, R = np.diag([0.1, 0.1, 0.05]) ** 2, np.diag([0.05, 0.02]) ** 2
 z = models.h(believed, p) + np.array([0.03, 0.01])
-after, P_after = update(believed, P, z, p, H_here, R)
+after, P_after = update(believed, P, z, p, jacobians.H_robot(believed, p), R)
 step = after - believed
 harm(
     "Smolec (15), X",
@@ -967,17 +969,19 @@ third = h.subs(dict(zip(landmark, marks[2], strict=True)))
 names = {"robot": pose, **{f"p{i}": mark for i, mark in enumerate(marks, 1)}}
 filled = {name: not third.jacobian(part).is_zero_matrix for name, part in names.items()}
 print(filled)
-errata["MAK (4.9), H₃"] = {
-    "printed": sp.Matrix([sp.symbols("0 0 H_r H_p 0")]),
-    "derived": sp.Matrix([sp.symbols("H_r 0 0 H_p 0")]),
-    "difference": "H_r stands under landmark 2, not under the robot",
-}
+
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+H_r, H_p = sp.symbols("H_r H_p")
+blocks = [(H_r if name == "robot" else H_p) if yes else 0 for name, yes in filled.items()]
+difference = compare("MAK (4.9), H₃", sp.Matrix([[0, 0, H_r, H_p, 0]]), sp.Matrix([blocks]))
 harm("MAK (4.9), H₃", "H_r has 3 columns, a landmark's place 2: does not fit")
+difference
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## All of them, by machine
 #
-# The table is built from what the cells above found: nothing in it is typed by hand but the names.
+# The table is built from what the cells above found. Where shapes do not fit there is no
+# difference to form, and words say so.
 
 
 # %% slideshow={"slide_type": "fragment"}
@@ -1001,14 +1005,14 @@ def table(errata):
 Markdown(table(errata))
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** where the difference is zero, the print is right: §4.1's A, and (3) once (2) is mended.
-# All the others do harm. Most fit on one line of code, and none raises an error: only a test finds
-# them.
+# **See:** where the difference is zero, the print is right: A of §4.1, and (3) once (2) is mended.
+# What does not multiply is harmless: it stops at once. The others run, draw an ellipse, and are
+# wrong; only a test finds them.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# Ask: which of these would you have found by reading? And which by driving a robot? The rank of Q
-# and the sign in A pass every quick look at a plot. Homework: take the EKF-SLAM you used last year
-# and hold its Jacobians against differences.
+# *For the lecturer:* Ask: which of these would you have found by reading? And which by driving a
+# robot? The rank of Q and the sign in A pass every quick look at a plot. Homework: take the
+# EKF-SLAM you used last year and hold its Jacobians against differences.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## What you can do now
