@@ -15,7 +15,8 @@ class Source:
     """Yields readings; describes its robot and sensor; closes.
 
     Subclasses set ``name`` and yield from ``__iter__``. ``damage`` counts, by kind, what could not
-    be used. ``truth`` is for evaluation only and None where nobody knows it.
+    be used; ``skipped`` is how many readings were lost to it. ``truth`` is for evaluation only and
+    None where nobody knows it.
     """
 
     name: str = "source"
@@ -25,6 +26,7 @@ class Source:
 
     def __init__(self):
         self.damage: Counter[str] = Counter()
+        self.skipped = 0
 
     def __iter__(self) -> Iterator[Reading]:
         raise NotImplementedError

@@ -1,0 +1,1 @@
+"""How good an estimate is: against the truth, against published relations."""

@@ -1,0 +1,141 @@
+"""The relations error of Kümmerle et al. 2009: how well relative poses fit trusted ones.
+
+A file of relations has one a line: ``t1 t2 x y z roll pitch yaw``, the pose at t2 seen from that at
+t1 [s, s, m, m, m, rad, rad, rad]. No frame has to be aligned and no old error is counted twice.
+"""
+
+from collections import Counter
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from slamlab.geometry import between, wrap
+from slamlab.sources.base import SourceError
+from slamlab.sources.text import lines, read_bytes
+
+NEAR = 0.002  # a relation's stamps and a pose's differ by no more than this [s]
+
+
+@dataclass(frozen=True)
+class Relations:
+    """Trusted relative poses.
+
+    Parameters
+    ----------
+    stamps : (n, 2) t1 and t2 [s]
+    poses : (n, 3) the pose at t2 seen from that at t1 [m, m, rad]
+    damage : Counter, lines that could not be used, by kind
+    """
+
+    stamps: np.ndarray
+    poses: np.ndarray
+    damage: Counter = field(default_factory=Counter)
+
+
+@dataclass(frozen=True)
+class RelationsError:
+    """Mean errors of a trajectory over relations.
+
+    Parameters
+    ----------
+    count : int, relations that could be used
+    translation, translation_std : float [m]
+    rotation, rotation_std : float [rad]
+    """
+
+    count: int
+    translation: float
+    translation_std: float
+    rotation: float
+    rotation_std: float
+
+
+def load_relations(path):
+    """Relations from a file, plain or gzip.
+
+    Parameters
+    ----------
+    path : str or Path
+
+    Returns
+    -------
+    Relations
+
+    Raises
+    ------
+    SourceError : the file cannot be read or holds no relation
+    """
+    content, torn = read_bytes(path)
+    damage, rows = Counter({"file torn": 1} if torn else {}), []
+    for line, ended in lines(content):
+        if not line.strip() or line.lstrip().startswith(b"#"):
+            continue
+        try:
+            row = [float(word) for word in line.split()]
+        except ValueError:
+            row = []
+        if len(row) != 8 or not np.isfinite(row).all() or (torn and not ended):
+            damage["lines that are no relation"] += 1
+        else:
+            rows.append(row)
+    if not rows:
+        raise SourceError(f"{path} holds no relation: a line reads t1 t2 x y z roll pitch yaw")
+    table = np.array(rows)
+    return Relations(table[:, :2], table[:, [2, 3, 7]], damage)
+
+
+def relations_error(trajectory, relations, near=NEAR):
+    """Mean translational and rotational error over the relations that a trajectory covers.
+
+    e = δ* ⊖ (x_2 ⊖ x_1) for each relation δ*, its length [m] and its turn [rad]
+    (Kümmerle et al. 2009, "On measuring the accuracy of SLAM algorithms", equation 3).
+
+    Parameters
+    ----------
+    trajectory : Trajectory
+    relations : Relations
+    near : float, largest difference between a relation's stamp and a pose's [s]
+
+    Returns
+    -------
+    RelationsError
+
+    Raises
+    ------
+    ValueError : no relation has both stamps in the trajectory
+    """
+    index, gap = nearest_in_time(trajectory.times, relations.stamps)
+    # half a microsecond more: stamps have six decimals
+    usable = (gap <= near + 5e-7).all(axis=1)
+    if not usable.any():
+        raise ValueError(
+            f"none of the {len(usable)} relations has both stamps within {1e3 * near:g} ms of a "
+            "pose: do they belong to this log?"
+        )
+    first, second = trajectory.poses[index[usable]].transpose(1, 0, 2)
+    error = between(relations.poses[usable], between(first, second))
+    distance, turn = np.hypot(error[:, 0], error[:, 1]), np.abs(wrap(error[:, 2]))
+    return RelationsError(
+        int(usable.sum()), *(float(v) for e in (distance, turn) for v in (e.mean(), e.std()))
+    )
+
+
+def nearest_in_time(times, stamps):
+    """Index of the time nearest to each stamp, and how far off it is.
+
+    Parameters
+    ----------
+    times : (n,) [s], in any order, n >= 1
+    stamps : (...) [s]
+
+    Returns
+    -------
+    (...) int, (...) [s]
+    """
+    order = np.argsort(times, kind="stable")
+    ordered = times[order]
+    right = np.clip(np.searchsorted(ordered, stamps), 1, max(1, len(times) - 1))
+    left = right - 1
+    right = np.minimum(right, len(times) - 1)
+    nearer = np.where(np.abs(ordered[left] - stamps) <= np.abs(ordered[right] - stamps), left, right)
+    return order[nearer], np.abs(ordered[nearer] - stamps)

@@ -1,0 +1,140 @@
+"""CARMEN logs: the format of the classic public data sets, one message a line.
+
+A scan is ``FLASER n r_1 … r_n x y θ odom_x odom_y odom_θ stamp host logger_stamp``: ranges in metres
+from right to left, the laser's pose (here ignored: a corrected log holds somebody's result there),
+the odometry's pose, the time of the scan. Other messages and comments are passed over.
+"""
+
+import numpy as np
+
+from slamlab.geometry import between
+from slamlab.hardware import SensorModel
+from slamlab.readings import Reading, Scan
+from slamlab.sources.base import Source, SourceError
+from slamlab.sources.text import lines, read_bytes
+
+RANGE_MAX = 80.0  # a SICK LMS reports 81.83 or 81.91 m where nothing came back
+FARTHEST = 1e7  # no robot's odometry is beyond this [m]
+STEPS = {180: 1.0, 181: 1.0, 360: 0.5, 361: 0.5, 400: 0.25, 401: 0.25}  # degrees between beams
+
+
+class CarmenLog(Source):
+    """A CARMEN log, plain or gzip.
+
+    Parameters
+    ----------
+    path : str or Path
+    content : (bytes, bool) what ``read_bytes`` gave for the path, where that was done already
+
+    Raises
+    ------
+    SourceError : the file cannot be read or holds no readable scan
+    """
+
+    def __init__(self, path, content=None):
+        super().__init__()
+        self.name = str(path)
+        content, torn = read_bytes(path) if content is None else content
+        if torn:
+            self.damage["file torn"] += 1
+        self._range_max = RANGE_MAX
+        self._rows = []
+        for line, ended in lines(content):
+            self._take(line, ended)
+        if not self._rows:
+            lost = f" ({self.skipped} were unreadable)" if self.skipped else ""
+            raise SourceError(f"{path} holds no readable FLASER line{lost}: is it a CARMEN log?")
+        backwards = np.diff([stamp for stamp, _, _ in self._rows]) < 0
+        if backwards.any():
+            self.damage["stamps that run backwards"] += int(backwards.sum())
+        self.sensor = SensorModel(
+            range_max=self._range_max, field_of_view=np.pi, range_sigma=0.01, range_error=0.0
+        )
+
+    def __len__(self):
+        return len(self._rows)
+
+    def __iter__(self):
+        before = self._rows[0][1]
+        for stamp, odometry, ranges in self._rows:
+            yield Reading(
+                time=stamp,
+                odometry=between(before, odometry),
+                scan=Scan(beam_angles(len(ranges)), ranges, range_max=self._range_max),
+            )
+            before = odometry
+
+    def _take(self, line, ended):
+        """Keep a scan; note a setting; count damage; pass over everything else."""
+        words = line.split()
+        if words[:2] == [b"PARAM", b"robot_front_laser_max"] and len(words) > 2:
+            limit = number(words[2])
+            if limit is not None and 0 < limit < np.inf:
+                self._range_max = limit
+        if words[:1] != [b"FLASER"]:
+            return
+        try:
+            row = scan_of(words, ended)
+        except ValueError as kind:
+            self.damage[str(kind)] += 1
+            self.skipped += 1
+            return
+        unusable = ~(row[2] >= 0) | np.isinf(row[2])
+        if unusable.any():
+            self.damage["ranges NaN, infinite or negative"] += int(unusable.sum())
+            row[2][unusable] = np.nan
+        self._rows.append(row)
+
+
+def scan_of(words, ended):
+    """One FLASER line's stamp [s], odometry (3,) and ranges (n,) [m].
+
+    Raises
+    ------
+    ValueError : its text is the kind of damage
+    """
+    count = words[1] if len(words) > 1 else b""
+    if not count.isdigit():
+        raise ValueError("lines without a count of ranges" if ended else "lines cut short")
+    # six numbers of poses and the stamp must follow, host and logger's stamp may
+    surplus = len(words) - 2 - int(count) - 7
+    if not ended and surplus < 1:
+        raise ValueError("lines cut short")
+    if not 0 <= surplus <= 2:
+        raise ValueError("lines whose count of ranges is wrong")
+    numbers = [number(word) for word in words[2 : len(words) - surplus]]
+    if None in numbers:
+        raise ValueError("lines with a word where a number belongs")
+    values = np.array(numbers, dtype=float)
+    ranges, odometry, stamp = values[: int(count)], values[-4:-1], values[-1]
+    if not np.isfinite(values[-4:]).all() or np.abs(odometry).max() > FARTHEST:
+        raise ValueError("lines without a finite odometry and stamp")
+    return float(stamp), odometry, ranges
+
+
+def number(word):
+    """The number a word stands for, or None."""
+    try:
+        return float(word)
+    except ValueError:
+        return None
+
+
+def beam_angles(count):
+    """Directions of a scan's beams, as CARMEN takes them from their number.
+
+    The first looks to the right (−90°). 181, 361 and 401 beams are a SICK's 1°, 0.5° and 0.25°; one
+    less is the same without the last beam. A 0.25° scan covers 100°, centred. Other numbers are
+    spread over 180°.
+
+    Parameters
+    ----------
+    count : int
+
+    Returns
+    -------
+    (count,) [rad]
+    """
+    step = STEPS.get(count, 180.0 / max(1, count - 1))
+    first = -50.0 if count in (400, 401) else -90.0
+    return np.radians(first + step * np.arange(count))
