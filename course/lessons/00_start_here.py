@@ -204,19 +204,18 @@ for theta in (25, 115):
 # | --- | --- | --- | --- | --- |
 # | 00 | [Start here](00_start_here.ipynb) | how all this works | 15 min | |
 # | 01 | [Why SLAM](01_why_slam.ipynb) | a robot that believes its wheels draws a map that does not close | 40 min | 40 min |
+# | 04 | [Models and Jacobians](04_models_and_jacobians.ipynb) | how a robot moves and measures, and how errors pass through: derived, not believed | 90 min | 45 min |
+# | 13 | [Scan matching](13_scan_matching.ipynb) | laying one scan over another until it fits, though nobody knows which points belong together | 90 min | 60 min |
 #
 # They are numbered in the order in which to read them; the numbers leave room for lessons between.
 
 # %% [markdown] slideshow={"slide_type": "skip"}
 # ## If you give the lecture
 #
-# Every lesson holds slide marks and speaker's notes; derivations open one line per key press.
-#
-# - *View → Presentation Mode* makes everything larger. It always works.
-# - With the extra `lecture` installed (`pip install "slamlab[lecture]"` from the project's folder:
-#   `pip install -e ".[lecture]"`) JupyterLab has a slideshow: select a cell, then *View → Activate Command
-#   Palette → Start Deck*. Sliders stay alive on the slides.
-# - Notes are cells of slide type *notes*; you see them in the notebook, not on the slides.
+# Every lesson is also a set of slides, with live cells and sliders; derivations open one line per key
+# press, and speaker's notes stand in cells of their own. `python lab.py --lecture` adds the slideshow to
+# JupyterLab; [docs/lecturing.md](../docs/lecturing.md) says which keys to press and how to see your notes.
+# *View → Presentation Mode* makes everything larger without it.
 
 # %% [markdown]
 # ## Where help is

@@ -1,6 +1,10 @@
 """How a verdict is said to a student, in plain text."""
 
+import textwrap
+
 from slamlab.checks.task import Task, Verdict
+
+WIDTH = 96  # of what is said [letters]
 
 
 def number(points):
@@ -33,7 +37,8 @@ def say(task: Task, verdict: Verdict) -> str:
     lines += [f"  {say_law(law)}" for law in verdict.laws]
     if verdict.hint:
         lines.append(f"  Hint: {verdict.hint}")
-    return "\n".join(lines)
+    # JupyterLab breaks longer lines in the middle of a word
+    return "\n".join(textwrap.fill(line, WIDTH, subsequent_indent="    ") for line in lines)
 
 
 def say_law(law) -> str:
