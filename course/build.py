@@ -3,67 +3,13 @@
 import argparse
 import os
 import sys
-from dataclasses import dataclass
 from pathlib import Path
 
 import nbformat
 
+from course.derive import FOLDERS, derive
 from course.execute import ExecutionError, carry_outputs, execute, executed, same_code
-from course.exercise import check_metadata, regions, solution_metadata, strip
-from course.lint import lint
-from course.source import ROOT, CourseError, read, sources
-
-FOLDERS = {"lesson": ("notebooks",), "exercise": ("exercises", "solutions")}
-
-
-@dataclass(frozen=True)
-class Derived:
-    """One notebook of a source, without outputs.
-
-    Parameters
-    ----------
-    source : Source
-    path : Path, where it is to stand
-    notebook : NotebookNode
-    runs : bool, whether it is stored with outputs
-    """
-
-    source: object
-    path: Path
-    notebook: nbformat.NotebookNode
-    runs: bool
-
-
-def derive(path, root=ROOT):
-    """The notebooks of one source: a lesson's, or an exercise's to solve and solved.
-
-    Parameters
-    ----------
-    path : Path, the source
-    root : Path, the project's folder
-
-    Returns
-    -------
-    list of Derived
-
-    Raises
-    ------
-    CourseError : where the source breaks the course's standards
-    """
-    source = read(path)
-    exercise = _exercise(source.number) if source.kind == "exercise" else None
-    problems = lint(source, exercise)
-    if problems:
-        raise CourseError(problems)
-    return [
-        Derived(
-            source,
-            root / folder / f"{source.path.stem}.ipynb",
-            _notebook(source, exercise, stubs=folder == "exercises"),
-            folder != "exercises",
-        )
-        for folder in FOLDERS[source.kind]
-    ]
+from course.source import ROOT, CourseError, sources
 
 
 def build(path, force=False, root=ROOT):
@@ -186,53 +132,6 @@ def _chosen(names):
         if not hits:
             problems.append(f"{name}: no such source in course/lessons or course/exercises")
     return (chosen if names else known), problems
-
-
-def _exercise(number):
-    from slamlab.checks import catalogue
-
-    try:
-        return catalogue.exercise(number)
-    except KeyError:
-        return None
-
-
-def _notebook(source, exercise, stubs):
-    notebook = nbformat.v4.new_notebook()
-    notebook.metadata = nbformat.from_dict(
-        {
-            "kernelspec": {
-                "display_name": "Python 3 (ipykernel)",
-                "language": "python",
-                "name": "python3",
-            },
-            "language_info": {
-                "file_extension": ".py",
-                "mimetype": "text/x-python",
-                "name": "python",
-                "pygments_lexer": "ipython3",
-            },
-            "slamlab": {source.kind: source.number},
-        }
-    )
-    notebook.cells = [_cell(cell, exercise, stubs) for cell in source.cells]
-    return notebook
-
-
-def _cell(cell, exercise, stubs):
-    metadata = {k: v for k, v in cell.metadata.items() if k != "name"}
-    text = cell.text
-    if cell.check:
-        metadata |= check_metadata(exercise.task(cell.check))
-    elif cell.type == "code" and regions(text):
-        metadata |= solution_metadata(cell.id)
-        text = strip(text) if stubs else text
-    if stubs and "nbval-check-output" in cell.tags:  # nothing is stored to compare with
-        metadata["tags"] = [tag for tag in cell.tags if tag != "nbval-check-output"]
-    if not metadata.get("tags", True):
-        del metadata["tags"]
-    new = nbformat.v4.new_code_cell if cell.type == "code" else nbformat.v4.new_markdown_cell
-    return new(text, id=cell.id, metadata=nbformat.from_dict(metadata))
 
 
 def _run(derived):

@@ -80,6 +80,8 @@ def execute(derived, folder):
         "PYTHONHASHSEED": "0",
         "JUPYTER_PREFER_ENV_PATH": "1",
     }
+    if "SLAMLAB_DATA" in env:  # the kernel stands in another folder
+        env["SLAMLAB_DATA"] = str(Path(env["SLAMLAB_DATA"]).resolve())
     try:
         with TemporaryDirectory() as profile:  # nobody's own profile takes part
             client.execute(env=env | {"IPYTHONDIR": profile})

@@ -2,7 +2,7 @@
 
 import nbformat
 
-from course.build import FOLDERS
+from course.derive import FOLDERS
 from course.source import ROOT, sources
 
 LESSONS = [path for path in sources() if path.parent.name == "lessons"]

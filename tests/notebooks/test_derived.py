@@ -10,7 +10,8 @@ import pytest
 from nbgrader.nbgraderformat import MetadataValidator
 from nbgrader.preprocessors import CheckCellMetadata
 
-from course.build import derive, differences, strangers
+from course.build import differences, strangers
+from course.derive import derive
 from course.exercise import solution_lines
 from course.source import ID, ROOT, read
 from slamlab.checks import catalogue
