@@ -9,9 +9,9 @@ from slamlab.scanmatching.normals import normals
 
 STILL = "the steps are below the tolerance"
 LOST = "too few pairs agree: too little overlap or too poor a first guess"
-# rounds after which steps are damped, and the least share of the source that must find pairs
-CALM = 20
-LEAST = 0.1
+ALONG = 1.0  # longest pair along the wall: far points stand wide apart [m]
+CALM = 20  # rounds after which steps are damped
+LEAST = 0.1  # share of the source that must find pairs
 
 
 def point_to_line(
@@ -24,14 +24,16 @@ def point_to_line(
     keep=0.9,
     gate=(1.0, 0.1),
     normal_gate=0.7,
+    source_normals=None,
+    target_normals=None,
     history=False,
 ):
     """Lay a source cloud over the walls that a target cloud shows.
 
-    Each round pairs nearest points, drops pairs that are too long or whose walls point elsewhere,
+    Each round pairs nearest points, drops pairs too far apart or whose walls point elsewhere,
     keeps the share that lies best, weighs it by Cauchy's function and takes a Gauss-Newton step on
-    Σ w_i (n_i·(R p_i + t − q_i))². The longest pair allowed shrinks from round to round. Stops
-    when a step moves no point of the source by the tolerance.
+    Σ w_i (n_i·(R p_i + t − q_i))². The distance allowed across the wall shrinks
+    from round to round. Stops when a step moves no point of the source by the tolerance.
 
     Parameters
     ----------
@@ -41,8 +43,9 @@ def point_to_line(
     tolerance : float [m]
     max_rounds : int
     keep : float, share of the agreeing pairs to fit
-    gate : (2,) longest pair in the first and in the last rounds [m]
+    gate : (2,) longest pair across the wall in the first and in the last rounds [m]
     normal_gate : float, largest angle between the two walls of a pair [rad]
+    source_normals, target_normals : (n, 2), (m, 2) where known already; NaN where there is none
     history : bool, keep a Round for the start and after each fit
 
     Returns
@@ -56,15 +59,17 @@ def point_to_line(
     source, target, pose = checked(source, target, initial)
     limits(tolerance, max_rounds, keep)
     nearest = Nearest(target)
-    n_target, n_source = normals(target), normals(source)
+    n_source = normals(source) if source_normals is None else source_normals
+    n_target = normals(target) if target_normals is None else target_normals
     reach = np.hypot(*source.T).max()
     past, width, verdict = [], max(gate), ""
     for rounds in range(max_rounds + 1):
         moved = transform(pose, source)
         distances, indices = nearest(moved)
         n = n_target[indices]
-        agree = walls_agree(n, n_source, pose[2], normal_gate) & (distances <= width)
         residuals = np.einsum("ij,ij->i", n, moved - target[indices])
+        agree = walls_agree(n, n_source, pose[2], normal_gate)
+        agree &= (distances <= ALONG) & (np.abs(residuals) <= width)
         used = np.flatnonzero(agree)
         if len(used) < max(3, LEAST * len(source)):
             verdict = LOST
@@ -75,7 +80,7 @@ def point_to_line(
             past.append(Round(pose, error, np.column_stack([used, indices[used]])))
         if verdict or rounds == max_rounds:
             break
-        step = gauss_newton(n[used], moved[used] - pose[:2], residuals[used], reach)
+        step = gauss_newton(n[used], moved[used] - pose[:2], residuals[used])
         # pairs that flip to and fro would never let it rest: late steps are damped
         step *= 0.9 ** max(0, rounds - CALM)
         pose = np.array([*(pose + step)[:2], wrap(pose[2] + step[2])])
@@ -103,7 +108,7 @@ def walls_agree(n, n_source, turn, limit):
         return cosine > np.cos(limit)
 
 
-def gauss_newton(n, arm, residuals, reach, floor=0.005, unseen=1e-3):
+def gauss_newton(n, arm, residuals, floor=0.005, unseen=1e-3):
     """The step (dx, dy, dθ) that lowers Σ w r², with r's derivative [n_x, n_y, arm × n].
 
     Cauchy's weight is w = 1 / (1 + (r/c)²), with c from the residuals' median. A direction that
@@ -114,7 +119,6 @@ def gauss_newton(n, arm, residuals, reach, floor=0.005, unseen=1e-3):
     n : (k, 2) unit normals
     arm : (k, 2) points seen from the robot, in the target's directions [m]
     residuals : (k,) distances across the walls [m]
-    reach : float, farthest point of the source, which turns angles into lengths [m]
     floor : float, least c [m]
     unseen : float, eigenvalue under this share of the largest counts as not fixed [1]
 
@@ -124,10 +128,11 @@ def gauss_newton(n, arm, residuals, reach, floor=0.005, unseen=1e-3):
     """
     c = max(floor, 1.4826 * np.median(np.abs(residuals)))
     w = 1 / (1 + (residuals / c) ** 2)
-    lever = (arm[:, 0] * n[:, 1] - arm[:, 1] * n[:, 0]) / max(reach, 1e-9)
-    J = np.column_stack([n, lever])
+    # angles count as the way a point at the middling distance goes
+    reach = max(1e-9, np.sqrt(np.mean(arm**2)))
+    J = np.column_stack([n, (arm[:, 0] * n[:, 1] - arm[:, 1] * n[:, 0]) / reach])
     A, b = J.T @ (w[:, None] * J), -J.T @ (w * residuals)
     eigenvalues, axes = np.linalg.eigh(A)
     fixed = eigenvalues > unseen * eigenvalues[-1]
     step = axes[:, fixed] @ ((axes[:, fixed].T @ b) / eigenvalues[fixed])
-    return np.array([step[0], step[1], step[2] / max(reach, 1e-9)])
+    return np.array([step[0], step[1], step[2] / reach])

@@ -1,8 +1,8 @@
 """CARMEN logs: the format of the classic public data sets, one message a line.
 
-A scan is ``FLASER n r_1 … r_n x y θ odom_x odom_y odom_θ stamp host logger_stamp``: ranges in metres
-from right to left, the laser's pose (here ignored: a corrected log holds somebody's result there),
-the odometry's pose, the time of the scan. Other messages and comments are passed over.
+A scan is ``FLASER n r_1 … r_n x y θ odom_x odom_y odom_θ stamp host logger_stamp``: ranges in
+metres from right to left, the laser's pose (here ignored: a corrected log holds somebody's result
+there), the odometry's pose, the time of the scan. Other messages and comments are passed over.
 """
 
 import numpy as np

@@ -25,11 +25,11 @@ def read_bytes(path):
     """
     path = Path(path)
     try:
-        if path.is_dir():
-            raise SourceError(f"{path} is a folder: name a log file in it")
         content = path.read_bytes()
     except FileNotFoundError:
         raise SourceError(f"{path}: no such file") from None
+    except IsADirectoryError:
+        raise SourceError(f"{path} is a folder: name a log file in it") from None
     except (OSError, ValueError) as error:
         raise SourceError(f"{path} cannot be read: {reason(error)}") from None
     return unpack(content) if content.startswith(GZIP) else (content, False)

@@ -1,0 +1,61 @@
+"""Sources of readings: simulations, logs, recordings, all opened by one function."""
+
+import json
+
+import numpy as np
+
+from slamlab.sources.base import Source, SourceError
+from slamlab.sources.carmen import CarmenLog
+from slamlab.sources.readinglog import FORMAT, ReadingLog, write
+from slamlab.sources.recordings import FILES, recording
+from slamlab.sources.simulation import simulation
+from slamlab.sources.text import read_bytes
+
+__all__ = ["Source", "SourceError", "open", "recording", "simulation", "write"]
+
+SIMULATED = "sim:"
+
+
+def open(spec, rng=None):
+    """Open a source: a simulation, a log file, a recording by its name.
+
+    What a file is, its content tells, not its name.
+
+    Parameters
+    ----------
+    spec : str or Path, ``sim:WORLD``, a file, or a recording's name where no such file exists
+    rng : numpy.random.Generator, for simulations; seed 0 by default
+
+    Returns
+    -------
+    Source
+
+    Raises
+    ------
+    SourceError : what is wrong and what there is
+    """
+    spec = str(spec)
+    if spec.startswith(SIMULATED):
+        rng = np.random.default_rng(0) if rng is None else rng
+        return simulation(spec.removeprefix(SIMULATED), rng)
+    if spec in FILES:
+        spec = str(recording(spec))
+    content, torn = read_bytes(spec)
+    if not content.strip():
+        raise SourceError(f"{spec} is empty: it holds no readings")
+    if _is_reading_log(content):
+        return ReadingLog(spec, (content, torn))
+    if content.startswith(b"FLASER") or b"\nFLASER" in content or b"\rFLASER" in content:
+        return CarmenLog(spec, (content, torn))
+    raise SourceError(
+        f"{spec} is no log that slamlab knows: it is neither a CARMEN log with FLASER lines nor a "
+        "reading log"
+    )
+
+
+def _is_reading_log(content):
+    first = content.split(b"\n", 1)[0]
+    try:
+        return json.loads(first)["format"] == FORMAT
+    except (ValueError, TypeError, KeyError, RecursionError):
+        return False

@@ -1,0 +1,215 @@
+"""Reading logs: the project's own text format, a JSON header and then one reading a line.
+
+NaN is written as null, a limit of infinity too. Numbers come back exactly as they were.
+``reckoned`` is the odometry summed up so far: where a line is lost, its motion is not.
+"""
+
+import gzip
+import json
+from dataclasses import asdict, fields
+from itertools import chain
+from pathlib import Path
+
+import numpy as np
+
+from slamlab.geometry import between, compose
+from slamlab.hardware import RobotModel, SensorModel
+from slamlab.readings import Observations, Reading, Scan, Trajectory
+from slamlab.sources.base import Source, SourceError
+from slamlab.sources.text import lines, read_bytes, reason
+
+FORMAT, VERSION = "slamlab reading log", 1
+
+
+class ReadingLog(Source):
+    """A reading log, plain or gzip.
+
+    Parameters
+    ----------
+    path : str or Path
+    content : (bytes, bool) what ``read_bytes`` gave for the path, where that was done already
+
+    Raises
+    ------
+    SourceError : the file cannot be read, is no reading log or holds no readable reading
+    """
+
+    def __init__(self, path, content=None):
+        super().__init__()
+        content, torn = read_bytes(path) if content is None else content
+        if torn:
+            self.damage["file torn"] += 1
+        first, *rest = list(lines(content)) or [(b"", False)]
+        self._angles = self._header(path, first[0])
+        self._readings, truth, before, lost = [], [], None, False
+        for line, _ in rest:
+            if not line.strip():
+                continue
+            try:
+                reading, reckoned, true = self._reading(json.loads(line))
+            except (ValueError, TypeError, KeyError, RecursionError, OverflowError):
+                self.damage["lines that are no reading"] += 1
+                self.skipped += 1
+                lost = True
+                continue
+            if lost and before is not None:
+                reading = Reading(**vars(reading) | {"odometry": between(before, reckoned)})
+            before, lost = reckoned, False
+            self._readings.append(reading)
+            if true is not None:
+                truth.append((reading.time, true))
+        if not self._readings:
+            raise SourceError(f"{path} holds no readable reading after its header")
+        if truth:
+            times, poses = zip(*truth, strict=True)
+            self.truth = Trajectory(np.array(times), np.array(poses))
+
+    def __len__(self):
+        return len(self._readings)
+
+    def __iter__(self):
+        return iter(self._readings)
+
+    def _header(self, path, line):
+        """Name, robot and sensor; returns the angles that scans share."""
+        try:
+            header = json.loads(line)
+            if header["format"] != FORMAT:
+                raise ValueError
+        except (ValueError, TypeError, KeyError, RecursionError):
+            raise SourceError(f"{path} is no reading log: its first line is no header") from None
+        if header.get("version") != VERSION:
+            raise SourceError(
+                f"{path} is a reading log of version {header.get('version')!r}; this slamlab "
+                f"reads version {VERSION}"
+            )
+        try:
+            self.name = str(header["name"])
+            self.robot, self.sensor = (
+                kind(**{f.name: _number(header[key][f.name]) for f in fields(kind)})
+                for key, kind in (("robot", RobotModel), ("sensor", SensorModel))
+            )
+            return None if header["angles"] is None else _array(header["angles"], (-1,))
+        except (ValueError, TypeError, KeyError):
+            raise SourceError(f"{path}: the header of this reading log is damaged") from None
+
+    def _reading(self, row):
+        """A reading, the odometry so far, the true pose or None."""
+        scan = observations = control = None
+        if row.get("scan") is not None:
+            angles = self._angles
+            if row["scan"].get("angles") is not None:
+                angles = _array(row["scan"]["angles"], (-1,))
+            scan = Scan(
+                angles,
+                _array(row["scan"]["ranges"], (len(angles),), gaps=True),
+                range_max=_number(row["scan"]["range_max"]),
+                range_min=float(row["scan"]["range_min"]),
+            )
+        if row.get("observations") is not None:
+            z = _array(row["observations"]["z"], (-1, 2))
+            ids = np.array(row["observations"]["ids"], dtype=int).reshape(len(z))
+            observations = Observations(z, ids)
+        if row.get("control") is not None:
+            control = _array(row["control"], (-1,))
+        reading = Reading(
+            float(_array([row["time"]], (1,))[0]),
+            _array(row["odometry"], (3,)),
+            scan,
+            observations,
+            control,
+        )
+        true = row.get("truth")
+        return reading, _array(row["reckoned"], (3,)), None if true is None else _array(true, (3,))
+
+
+def write(source, path):
+    """Write a source's readings as a reading log; ``.gz`` at the end of the name packs it.
+
+    Parameters
+    ----------
+    source : Source
+    path : str or Path
+
+    Returns
+    -------
+    int, how many readings were written
+
+    Raises
+    ------
+    SourceError : the file cannot be written
+    """
+    readings, waiting = iter(source), []
+    for reading in readings:
+        waiting.append(reading)
+        if reading.scan is not None:
+            break
+    angles = waiting[-1].scan.angles if waiting and waiting[-1].scan is not None else None
+    true = (
+        {}
+        if source.truth is None
+        else dict(zip(source.truth.times, source.truth.poses, strict=True))
+    )
+    header = {
+        "format": FORMAT,
+        "version": VERSION,
+        "name": source.name,
+        "robot": _limits(asdict(source.robot)),
+        "sensor": _limits(asdict(source.sensor)),
+        "angles": None if angles is None else _listed(angles),
+    }
+    opener = gzip.open if str(path).endswith(".gz") else open
+    reckoned, count = np.zeros(3), 0
+    try:
+        with opener(Path(path), "wt", encoding="utf-8") as file:
+            file.write(json.dumps(header, allow_nan=False) + "\n")
+            for reading in chain(waiting, readings):
+                count += 1
+                reckoned = compose(reckoned, reading.odometry)
+                row = _row(reading, angles, reckoned, true.get(reading.time))
+                file.write(json.dumps(row, allow_nan=False) + "\n")
+    except OSError as error:
+        raise SourceError(f"{path} cannot be written: {reason(error)}") from None
+    return count
+
+
+def _row(reading, angles, reckoned, true):
+    row = {
+        "time": float(reading.time),
+        "odometry": _listed(reading.odometry),
+        "reckoned": _listed(reckoned),
+    }
+    if reading.scan is not None:
+        row["scan"] = _limits(
+            {"range_min": reading.scan.range_min, "range_max": reading.scan.range_max}
+        ) | {"ranges": _listed(reading.scan.ranges)}
+        if not np.array_equal(reading.scan.angles, angles):
+            row["scan"]["angles"] = _listed(reading.scan.angles)
+    if reading.observations is not None:
+        z, ids = reading.observations.z, reading.observations.ids
+        row["observations"] = {"z": np.asarray(z).tolist(), "ids": np.asarray(ids).tolist()}
+    if reading.control is not None:
+        row["control"] = _listed(reading.control)
+    if true is not None:
+        row["truth"] = _listed(true)
+    return row
+
+
+def _listed(values):
+    return [float(v) if np.isfinite(v) else None for v in values]
+
+
+def _limits(table):
+    return {key: float(v) if np.isfinite(v) else None for key, v in table.items()}
+
+
+def _number(value):
+    return np.inf if value is None else float(value)
+
+
+def _array(values, shape, gaps=False):
+    """Numbers of a JSON list as an array of this shape; null only where gaps are allowed."""
+    array = np.array(values, dtype=float).reshape(shape)
+    if np.isinf(array).any() or (np.isnan(array).any() and not gaps):
+        raise ValueError
+    return array
