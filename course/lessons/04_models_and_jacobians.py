@@ -65,7 +65,7 @@ A_home.round(3)
 # Near the start, f is as good as the straight map "error of the start → A · error of the start". A
 # straight map turns the covariance P into A P Aᵀ.
 
-# %% slideshow={"slide_type": "subslide"}
+# %% slideshow={"slide_type": "slide"}
 way = Poses("the way, as believed", [home, models.f_odometry(home, three_metres)])
 ellipse = {"A P Aᵀ, 95 %": A_home @ P_home @ A_home.T}
 fig, ax = views.cloud(ends, ellipse, "1000 robots after 3 m", layers=[way])
@@ -170,7 +170,7 @@ in_r(sp.diff(range_of, y))
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 sp.diff(range_of, theta)
 
-# %% [markdown] slideshow={"slide_type": "subslide"}
+# %% [markdown] slideshow={"slide_type": "slide"}
 # Turning on the spot brings no landmark nearer. Now the bearing; the derivative of atan2 has r²
 # below:
 
@@ -183,7 +183,7 @@ in_r(sp.diff(bearing_of, y))
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 sp.diff(bearing_of, theta)
 
-# %% [markdown] slideshow={"slide_type": "subslide"}
+# %% [markdown] slideshow={"slide_type": "slide"}
 # Turn left, and the whole world turns right: −1. Together:
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
@@ -366,7 +366,7 @@ f_steered
 A_steered = f_steered.jacobian(pose)
 A_steered
 
-# %% [markdown] slideshow={"slide_type": "subslide"}
+# %% [markdown] slideshow={"slide_type": "slide"}
 # Again (−Δy, Δx): only the step's direction is another. The noise adds to V and γ, so W has their
 # two columns:
 
@@ -394,7 +394,7 @@ C = sp.diag(s_d**2, s_turn**2)
 Q = W * C * W.T
 Q
 
-# %% [markdown] slideshow={"slide_type": "subslide"}
+# %% [markdown] slideshow={"slide_type": "slide"}
 # Units: σ_d in metres, σ_Δθ in radians, so the upper left block is in m², the corner in rad².
 # Angles in degrees would be legal here; they are not in A, as we shall see.
 #
@@ -410,7 +410,7 @@ predicted = wheels_trusted + noise.Q(jacobians.W_odometry(home, three_metres), C
 print("samples ", ends.std(axis=0).round(2))
 print("formula ", np.sqrt(np.diag(predicted)).round(2), " [m, m, rad]")
 
-# %% slideshow={"slide_type": "subslide"}
+# %% slideshow={"slide_type": "slide"}
 ellipses = {"A P Aᵀ + Q": predicted, "A P Aᵀ, wheels trusted": wheels_trusted}
 fig, ax = views.cloud(ends, ellipses, "The same 3 m with noisy wheels", layers=[way])
 views.show(fig, "The cloud is wider along the way than without wheel noise; A P Aᵀ + Q covers it.")
@@ -455,7 +455,7 @@ J_xr
 J_z = g.jacobian([r, beta])
 J_z
 
-# %% [markdown] slideshow={"slide_type": "subslide"}
+# %% [markdown] slideshow={"slide_type": "slide"}
 # J_xr looks like two rows of A: the landmark is a point at the end of a stick of length r, and a
 # turn swings it sideways. J_z is a turn into the world's frame whose second column is stretched by
 # r.
@@ -519,7 +519,7 @@ def P_new(J_xr, J_z, P=P_where):
     return J_xr @ P @ J_xr.T + J_z @ R_seen @ J_z.T
 
 
-# %% slideshow={"slide_type": "subslide"}
+# %% slideshow={"slide_type": "slide"}
 J_right = jacobians.J_xr(where, seen), jacobians.J_z(where, seen)
 line = Poses("the line of sight", [where, [*models.g(where, seen), sum(where[2:] + seen[1:])]])
 ellipse = {"J_xr P J_xrᵀ + J_z R J_zᵀ": P_new(*J_right)}
@@ -638,7 +638,7 @@ def localise(H_of, rng, steps=20):
     return errors, P
 
 
-# %% slideshow={"slide_type": "subslide"}
+# %% slideshow={"slide_type": "slide"}
 runs = {
     name: [localise(H_of, np.random.default_rng(seed)) for seed in range(100)]
     for name, H_of in [("derived H", jacobians.H_robot), ("H as printed in (2)", H_as_printed)]
@@ -707,7 +707,7 @@ compare("Smolec §4.1 and EKF note, A", sp.Matrix([[1, 0, -Dy], [0, 1, Dx], [0, 
 # §4.1 is right. (5) turns the step twice. **Predict** what its ellipse looks like beside the
 # samples, for a robot that looks to the upper left (150°).
 
-# %% slideshow={"slide_type": "subslide"}
+# %% slideshow={"slide_type": "slide"}
 rng = np.random.default_rng(4)
 west, straight_on = np.array([0, 0, np.radians(150)]), np.array([3.0, 0.0])
 starts = rng.multivariate_normal(west, P_home, 1000)
@@ -736,7 +736,7 @@ harm("Smolec §4.1 and EKF note, A", "none: this one is right")
 # **See:** the dashed ellipse leans the wrong way: the filter will take a landmark's hint to the
 # left for one to the right.
 
-# %% [markdown] slideshow={"slide_type": "subslide"}
+# %% [markdown] slideshow={"slide_type": "slide"}
 # (12) *adds* (Δx, Δy, Δθ) as odometry gives it. If these are global increments that come from the
 # wheels' own count and not from the estimated θ, then A is something else:
 
@@ -778,7 +778,7 @@ try:
 except sp.matrices.exceptions.ShapeError:
     print("refused:", printed_W.shape, "times", printed_C.shape)
 
-# %% [markdown] slideshow={"slide_type": "subslide"}
+# %% [markdown] slideshow={"slide_type": "slide"}
 # The third component is Δt in (6) and (8), Δθ in (7). What (8) means is c·w wᵀ with w = (Δx, Δy,
 # Δθ). Beside the derived W C Wᵀ:
 
@@ -854,7 +854,7 @@ compare("Smolec (11), J_z", printed_J_z, J_z)
 # The range is missing in both, the bearing in the first. **Predict** the ellipse, beside the
 # samples of the landmark seen at 5 m.
 
-# %% slideshow={"slide_type": "subslide"}
+# %% slideshow={"slide_type": "slide"}
 numbers = [0, 0, where[2], *seen]
 as_printed = [sp.lambdify([x, y, theta, r, beta], J)(*numbers) for J in (printed_J_xr, printed_J_z)]
 claims = {"derived": P_new(*J_right), "as printed in (10), (11)": P_new(*as_printed)}
