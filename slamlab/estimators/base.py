@@ -10,13 +10,15 @@ class Estimator:
     """Takes readings in and says where the robot is and what the map looks like.
 
     Subclasses implement ``step`` and ``layers`` and keep ``pose`` up to date. ``trajectory`` is the
-    past as believed now: a graph revises it, a filter does not. ``status`` is one line for people.
+    past as believed now: a graph revises it, a filter does not. ``status`` is one line for people,
+    ``skipped`` counts readings with nothing usable in them.
     """
 
     status: str = ""
 
     def __init__(self):
         self.pose = np.zeros(3)
+        self.skipped = 0
         self._times: list[float] = []
         self._poses: list[np.ndarray] = []
 

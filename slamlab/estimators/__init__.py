@@ -1,0 +1,35 @@
+"""Estimators: every SLAM of the course, made by its name."""
+
+from slamlab.estimators.base import Estimator
+from slamlab.estimators.icp import IcpSlam
+from slamlab.estimators.odometry import Odometry
+
+__all__ = ["NAMES", "Estimator", "IcpSlam", "Odometry", "make"]
+
+MAKERS = {
+    "odometry": lambda source: Odometry(),
+    "icp": lambda source: IcpSlam(),
+    "icp-plain": lambda source: IcpSlam(plain=True),
+}
+NAMES = tuple(MAKERS)
+
+
+def make(name, source):
+    """An estimator by its name, for a source's robot and sensor.
+
+    Parameters
+    ----------
+    name : str, one of NAMES
+    source : Source
+
+    Returns
+    -------
+    Estimator
+
+    Raises
+    ------
+    ValueError : there is no such estimator; the text lists those there are
+    """
+    if name not in MAKERS:
+        raise ValueError(f"no estimator {name!r}; there are: {', '.join(NAMES)}")
+    return MAKERS[name](source)
