@@ -59,10 +59,11 @@ check("04-h-robot")
 # %%
 @attempt
 def _():
-    x, p = np.array([1.0, 0.5, 0.3]), np.array([2.6, 2.1])
+    x, p = np.array([1.0, 0.5, 0.3]), np.array([3.1, 1.4])
+    H = H_robot(x, p)
     for name, step in zip(["x", "y", "θ"], 0.01 * np.eye(3), strict=True):
         print(f"step along {name}:  h changes by", (h(x + step, p) - h(x, p)).round(4))
-        print("                  H says       ", (H_robot(x, p) @ step).round(4))
+        print("                  H says       ", (H @ step).round(4))
 
 
 # %% [markdown]
@@ -133,11 +134,8 @@ def _():
     x, u, P = np.array([0, 0, 0.5]), np.array([3.0, 0.4]), np.diag([0.1, 0.1, 0.08]) ** 2
     A = A_odometry(x, u)
     ends = np.array([f_odometry(start, u) for start in rng.multivariate_normal(x, P, 500)])
-    ellipse = (A @ P @ A.T)[:2, :2]
-    fig, ax = views.axes("Where robots end that started unsure")
-    views.draw(ax, layers.Points("robots that drove", ends[:, :2]))
-    views.draw(ax, layers.Ellipses("A P Aᵀ, 95 %", [f_odometry(x, u)[:2]], [ellipse]))
-    ax.legend()
+    way = layers.Poses("the way, as believed", [x, f_odometry(x, u)])
+    fig, _ = views.cloud(ends, {"your A P Aᵀ, 95 %": A @ P @ A.T}, layers=[way])
     views.show(fig, alt="The end points of 500 robots and the ellipse of your A P Aᵀ.")
 
 
@@ -229,18 +227,8 @@ def _():
     P_nn, _ = new_landmark(x, P, z, R)
     poses, seen = rng.multivariate_normal(x, P, 500), rng.multivariate_normal(z, R, 500)
     placed = np.array([g(pose, one) for pose, one in zip(poses, seen, strict=True)])
-    fig, ax = views.axes("Where a new landmark may be")
-    views.draw(
-        ax,
-        layers.Poses(
-            "corrected",
-            [x],
-        ),
-        label="robot, as believed",
-    )
-    views.draw(ax, layers.Points("landmark, placed by each robot", placed))
-    views.draw(ax, layers.Ellipses("P_nn, 95 %", [g(x, z)], [P_nn]))
-    ax.legend()
+    line = layers.Poses("the line of sight", [x, [*g(x, z), x[2] + z[1]]])
+    fig, _ = views.cloud(placed, {"your P_nn, 95 %": P_nn}, layers=[line])
     views.show(fig, alt="500 places where the landmark may be and the ellipse of your P_nn.")
 
 

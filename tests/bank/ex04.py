@@ -338,7 +338,7 @@ def H_landmark(x, p):
 def A_odometry(x, u):
     A = np.identity(3)
     A[:2, 2] = u[0] * np.array([-np.sin(x[2]), np.cos(x[2])])
-    return np.matrix(A)
+    return A.tolist()
 
 def J_z(x, z):
     angle = x[2] + z[1]
@@ -368,7 +368,7 @@ RIGHT = [
     Right("central differences", _DIFFERENCES.format(step="1e-6", back=1)),
     Right("one-sided differences", _DIFFERENCES.format(step="1e-6", back=0)),
     Right("complex step", _COMPLEX_STEP),
-    Right("from unit vectors, as lists and np.matrix", _GEOMETRIC),
+    Right("from unit vectors, as lists", _GEOMETRIC),
     Right("the joint covariance in one product", _BLOCKS),
     Right("through Cholesky factors", _FACTORS),
 ]

@@ -86,7 +86,8 @@ A_ODOMETRY = (
     mistake("identity-missing", IDENTITY, lambda i: np.zeros(2), part=np.s_[[0, 1], [0, 1]]),
     mistake(
         "printed-5",
-        "This is (5) as printed, and it turns the step twice: Δx = d cos θ holds the cosine "
+        "This is Smolec's (5) as printed, and it turns the step twice: Δx = d cos θ holds the "
+        "cosine "
         "already. "
         "Write f out in d and θ, then differentiate.",
         _printed_5,
@@ -94,7 +95,7 @@ A_ODOMETRY = (
     ),
     mistake(
         "step-missing",
-        "The distance is missing, as in the printed (4). The farther the robot drives, the more "
+        "The distance is missing, as in Smolec's (4). The farther the robot drives, the more "
         "a heading error moves its end point.",
         _at_drive(_first, np.ones_like),
         part=COLUMN,
@@ -148,7 +149,8 @@ _in_J_z = partial(mistake, output="J_z")
 J_XR = (
     _in_J_xr(
         "printed-10",
-        "J_xr as printed in (10): neither range nor bearing is in it. Does a turn of the robot "
+        "J_xr as printed in Smolec's (10): neither range nor bearing is in it. Does a turn of "
+        "the robot "
         "move "
         "a landmark at 8 m as little as one at 1 m?",
         _at_sight(_first, np.ones_like),
@@ -204,7 +206,8 @@ J_XR = (
 J_Z = (
     _in_J_z(
         "printed-11",
-        "J_z as printed in (11) is a pure rotation. Look at the units of its second column: metres "
+        "J_z as printed in Smolec's (11) is a pure rotation. Look at the units of its second "
+        "column: metres "
         "of landmark per radian of bearing. Where do the metres come from?",
         _polar(_sum, np.ones_like),
         _polar(_first, np.ones_like),

@@ -97,7 +97,7 @@ H_ROBOT = (
     ),
     mistake(
         "printed-2",
-        "One sign is wrong, the one that is also printed wrongly in (2): the bearing row's second "
+        "One sign is wrong, the one that Smolec's (2) prints wrongly: the bearing row's second "
         "entry. Robot at the origin, landmark at (1, 0): a step along +y, and the bearing "
         "becomes …?",
         _dx_over_q,
@@ -152,7 +152,7 @@ H_LANDMARK = (
     ),
     mistake(
         "printed-3",
-        "One sign is wrong: the one (3) inherits from the wrong sign printed in (2). Robot at the "
+        "One sign is wrong: the one that Smolec's (3) inherits from (2). Robot at the "
         "origin, landmark at (1, 0): the landmark moves along +y, and its bearing becomes …?",
         lambda i: -_dx_over_q(i),
         part=np.s_[1, 1],
