@@ -20,11 +20,11 @@ class CannotStart(Exception):
 
 
 class Gone(Exception):
-    """A worker is dead or was killed; ``kind`` is "time" or "died", ``said`` its last words."""
+    """A worker hangs or is dead; ``kind`` is "time" or "died"."""
 
-    def __init__(self, kind, said):
+    def __init__(self, kind):
         super().__init__(kind)
-        self.kind, self.said = kind, said
+        self.kind = kind
 
 
 class Client:
@@ -74,6 +74,7 @@ class Client:
         try:
             head, arrays = self._ask({"do": "task", "task": task.id}, inputs, task.drive.seconds)
         except Gone as gone:
+            self._end()
             raise StudentError(gone.kind, _say(gone.kind, task.drive.seconds)) from None
         if head.get("problem") is not None:
             kind = head.get("kind")
@@ -90,6 +91,7 @@ class Client:
                 try:
                     self._load_cell(number, source)
                 except Gone as gone:
+                    self._end()
                     self._lethal.add(number)
                     self.problems[number] = _say(gone.kind, CELL_SECONDS)
                     break
@@ -113,7 +115,9 @@ class Client:
         try:
             head, _ = self._exchange(b"", START_SECONDS)
         except Gone as gone:
-            raise CannotStart(f"the worker did not start ({gone.kind}): {gone.said}") from None
+            said = self._process.errors()
+            self._end()
+            raise CannotStart(f"the worker did not start ({gone.kind}): {said}") from None
         if head.get("ready") is not True:
             self._end()
             raise CannotStart("the worker did not say that it is ready")
@@ -136,14 +140,13 @@ class Client:
         except queue.Empty:
             answer, kind = None, "time"
         if answer is None or answer[0].get("turn") != self._turn:
-            raise Gone(kind, self._end())
+            raise Gone(kind)
         return answer
 
     def _end(self):
         if self._process is None:
-            return ""
+            return
         process, self._process = self._process, None
-        said = process.errors()
         process.kill()
         self.cpu += process.cpu
         self._thread.join(1.0)
@@ -151,7 +154,6 @@ class Client:
             for stream in (process.sending, process.receiving):
                 with contextlib.suppress(OSError):
                     stream.close()
-        return said
 
 
 def _talk(process, frame, answers):

@@ -1,5 +1,6 @@
 """Starting a worker: a fresh interpreter on a copy that holds only what its exercise allows."""
 
+import functools
 import os
 import shutil
 import signal
@@ -14,6 +15,7 @@ from slamlab.grading.closure import STUBBED, closure
 ISOLATION = "none"
 """A process of its own, nothing more: what a submission may do on this machine is not bounded."""
 
+POSIX = os.name == "posix"
 BOOT = (
     "import sys; sys.path.insert(0, sys.argv[2]); sys.path += sys.argv[3:]; "
     "from slamlab.grading import worker; worker.main(sys.argv[1])"
@@ -22,7 +24,10 @@ BOOT = (
 
 def modules(exercise):
     """The modules a worker of an exercise holds, name to file."""
-    return closure([exercise.drives, *exercise.allows, "slamlab.grading.worker"])
+    return _closure((exercise.drives, *exercise.allows, "slamlab.grading.worker"))
+
+
+_closure = functools.cache(closure)
 
 
 class Process:
@@ -37,29 +42,13 @@ class Process:
         self.cpu = 0.0
         self._folder = tempfile.TemporaryDirectory(prefix="slamlab-", ignore_cleanup_errors=True)
         folder = Path(self._folder.name)
-        copy = folder / "copy"
-        for name, file in modules(exercise).items():
-            target = Path(copy, *name.split("."))
-            target = (
-                target / "__init__.py" if file.name == "__init__.py" else target.with_suffix(".py")
-            )
-            target.parent.mkdir(parents=True, exist_ok=True)
-            shutil.copyfile(stub.__file__ if name == STUBBED else file, target)
-        home = folder / "home"
+        copy, home = folder / "copy", folder / "home"
+        _fill(copy, exercise)
         home.mkdir()
+        options = ["-I", "-S", "-B", "-c", BOOT, exercise.drives, copy, *_libraries(folder)]
         with open(folder / "errors", "wb") as errors:
             self._process = subprocess.Popen(
-                [
-                    _python(),
-                    "-I",
-                    "-S",
-                    "-B",
-                    "-c",
-                    BOOT,
-                    exercise.drives,
-                    copy,
-                    *_libraries(folder),
-                ],
+                [sys.executable, *options],
                 stdin=subprocess.PIPE,
                 stdout=subprocess.PIPE,
                 stderr=errors,
@@ -70,14 +59,14 @@ class Process:
         self.sending, self.receiving = self._process.stdin, self._process.stdout
 
     def errors(self):
-        """The last line that a worker which could not even start has left."""
+        """The last line of a worker that could not even start; not for one that ran a cell."""
         lines = Path(self._folder.name, "errors").read_text("utf-8", "replace").strip().splitlines()
         return lines[-1][:300] if lines else ""
 
     def kill(self):
         """End the worker and all processes of its group; its CPU time [s] is in :attr:`cpu`."""
         if self._process.returncode is None:
-            if hasattr(os, "killpg"):
+            if POSIX:
                 # before it is waited for: until then its number cannot be another's
                 os.killpg(self._process.pid, signal.SIGKILL)
                 _, status, usage = os.wait4(self._process.pid, 0)
@@ -89,8 +78,13 @@ class Process:
         self._folder.cleanup()
 
 
-def _python():
-    return sys.executable
+def _fill(copy, exercise):
+    for name, file in modules(exercise).items():
+        target = Path(copy, *name.split("."))
+        if file.name == "__init__.py":
+            target = target / "__init__"
+        target.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(stub.__file__ if name == STUBBED else file, f"{target}.py")
 
 
 def _environment(home):
@@ -116,7 +110,7 @@ def _libraries(folder):
         path = Path(place)
         if path.name not in ("site-packages", "dist-packages") or not path.is_dir():
             continue
-        if (path / "slamlab").exists():
+        if (path / "slamlab").exists() and POSIX:  # links need a privilege elsewhere
             view = folder / f"libraries-{len(found)}"
             view.mkdir()
             for entry in path.iterdir():

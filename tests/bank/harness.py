@@ -7,6 +7,7 @@ import io
 import json
 import pkgutil
 import re
+import warnings
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -72,7 +73,7 @@ _STUBS = "check = attempt = lambda *_: None"
 def verdicts(bank, names, seed, only=None):
     """What the judge says of the tasks, with the inputs of one seed."""
     seed = f"bank {seed}".encode()
-    with np.errstate(all="ignore"):
+    with np.errstate(all="ignore"), warnings.catch_warnings(action="ignore"):
         return bank.exercise.verdicts(lambda task: task.run(names, task.draw(seed)), only)
 
 
