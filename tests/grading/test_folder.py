@@ -1,6 +1,5 @@
 """A whole class: everyone is graded or listed, results are whole files, text stays text."""
 
-import argparse
 import csv
 import html.parser
 import json
@@ -10,7 +9,7 @@ import stat
 import pytest
 
 from slamlab.checks.task import LawResult, Verdict
-from slamlab.cli import check, grade
+from slamlab.cli import main
 from slamlab.grading import feedback, judge, records
 from slamlab.grading.records import Record
 from tests.grading import fake
@@ -21,12 +20,7 @@ HTML = "<script>alert(1)</script><img src=x onerror=y>"
 
 def command(*arguments):
     """The exit code of ``slamlab check`` or ``slamlab grade``."""
-    parser = argparse.ArgumentParser()
-    subparsers = parser.add_subparsers()
-    for module in (check, grade):
-        module.add_parser(subparsers)
-    parsed = parser.parse_args([str(argument) for argument in arguments])
-    return parsed.run(parsed)
+    return main([str(argument) for argument in arguments])
 
 
 def table(out):
