@@ -208,7 +208,6 @@ H_robot.applyfunc(in_r)
 # `slamlab.symbolic`, with the fast code in `slamlab.jacobians`, and with differences of the model
 # itself.
 
-
 # %% slideshow={"slide_type": "fragment"}
 POINT = {x: 1.2, y: -0.7, theta: 0.9, p_x: -1.5, p_y: 2.2, d: 1.3, turn: 0.4, r: 3.1, beta: 1.1}
 POSE, LANDMARK, DRIVE, SEEN = (
@@ -538,7 +537,6 @@ views.show(
 # Now we hold what is printed in the sources against the derivation. The machine subtracts; we look
 # at the harm, since a wrong formula that harms nobody is a spelling mistake.
 
-
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* Say it once: these are good theses, read by committees, and every text of
 # this size has such errors. The point is the method. Our own formulas were tested the same way a
@@ -585,15 +583,18 @@ fig, ax = views.curves(
 )
 views.show(fig, "atan2 follows the direction all round; tan⁻¹ is 180° off beyond ±90°.")
 
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# **See:** the dashed line jumps: all that lies behind (beyond ±90°) is seen in front. The quotient
+# forgets the signs of its two parts.
+
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 off = np.abs(wrap(np.radians(printed_bearings - bearings)))
 share = np.mean(off > 1e-6)
 harm("Smolec (1), h", f"{share:.0%} of all directions come out {np.degrees(off.max()):.0f}° off")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** the dashed line jumps: all that lies behind (beyond ±90°) is seen in front. The quotient
-# forgets the signs of its two parts. The MAK thesis has the same tan⁻¹ in (2.29), and from the
-# object to the robot: as atan2 that order would be 180° off everywhere.
+# The MAK thesis has the same tan⁻¹ in (2.29), taken from the object to the robot: read as atan2,
+# that order would be 180° off everywhere.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 reverse = sp.Matrix([range_of, sp.atan2(y - p_y, x - p_x) - theta])
@@ -651,6 +652,10 @@ views.show(
     fig, "With the derived H the error falls to 2 cm, with the printed one it stays at 14 cm."
 )
 
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# **See:** after two sightings the dashed error does not fall any more, the solid one does. And how
+# sure is the filter of its wrong place?
+
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 good, bad = (run[-1] for run in medians.values())
 sigma = np.median([np.sqrt(np.trace(P[:2, :2])) for _, P in runs["H as printed in (2)"]])
@@ -661,9 +666,10 @@ harm(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** the error does not fall any more, and, worse, the covariance does: the filter is sure of
-# something wrong. (3) repeats the entries for the landmark with the other sign. Once (2) is
-# mended, that is right:
+# Worse than the error: the covariance shrinks all the same. The filter is sure of something wrong.
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# (3) repeats the entries for the landmark with the other sign. Once (2) is mended, that is right:
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 difference = compare("Smolec (3), H", -H[:, :2], H_landmark.applyfunc(in_r))
@@ -721,6 +727,10 @@ way = Poses("the way, as believed", [west, models.f_odometry(west, straight_on)]
 fig, ax = views.cloud(ends, claims, "Heading 150°, 3 m driven", layers=[way])
 views.show(fig, "The derived ellipse covers the samples; the printed one leans the other way.")
 
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# **See:** the dashed ellipse leans the wrong way: the filter will take a landmark's hint to the
+# left for one to the right.
+
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 def correlation(P):
@@ -731,10 +741,6 @@ told = [correlation(P) for P in (np.cov(ends.T), *claims.values())]
 text = "correlation of x and y: samples {:+.1f}, derived {:+.1f}, printed {:+.1f}"
 harm("Smolec (5), A", text.format(*told))
 harm("Smolec §4.1 and EKF note, A", "none: this one is right")
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** the dashed ellipse leans the wrong way: the filter will take a landmark's hint to the
-# left for one to the right.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # (12) *adds* (Δx, Δy, Δθ) as odometry gives it. If these are global increments that come from the
