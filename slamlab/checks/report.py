@@ -2,7 +2,8 @@
 
 import textwrap
 
-from slamlab.checks.task import Task, Verdict
+from slamlab.checks.task import Task
+from slamlab.checks.verdict import Verdict
 
 WIDTH = 96  # of what is said [letters]
 

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from slamlab.checks.drives import Arrays, Drive, StudentError
+from slamlab.checks.verdict import LawResult, Verdict
 
 
 @dataclass(frozen=True)
@@ -44,47 +45,6 @@ class Diagnosis:
     name: str
     hint: str
     matches: Callable[[Arrays, Arrays], bool]
-
-
-@dataclass(frozen=True)
-class LawResult:
-    """How one law came out; ``failed`` of ``tried`` inputs broke it."""
-
-    name: str
-    says: str
-    points: float
-    max_points: float
-    failed: int
-    tried: int
-
-
-@dataclass(frozen=True)
-class Verdict:
-    """What the judge found of one task.
-
-    Parameters
-    ----------
-    task : str, the task's id
-    points, max_points : float
-    laws : results of the laws, empty when nothing could be judged
-    diagnosis, hint : str or None, the mistake recognised
-    problem : str or None, why nothing could be judged, in words for the student
-    kind : str or None, the kind of that problem
-    """
-
-    task: str
-    points: float
-    max_points: float
-    laws: tuple[LawResult, ...] = ()
-    diagnosis: str | None = None
-    hint: str | None = None
-    problem: str | None = None
-    kind: str | None = None
-
-    @property
-    def full(self):
-        """Whether every point was earned."""
-        return self.problem is None and all(law.failed == 0 for law in self.laws)
 
 
 @dataclass(frozen=True)

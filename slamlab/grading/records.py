@@ -11,7 +11,7 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
 from slamlab.checks.report import number
-from slamlab.checks.task import Verdict
+from slamlab.checks.verdict import Verdict
 
 COLUMNS = ("submission", "score", "max_score", "note")
 

@@ -9,6 +9,7 @@ from slamlab.grading.closure import closure
 JUDGE = (
     "slamlab.checks.task",
     "slamlab.checks.tasks",
+    "slamlab.checks.verdict",
     "slamlab.checks.catalogue",
     "slamlab.grading.judge",
     "slamlab.grading.client",

@@ -8,7 +8,7 @@ import stat
 
 import pytest
 
-from slamlab.checks.task import LawResult, Verdict
+from slamlab.checks.verdict import LawResult, Verdict
 from slamlab.cli import main
 from slamlab.grading import feedback, judge, records
 from slamlab.grading.records import Record
