@@ -181,11 +181,8 @@ def _():
         T = icp(scans[1], scans[0], WRONG[0], rounds)
         off = pose(T) - pose(TRUE[0])
         error = f"{1000 * np.hypot(*off[:2]):.0f} mm and {abs(np.degrees(off[2])):.1f}° off"
-        fig, ax = views.axes(f"round {rounds}: {error}")
-        views.draw(ax, Points("map", scans[0]), label="first scan")
-        views.draw(ax, Points("scan", carry(T, scans[1])), label="second scan")
-        ax.legend(loc="upper left")
-        return fig
+        title = f"round {rounds}: {error}"
+        return views.overlay(scans[0], carry(T, scans[1]), title=title)[0]
 
     views.explore(draw, alt="Second scan over the first after some rounds.", rounds=(0, 20, 4))
 

@@ -7,6 +7,7 @@ from slamlab.views.compare import cloud, curves
 from slamlab.views.figures import COLOURS, axes, chart, panels, png, show
 from slamlab.views.growth import growth
 from slamlab.views.layers import draw, legend, side_by_side
+from slamlab.views.overlay import overlay
 from slamlab.views.sketches import frames
 from slamlab.views.widgets import explore
 
@@ -21,6 +22,7 @@ __all__ = [
     "frames",
     "growth",
     "legend",
+    "overlay",
     "panels",
     "png",
     "show",
