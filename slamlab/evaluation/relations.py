@@ -137,5 +137,7 @@ def nearest_in_time(times, stamps):
     right = np.clip(np.searchsorted(ordered, stamps), 1, max(1, len(times) - 1))
     left = right - 1
     right = np.minimum(right, len(times) - 1)
-    nearer = np.where(np.abs(ordered[left] - stamps) <= np.abs(ordered[right] - stamps), left, right)
+    nearer = np.where(
+        np.abs(ordered[left] - stamps) <= np.abs(ordered[right] - stamps), left, right
+    )
     return order[nearer], np.abs(ordered[nearer] - stamps)

@@ -1,0 +1,43 @@
+"""The command line: ``slamlab COMMAND``; each command is a module with ``add_parser``.
+
+Exit codes: 0 done, 2 wrong use or unreadable input, 130 interrupted.
+"""
+
+import argparse
+import sys
+from importlib import import_module
+
+from slamlab import __version__
+
+COMMANDS = ("run", "convert", "check", "grade")
+
+
+def main(argv=None):
+    """Run a command.
+
+    Parameters
+    ----------
+    argv : list of str or None, the words after ``slamlab``; those it was started with by default
+
+    Returns
+    -------
+    int, the exit code
+    """
+    parser = argparse.ArgumentParser(
+        prog="slamlab",
+        description="Simultaneous localisation and mapping: run it, check it, grade it.",
+        epilog="slamlab COMMAND --help says more of a command.",
+    )
+    parser.add_argument("--version", action="version", version=f"slamlab {__version__}")
+    subparsers = parser.add_subparsers(metavar="COMMAND", required=True)
+    for command in COMMANDS:
+        import_module(f"slamlab.cli.{command}").add_parser(subparsers)
+    arguments = parser.parse_args(argv)
+    try:
+        return arguments.run(arguments)
+    except KeyboardInterrupt:
+        return 130
+    except BrokenPipeError:
+        # whoever read the output has gone: nothing is left to be said
+        sys.stderr.close()
+        return 0

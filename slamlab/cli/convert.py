@@ -1,0 +1,34 @@
+"""``slamlab convert SOURCE FILE``: write any source as a reading log."""
+
+import sys
+
+
+def add_parser(subparsers):
+    """Add the command to the command line."""
+    parser = subparsers.add_parser(
+        "convert",
+        help="write a source as a reading log",
+        description="Write a source as a reading log: a JSON header, then one reading a line.",
+    )
+    parser.add_argument(
+        "source", metavar="SOURCE", help="a log file, sim:WORLD, or a recording's name"
+    )
+    parser.add_argument("file", metavar="FILE", help="what to write; .gz at its end packs it")
+    parser.add_argument("--seed", metavar="N", type=int, default=0, help="of a simulation's noise")
+    parser.set_defaults(run=run)
+
+
+def run(arguments) -> int:
+    """Convert; 0 when done, 2 when something cannot be read or written."""
+    # imported late: what a help text needs should come at once
+    from slamlab import sources
+    from slamlab.cli.common import damage_line, generator
+
+    try:
+        with sources.open(arguments.source, generator(arguments.seed)) as source:
+            count = sources.write(source, arguments.file)
+    except ValueError as error:
+        print(f"slamlab convert: {error}", file=sys.stderr)
+        return 2
+    print(f"{count} readings written to {arguments.file}{damage_line(source)}")
+    return 0

@@ -1,0 +1,196 @@
+"""``slamlab run SOURCE --estimator NAME``: a SLAM over a source, with table, map and files."""
+
+import csv
+import json
+import sys
+from pathlib import Path
+
+COLUMNS = ("time", "x", "y", "theta", "naive_x", "naive_y", "naive_theta")
+
+
+def add_parser(subparsers):
+    """Add the command to the command line."""
+    parser = subparsers.add_parser(
+        "run",
+        help="run a SLAM over a log or a simulation",
+        description=(
+            "Run an estimator over a source and say how far it got. With --out it writes "
+            "trajectory.csv, map.png and summary.json."
+        ),
+    )
+    parser.add_argument(
+        "source", metavar="SOURCE", help="a log file, sim:WORLD, or a recording's name"
+    )
+    parser.add_argument(
+        "--estimator", metavar="NAME", default="icp", help="odometry, icp or icp-plain (icp)"
+    )
+    parser.add_argument("--out", metavar="DIR", type=Path, help="a folder for the results")
+    parser.add_argument(
+        "--relations", metavar="FILE", help="trusted relative poses to judge by: t1 t2 x y z r p y"
+    )
+    parser.add_argument("--seed", metavar="N", type=int, default=0, help="of a simulation's noise")
+    parser.set_defaults(run=run)
+
+
+def run(arguments) -> int:
+    """Run; 0 when done, 2 when something cannot be read or written."""
+    # imported late: what a help text needs should come at once
+    from slamlab import estimators, evaluation, sources
+    from slamlab.cli.common import damage_line, generator
+
+    try:
+        # whatever can be wrong is found before the long run, not after it
+        relations = None
+        if arguments.relations is not None:
+            relations = evaluation.load_relations(arguments.relations)
+        with sources.open(arguments.source, generator(arguments.seed)) as source:
+            estimator = estimators.make(arguments.estimator, source)
+            if arguments.out is not None:
+                arguments.out.mkdir(parents=True, exist_ok=True)
+            result = _with_progress(source, estimator)
+        summary = summarise(result, arguments.estimator, relations)
+        if arguments.out is not None:
+            write(result, summary, arguments.out)
+    except OSError as error:
+        where = error.filename or arguments.out
+        print(f"slamlab run: {where}: {error.strerror}", file=sys.stderr)
+        return 2
+    except ValueError as error:
+        print(f"slamlab run: {error}", file=sys.stderr)
+        return 2
+    _print(summary)
+    print(f"{result.skipped} of {result.frames} readings skipped{damage_line(source)}")
+    if arguments.out is not None:
+        print(f"written to {arguments.out}: trajectory.csv, map.png, summary.json")
+    return 0
+
+
+def summarise(result, estimator, relations=None):
+    """What a run came to, as plain numbers for summary.json.
+
+    Parameters
+    ----------
+    result : Run
+    estimator : str, its name
+    relations : Relations or None
+
+    Returns
+    -------
+    dict
+
+    Raises
+    ------
+    ValueError : no relation belongs to this source
+    """
+    from slamlab.evaluation import absolute_error, relations_error
+
+    summary = {
+        "source": result.source.name,
+        "estimator": estimator,
+        "frames": result.frames,
+        "skipped": result.skipped,
+        "seconds": round(result.seconds, 3),
+        "damage": dict(result.source.damage),
+    }
+    if relations is not None:
+        naive, corrected = (
+            relations_error(t, relations) for t in (result.naive, result.trajectory)
+        )
+        summary["relations"] = {
+            "count": corrected.count,
+            "naive_m": naive.translation,
+            "corrected_m": corrected.translation,
+            "naive_rad": naive.rotation,
+            "corrected_rad": corrected.rotation,
+        }
+    truth = result.source.truth
+    # readings lost to damage leave no true pose for each estimate
+    if truth is not None and len(truth) == result.frames:
+        naive, corrected = (absolute_error(t, truth) for t in (result.naive, result.trajectory))
+        summary["truth"] = {
+            "count": corrected.count,
+            "naive_m": naive.translation,
+            "corrected_m": corrected.translation,
+            "naive_rad": naive.rotation,
+            "corrected_rad": corrected.rotation,
+        }
+    return summary
+
+
+def write(result, summary, folder):
+    """Write trajectory.csv, map.png and summary.json.
+
+    Parameters
+    ----------
+    result : Run
+    summary : dict
+    folder : Path, there already
+    """
+    from slamlab.views import png
+
+    with (folder / "trajectory.csv").open("w", newline="", encoding="utf-8") as file:
+        table = csv.writer(file)
+        table.writerow(COLUMNS)
+        for time, pose, naive in zip(
+            result.trajectory.times, result.trajectory.poses, result.naive.poses, strict=True
+        ):
+            table.writerow([repr(float(v)) for v in (time, *pose, *naive)])
+    (folder / "map.png").write_bytes(png(picture(result)))
+    text = json.dumps(summary, indent=2, ensure_ascii=False)
+    (folder / "summary.json").write_text(text + "\n", encoding="utf-8")
+
+
+def picture(result):
+    """The naive map beside the corrected one, one scale, with tracks.
+
+    Parameters
+    ----------
+    result : Run
+
+    Returns
+    -------
+    Figure
+    """
+    from slamlab.layers import Poses
+    from slamlab.views import side_by_side
+
+    layers = result.estimator.layers()
+    naive = [layer for layer in layers if layer.name == "naive"]
+    panels = {}
+    if any(not isinstance(layer, Poses) for layer in naive):
+        panels["odometry alone"] = naive
+    panels[f"{result.source.name.rpartition('/')[2]}: corrected"] = [
+        layer for layer in layers if layer not in naive or not panels
+    ]
+    fig, _ = side_by_side(panels, size=(12, 6))
+    return fig
+
+
+def _with_progress(source, estimator):
+    from rich.console import Console
+    from rich.progress import Progress
+
+    from slamlab.runner import run as feed
+
+    with Progress(console=Console(stderr=True), transient=True) as progress:
+        bar = progress.add_task("running", total=len(source) or None)
+        return feed(source, estimator, lambda reading, estimator: progress.advance(bar))
+
+
+def _print(summary):
+    from rich.console import Console
+    from rich.table import Table
+
+    table = Table("", "odometry alone", summary["estimator"])
+    for key, title in (("relations", "relations"), ("truth", "truth")):
+        if key in summary:
+            row = summary[key]
+            for unit, name in (("m", "position [m]"), ("rad", "heading [rad]")):
+                table.add_row(
+                    f"{title} ({row['count']}): {name}",
+                    f"{row[f'naive_{unit}']:.3f}",
+                    f"{row[f'corrected_{unit}']:.3f}",
+                )
+    if table.row_count:
+        Console().print(table)
+    print(f"{summary['frames']} readings of {summary['source']} in {summary['seconds']:.1f} s")
