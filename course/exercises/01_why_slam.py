@@ -10,9 +10,8 @@
 #   laws hold, and what the mistake is where it knows it.
 # - Cells marked `@attempt` draw. They say "not attempted yet" until your functions are there.
 #
-# About 40 minutes. You need the lesson
-# [01 · Why SLAM](../notebooks/01_why_slam.ipynb) before. Metres and radians everywhere; a pose is
-# `[x, y, θ]` with θ counter-clockwise from +x.
+# About 40 minutes. You need the lesson [01 · Why SLAM](../notebooks/01_why_slam.ipynb) before.
+# Metres and radians everywhere; a pose is `[x, y, θ]` with θ counter-clockwise from +x.
 
 # %%
 import numpy as np
@@ -26,11 +25,12 @@ from slamlab.sensors import RPLIDAR_A2
 # ## 1 · One step
 #
 # After each step the odometry reports what the robot did **as seen from where it was before**:
-# `[forward, left, turn]`, in metres, metres and radians. A robot at `[2, 1, π/2]` looks along +y; after a
-# step `[0.5, 0, 0]` it stands at `[2, 1.5, π/2]`.
+# `[forward, left, turn]`, in metres, metres and radians. A robot at `[2, 1, π/2]` looks along +y;
+# after a step `[0.5, 0, 0]` it stands at `[2, 1.5, π/2]`.
 #
 # Return the new pose. Two things to think of: the step was measured in the frame of the *old* pose,
 # and a heading lies between −π and π.
+
 
 # %% name="next-pose"
 def next_pose(pose, step):
@@ -54,6 +54,7 @@ def next_pose(pose, step):
     )
     ### END SOLUTION
 
+
 # %%
 check("01-next-pose")
 
@@ -62,6 +63,7 @@ check("01-next-pose")
 #
 # Chain the steps: each begins where the one before ended. Return **all** poses, the start first, so
 # that n steps make n + 1 rows. Use your `next_pose`.
+
 
 # %% name="track"
 def track(start, steps):
@@ -78,16 +80,18 @@ def track(start, steps):
     return np.array(poses)
     ### END SOLUTION
 
+
 # %%
 check("01-track")
 
 # %% [markdown]
-# Now drive round the corridor. `tour` gives the steps of one lap, half a metre each, with a
-# quarter turn at each of the four corners. With `corner_error` the odometry reports every quarter
-# turn a little too large, as a robot with a worn tyre does.
+# Now drive round the corridor. `tour` gives the steps of one lap, half a metre each, with a quarter
+# turn at each of the four corners. With `corner_error` the odometry reports every quarter turn a
+# little too large, as a robot with a worn tyre does.
 #
 # **Before you run it:** with 3° too much at each corner, how far from its start will the robot
 # believe to be after the lap of 42 m? Write a number down.
+
 
 # %% name="tour"
 def tour(corner_error=0.0):
@@ -112,6 +116,7 @@ def _():
     ax.legend(loc="center")
     views.show(fig, alt="The true lap closes; the lap of the odometry leaves the corridor.")
 
+
 # %% [markdown]
 # The true lap closes. The odometry's lap runs through the walls: after four corners it is 12° off,
 # and it does not come back to where it began.
@@ -119,10 +124,11 @@ def _():
 # %% [markdown]
 # ## 3 · The map
 #
-# The lidar reports points in the robot's frame: x ahead, y to the left. Put them where they
-# belong in the world: turned by the robot's heading, then moved to where it stands. The points stand
-# in rows; mind that when you turn them by a matrix (the conventions in
+# The lidar reports points in the robot's frame: x ahead, y to the left. Put them where they belong
+# in the world: turned by the robot's heading, then moved to where it stands. The points stand in
+# rows; mind that when you turn them by a matrix (the conventions in
 # [00](../notebooks/00_start_here.ipynb) say how).
+
 
 # %% name="place"
 def place(pose, points):
@@ -139,13 +145,15 @@ def place(pose, points):
     return points @ R.T + np.array([x, y])
     ### END SOLUTION
 
+
 # %%
 check("01-place")
 
 # %% [markdown]
 # The scans are taken where the robot *is*. The map is drawn where the robot *believes* to be.
-# **Before you run it:** what will the outer wall look like at the start, where the lap ends?
-# Then move the slider: which error is small enough for you to call the map good?
+# **Before you run it:** what will the outer wall look like at the start, where the lap ends? Then
+# move the slider: which error is small enough for you to call the map good?
+
 
 # %% name="map"
 @attempt
@@ -169,10 +177,11 @@ def _():
         corner_error_in_degrees=(-6, 6, 3),
     )
 
+
 # %% [markdown]
 # Same scans, same robot. On the left they agree; on the right every wall that was seen twice stands
-# twice, and the corridor does not close. Nothing is wrong with the lidar: **a map is as good as
-# the poses it is drawn from**.
+# twice, and the corridor does not close. Nothing is wrong with the lidar: **a map is as good as the
+# poses it is drawn from**.
 
 # %% [markdown]
 # ## 4 · The gap
@@ -180,6 +189,7 @@ def _():
 # How well does the lap close? Ask from the start: where, seen from there, is the end? Return pose b
 # as seen from pose a: how far ahead of a, how far to the left of a, and how much a would have to
 # turn to look where b looks. It is the way back of `next_pose`.
+
 
 # %% name="seen-from"
 def seen_from(a, b):
@@ -195,8 +205,10 @@ def seen_from(a, b):
     return np.array([c * dx + s * dy, -s * dx + c * dy, np.arctan2(np.sin(turn), np.cos(turn))])
     ### END SOLUTION
 
+
 # %%
 check("01-seen-from")
+
 
 # %% name="gap"
 @attempt
@@ -209,6 +221,7 @@ def _():
             f"turned by {np.degrees(turn):+.0f}°"
         )
 
+
 # %% [markdown]
 # Three degrees, which no eye sees, open a gap of 1.4 m, and the gap grows with the error. Was your
 # number near?
@@ -216,13 +229,14 @@ def _():
 # %% [markdown]
 # ## 5 · How errors grow
 #
-# A constant error is bad luck; chance alone is bad enough. The robot drives **straight**: `n` steps of `d`
-# metres, and **after** each step its heading is off by a little more, each time by an independent
-# random angle with mean 0 and standard deviation `sigma`. How far sideways of the line will it be at
-# the end? Return the standard deviation in metres, for small angles (sin e ≈ e).
+# A constant error is bad luck; chance alone is bad enough. The robot drives **straight**: `n` steps
+# of `d` metres, and **after** each step its heading is off by a little more, each time by an
+# independent random angle with mean 0 and standard deviation `sigma`. How far sideways of the line
+# will it be at the end? Return the standard deviation in metres, for small angles (sin e ≈ e).
 #
 # Hint: number the errors. The first one bends n − 1 steps, the second n − 2, …, the last none. How
 # far sideways does one error lead, and how do the variances of independent errors add?
+
 
 # %% name="drift"
 def drift(n, d, sigma):
@@ -238,12 +252,14 @@ def drift(n, d, sigma):
     return sigma * d * np.sqrt(np.sum(bends**2))
     ### END SOLUTION
 
+
 # %%
 check("01-drift")
 
 # %% [markdown]
 # Does it happen? Let 300 robots drive 60 steps of half a metre, each with its own errors of 1° a
 # step, and lay your formula over them.
+
 
 # %% name="drift-drives"
 @attempt
@@ -260,13 +276,14 @@ def _():
     for sign, label in ((2, "your ± 2 standard deviations"), (-2, None)):
         ax.plot(lengths, sign * spread, color="black", lw=2, label=label)
     ax.legend(loc="upper left")
-    views.show(fig, alt="Three hundred tracks fan out; two curves of the formula hold 95 % of them.")
+    views.show(fig, alt="Three hundred tracks fan out; the formula's curves hold 95 % of them.")
+
 
 # %% [markdown]
 # Nearly all tracks stay between your two curves: about 285 of 300 end there. The fan opens faster
-# than the way grows: twice the way, nearly three times the drift. No better wheel changes that, it only delays
-# it. Something must look at the **walls** and notice that they have been seen before. That is
-# SLAM, and the rest of the course.
+# than the way grows: twice the way, nearly three times the drift. No better wheel changes that, it
+# only delays it. Something must look at the **walls** and notice that they have been seen before.
+# That is SLAM, and the rest of the course.
 #
-# Hand in this notebook as it is. To see your points again, run all the checks
-# (*Run → Run All Cells*).
+# Hand in this notebook as it is. To see your points again, run all the checks (*Run → Run All
+# Cells*).

@@ -1,22 +1,22 @@
 # %% [markdown] slideshow={"slide_type": "slide"}
 # # 00 · Start here
 #
-# **Afterwards you will be able to** run a lesson, predict before you run, move its sliders, check an
-# exercise, read every symbol and unit of the course, and get help.
+# **Afterwards you will be able to** run a lesson, predict before you run, move its sliders, check
+# an exercise, read every symbol and unit of the course, and get help.
 #
 # 15 min. You need nothing before; a little Python and some school trigonometry help.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* run the set-up check before the class comes in. With *View → Presentation Mode* the letters
-# grow. The one thing to get across here is the habit of predicting: let everybody write a number down
-# before the first scan is run.
+# *For the lecturer:* run the set-up check before the class comes in. With *View → Presentation
+# Mode* the letters grow. The one thing to get across here is the habit of predicting: let everybody
+# write a number down before the first scan is run.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Is everything there?
 #
-# Click into the next cell and press **Shift+Enter**: the cell runs and the next one is selected.
-# It looks at Python and at every package the course rests on, and says what to do where one is
-# not right.
+# Click into the next cell and press **Shift+Enter**: the cell runs and the next one is selected. It
+# looks at Python and at every package the course rests on, and says what to do where one is not
+# right.
 
 # %% name="setup-check"
 from slamlab import setup_check
@@ -32,8 +32,8 @@ setup_check.report()
 # ## How a lesson works
 #
 # Each section goes the same way: a **question**, your **prediction**, a cell to **run**, an
-# **explanation**. The prediction is the part that teaches: write it down before you run, even if
-# it is a guess. A cell that is run without a prediction is a film.
+# **explanation**. The prediction is the part that teaches: write it down before you run, even if it
+# is a guess. A cell that is run without a prediction is a film.
 #
 # Try it. A lidar turns once in a room and measures 400 distances, 0.9° apart. It is a good one, but
 # now and then a beam gets lost on something black or shiny.
@@ -54,12 +54,12 @@ scan = RPLIDAR_A2.scan(room, pose, rng)
 print(f"{scan.valid.sum()} of {len(scan.ranges)} beams came back")
 
 # %% [markdown]
-# Real lidars of this kind lose two to four beams in a hundred: that was measured, and the simulated one
-# does the same. Everything random in the course comes from a generator `rng` with a
+# Real lidars of this kind lose two to four beams in a hundred: that was measured, and the simulated
+# one does the same. Everything random in the course comes from a generator `rng` with a
 # written-down seed, so you get the number printed here. Change the 7 and you get another one.
 #
-# **Predict:** the lidar sees in every direction. Which parts of the room will be missing from
-# the picture?
+# **Predict:** the lidar sees in every direction. Which parts of the room will be missing from the
+# picture?
 
 # %% name="first-picture"
 fig, ax = views.axes("One turn of the lidar in a room")
@@ -71,8 +71,8 @@ views.show(fig, alt="Walls of a room in grey; a scan's points lie on those that 
 
 # %% [markdown]
 # The points lie on what faces the lidar. Behind the table in the middle, the cupboards and the
-# pillars there is nothing: **a scan is never the room, it is what one place sees of it**. That is why
-# a robot has to drive, and why it has to know where it was.
+# pillars there is nothing: **a scan is never the room, it is what one place sees of it**. That is
+# why a robot has to drive, and why it has to know where it was.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Sliders
@@ -80,6 +80,7 @@ views.show(fig, alt="Walls of a room in grey; a scan's points lie on those that 
 # Many figures have sliders. Drag one, or click on it and use the arrow keys; the figure is drawn
 # when you let go. In a notebook that was not run you see the figure without its sliders: run the
 # cell. **Predict:** where must the lidar stand to see the cupboard at the left wall?
+
 
 # %% name="first-slider"
 def look(x, y):
@@ -104,17 +105,18 @@ views.explore(
 # Move the lidar past the table, to the left or to the top, and the cupboard's front appears.
 #
 # When a notebook gets muddled, because cells ran out of order, choose *Kernel → Restart Kernel and
-# Run All Cells*. Nothing can be broken: `git restore notebooks` in a
-# terminal brings every lesson back as it was.
+# Run All Cells*. Nothing can be broken: `git restore notebooks` in a terminal brings every lesson
+# back as it was.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## How an exercise works
 #
 # At the end of each lesson you find its exercise. You fill in functions; below each stands a cell
-# such as `check("01-next-pose")`. It tries your function on random inputs and judges it by **laws**: a
-# robot must move as far as its step is long, a derivative must be what finite differences say. So
-# any right solution passes, however it is written. Where a classic mistake is recognised, you are told
-# which one: degrees for radians, a turn the wrong way, a transposed matrix.
+# such as `check("01-next-pose")`. It tries your function on random inputs and judges it by
+# **laws**: a robot must move as far as its step is long, a derivative must be what finite
+# differences say. So any right solution passes, however it is written. Where a classic mistake is
+# recognised, you are told which one: degrees for radians, a turn the wrong way, a transposed
+# matrix.
 #
 # Check as often as you like. Your points are those of a fresh run on other random inputs; nothing
 # else is hidden. `slamlab check NOTEBOOK` in a terminal does the same for a whole notebook.
@@ -142,8 +144,9 @@ views.show(
 )
 
 # %% [markdown]
-# The heading θ is measured from the world's x axis to the robot's, the bearing β from the robot's
-# x axis to the landmark, both counter-clockwise. The landmark stands at angle θ + β as seen in the world.
+# The heading θ is measured from the world's x axis to the robot's, the bearing β from the robot's x
+# axis to the landmark, both counter-clockwise. The landmark stands at angle θ + β as seen in the
+# world.
 #
 # **Predict:** the robot turns on the spot by +90°. What becomes of θ, of β, of r?
 
@@ -156,8 +159,8 @@ for theta in (25, 115):
     print(f"θ = {theta:3d}°   r = {r:.2f} m   β = {np.degrees(beta):6.1f}°")
 
 # %% [markdown]
-# The bearing loses what the heading gains, the range does not care. A robot that misjudges its heading
-# therefore misjudges the direction of **everything** it sees. Remember that in lesson 01.
+# The bearing loses what the heading gains, the range does not care. A robot that misjudges its
+# heading therefore misjudges the direction of **everything** it sees. Remember that in lesson 01.
 
 # %% [markdown] slideshow={"slide_type": "slide"} name="notation"
 # ## Notation
@@ -212,10 +215,10 @@ for theta in (25, 115):
 # %% [markdown] slideshow={"slide_type": "skip"}
 # ## If you give the lecture
 #
-# Every lesson is also a set of slides, with live cells and sliders; derivations open one line per key
-# press, and speaker's notes stand in cells of their own. `python lab.py --lecture` adds the slideshow to
-# JupyterLab; [docs/lecturing.md](../docs/lecturing.md) says which keys to press and how to see your notes.
-# *View → Presentation Mode* makes everything larger without it.
+# Every lesson is also a set of slides, with live cells and sliders; derivations open one line per
+# key press, and speaker's notes stand in cells of their own. `python lab.py --lecture` adds the
+# slideshow to JupyterLab; [docs/lecturing.md](../docs/lecturing.md) says which keys to press and
+# how to see your notes. *View → Presentation Mode* makes everything larger without it.
 
 # %% [markdown]
 # ## Where help is

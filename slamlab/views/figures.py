@@ -43,27 +43,29 @@ def axes(title=None, size=(6, 5)):
     return fig, ax
 
 
-def panels(titles, size=(11, 5)):
-    """A figure with one map per title, side by side, all with the same scales.
+def panels(titles, size=(11, 5), shared=True):
+    """A figure with one map per title, side by side.
 
     Parameters
     ----------
     titles : sequence of str or None
     size : (width, height) of the whole figure [inch]
+    shared : bool, whether all show the same part of the plane
 
     Returns
     -------
     (Figure, list of Axes)
     """
     fig = Figure(figsize=size, dpi=DPI, layout="constrained")
-    all_axes = list(fig.subplots(1, len(titles), sharex=True, sharey=True, squeeze=False)[0])
+    shared = shared and len(titles) > 1
+    all_axes = fig.subplots(1, len(titles), sharex=shared, sharey=shared, squeeze=False)[0]
     for ax, title in zip(all_axes, titles, strict=True):
         # "datalim" would fight with shared axes
-        ax.set_aspect("equal", adjustable="datalim" if len(titles) == 1 else "box")
+        ax.set_aspect("equal", adjustable="box" if shared else "datalim")
         ax.set(xlabel="x [m]", ylabel="y [m]")
         if title:
             ax.set_title(title)
-    return fig, all_axes
+    return fig, list(all_axes)
 
 
 def chart(xlabel, ylabel, title=None, size=(6, 4)):

@@ -42,19 +42,20 @@ def draw(ax, layer, **style):
     return artists
 
 
-def side_by_side(layers_by_title, size=(11, 5)):
-    """Maps side by side at one scale, such as naive beside corrected.
+def side_by_side(layers_by_title, size=(11, 5), shared=True):
+    """Maps side by side, such as naive beside corrected.
 
     Parameters
     ----------
     layers_by_title : dict, title to list of layers
     size : (width, height) of the whole figure [inch]
+    shared : bool, whether all show the same part of the plane
 
     Returns
     -------
     (Figure, list of Axes)
     """
-    fig, all_axes = panels(list(layers_by_title), size)
+    fig, all_axes = panels(list(layers_by_title), size, shared)
     for ax, layers in zip(all_axes, layers_by_title.values(), strict=True):
         for layer in layers:
             draw(ax, layer)

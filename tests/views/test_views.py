@@ -42,6 +42,13 @@ def test_panels_share_one_scale():
     assert right.get_xlim() == (-3, 7)
 
 
+def test_panels_that_share_nothing_show_each_map_at_its_own_scale():
+    _, (left, right) = views.panels(["naive", "corrected"], shared=False)
+    right.set_xlim(0, 1)
+    left.set_xlim(-300, 700)
+    assert right.get_xlim() == (0, 1)
+
+
 def test_points_stand_where_they_are_and_carry_their_layers_name_and_colour():
     _, ax = views.axes()
     xy = np.array([[1.0, 2.0], [3.0, -1.0]])
