@@ -722,7 +722,7 @@ try:
             f"{name:>9}: {error.translation:.2f} m and {np.degrees(error.rotation):.1f}° "
             f"in the mean of {error.count} relations"
         )
-except sources.SourceError as absent:
+except (sources.SourceError, ValueError) as absent:
     print(absent)
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
