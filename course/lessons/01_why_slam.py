@@ -1,7 +1,7 @@
 # %% [markdown] slideshow={"slide_type": "slide"}
 # # 01 · Why SLAM
 #
-# **Afterwards you will be able to** say why a robot that only counts its wheels cannot draw a map,
+# **Afterwards you will be able to** say why a robot that only counts wheel turns cannot draw a map,
 # foretell how fast its error grows, and tell what SLAM adds.
 #
 # 40 min. You need [00 · Start here](00_start_here.ipynb) before.
@@ -22,7 +22,7 @@ from slamlab.layers import Points, Poses, Segments
 from slamlab.runner import run
 
 # %% [markdown] slideshow={"slide_type": "slide"}
-# ## A robot that counts its wheels
+# ## A robot that counts the turns of its wheels
 #
 # A robot drives one lap through a corridor, 2 m wide, round a rectangular block. It has two wheels
 # with encoders and a lidar. Every half second it takes a *reading*: how far the wheels say it went
