@@ -151,18 +151,21 @@ def picture(result):
     -------
     Figure
     """
-    from slamlab.layers import Poses
-    from slamlab.views import side_by_side
+    from slamlab.layers import Points, Poses
+    from slamlab.views import COLOURS, draw, legend, panels
 
     layers = result.estimator.layers()
     naive = [layer for layer in layers if layer.name == "naive"]
-    panels = {}
-    if any(not isinstance(layer, Poses) for layer in naive):
-        panels["odometry alone"] = naive
-    panels[f"{result.source.name.rpartition('/')[2]}: corrected"] = [
-        layer for layer in layers if layer not in naive or not panels
-    ]
-    fig, _ = side_by_side(panels, size=(12, 6))
+    rest = [layer for layer in layers if layer.name != "naive"]
+    shown = [(title, group) for title, group in (("naive", naive), ("corrected", rest)) if group]
+    fig, all_axes = panels([title for title, _ in shown], size=(6 * len(shown), 6))
+    for ax, (title, group) in zip(all_axes, shown, strict=True):
+        for layer in group:
+            what = {Points: "map", Poses: "track"}.get(type(layer), layer.name)
+            colour = COLOURS["robot" if what == "track" else title]
+            draw(ax, layer, label=f"{title} {what}", color=colour)
+        legend(ax, loc="best", fontsize="small")
+    fig.suptitle(result.source.name.rpartition("/")[2])
     return fig
 
 

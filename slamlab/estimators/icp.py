@@ -1,21 +1,20 @@
 """SLAM by scan matching, Tuček's system (§4.2, listing slam.py) with its errata mended.
 
-Each scan is laid over those before it, starting from what the odometry says; what comes out is
+Each scan is laid over the one before it, starting from what the odometry says; what comes out is
 the motion. Beside the corrected pose and map stand the naive ones, from odometry alone. There is no
 loop closure: a place seen again is not recognised.
 """
-
-from collections import deque
 
 import numpy as np
 
 from slamlab.estimators.base import Estimator
 from slamlab.geometry import between, compose, transform
 from slamlab.layers import Points, Poses
-from slamlab.scanmatching import normals, point_to_line, point_to_point
+from slamlab.scanmatching import point_to_line, point_to_point
 
 FEWEST = 3  # points without which a scan cannot be matched
 STILL = np.array([1e-6, 1e-6, 1e-6])  # a motion below this is none [m, m, rad]
+GATE = 1.0, 0.3  # far points stand wide apart along a wall: pairs may be this long [m]
 SPACING = 0.02, np.radians(1)  # a scan enters the map when the robot went or turned this far
 
 
@@ -24,16 +23,15 @@ class IcpSlam(Estimator):
 
     Parameters
     ----------
-    plain : bool, the thesis' ICP: point to point, every pair counts, over the last scan only
-    scans : int, how many scans back a scan is matched with; 1 where plain
+    plain : bool, the thesis' ICP: point to point, every pair counts
     """
 
-    def __init__(self, plain=False, scans=10):
+    def __init__(self, plain=False):
         super().__init__()
         self.naive_pose = np.zeros(3)
         self.unmatched = 0
         self.plain = plain
-        self._recent = deque(maxlen=1 if plain else scans)
+        self._last = None  # the points of the last good scan
         self._anchor = np.zeros(3)  # the corrected pose of the last good scan
         self._since = np.zeros(3)  # odometry since then
         self._placed = None
@@ -69,17 +67,16 @@ class IcpSlam(Estimator):
         ]
 
     def _take(self, points):
-        """Match a good scan with those before it and put it into the map."""
-        if self._recent and stands_still(self._since):
-            return
-        if self._recent:
+        """Match a good scan with the last one and put it into the map."""
+        if self._last is not None:
+            if stands_still(self._since):
+                return
             match = self._match(points)
             if match.converged:
                 self.pose = compose(self._anchor, match.pose)
             else:
                 self.unmatched += 1
-        self._anchor, self._since = self.pose, np.zeros(3)
-        self._recent.append((self.pose, points, None if self.plain else normals(points)))
+        self._anchor, self._since, self._last = self.pose, np.zeros(3), points
         if self._placed is None or went(self._placed, self.pose):
             self._map.append(transform(self.pose, points))
             self._naive_map.append(transform(self.naive_pose, points))
@@ -88,15 +85,8 @@ class IcpSlam(Estimator):
     def _match(self, points):
         """The scan's pose in the frame of the last good one."""
         if self.plain:
-            return point_to_point(points, self._recent[-1][1], self._since)
-        poses = [between(self._anchor, pose) for pose, _, _ in self._recent]
-        target = [transform(p, q) for p, (_, q, _) in zip(poses, self._recent, strict=True)]
-        turned = [
-            transform([0, 0, p[2]], n) for p, (_, _, n) in zip(poses, self._recent, strict=True)
-        ]
-        return point_to_line(
-            points, np.concatenate(target), self._since, target_normals=np.concatenate(turned)
-        )
+            return point_to_point(points, self._last, self._since)
+        return point_to_line(points, self._last, self._since, gate=GATE)
 
 
 def stands_still(motion):
