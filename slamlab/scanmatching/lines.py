@@ -9,9 +9,10 @@ from slamlab.scanmatching.normals import normals
 
 STILL = "the steps are below the tolerance"
 LOST = "too few pairs agree: too little overlap or too poor a first guess"
-ALONG = 1.0  # longest pair along the wall: far points stand wide apart [m]
 CALM = 20  # rounds after which steps are damped
 LEAST = 0.1  # share of the source that must find pairs
+FLOOR = 0.02  # a residual below this is never an outlier [m]
+UNSEEN = 1e-4  # an eigenvalue under this share of the largest counts as not fixed
 
 
 def point_to_line(
@@ -21,9 +22,10 @@ def point_to_line(
     *,
     tolerance=1e-4,
     max_rounds=60,
-    keep=0.9,
+    keep=1.0,
     gate=(1.0, 0.1),
     normal_gate=0.7,
+    trust=None,
     source_normals=None,
     target_normals=None,
     history=False,
@@ -32,8 +34,9 @@ def point_to_line(
 
     Each round pairs nearest points, drops pairs too far apart or whose walls point elsewhere,
     keeps the share that lies best, weighs it by Cauchy's function and takes a Gauss-Newton step on
-    Σ w_i (n_i·(R p_i + t − q_i))². The distance allowed across the wall shrinks
-    from round to round. Stops when a step moves no point of the source by the tolerance.
+    Σ w_i (n_i·(R p_i + t − q_i))² / c² + eᵀ Σ⁻¹ e, with e the way from the first guess and Σ its
+    covariance, where it has one: along a corridor, which no wall fixes, the guess then stands. The
+    longest pair shrinks from round to round. Stops when a step moves no point by the tolerance.
 
     Parameters
     ----------
@@ -43,8 +46,9 @@ def point_to_line(
     tolerance : float [m]
     max_rounds : int
     keep : float, share of the agreeing pairs to fit
-    gate : (2,) longest pair across the wall in the first and in the last rounds [m]
+    gate : (2,) longest pair in the first and in the last rounds [m]
     normal_gate : float, largest angle between the two walls of a pair [rad]
+    trust : (3,) standard deviations of the first guess [m, m, rad], or None to trust it nothing
     source_normals, target_normals : (n, 2), (m, 2) where known already; NaN where there is none
     history : bool, keep a Round for the start and after each fit
 
@@ -61,32 +65,35 @@ def point_to_line(
     nearest = Nearest(target)
     n_source = normals(source) if source_normals is None else source_normals
     n_target = normals(target) if target_normals is None else target_normals
+    start, information = pose, np.zeros(3) if trust is None else 1 / np.asarray(trust) ** 2
     reach = np.hypot(*source.T).max()
     past, width, verdict = [], max(gate), ""
     for rounds in range(max_rounds + 1):
         moved = transform(pose, source)
         distances, indices = nearest(moved)
         n = n_target[indices]
-        residuals = np.einsum("ij,ij->i", n, moved - target[indices])
-        agree = walls_agree(n, n_source, pose[2], normal_gate)
-        agree &= (distances <= ALONG) & (np.abs(residuals) <= width)
-        used = np.flatnonzero(agree)
+        used = np.flatnonzero((distances <= width) & walls_agree(n, n_source, pose[2], normal_gate))
+        residuals = np.einsum("ij,ij->i", n[used], (moved - target[indices])[used])
         if len(used) < max(3, LEAST * len(source)):
             verdict = LOST
         elif keep < 1:
-            used = used[np.abs(residuals[used]) <= np.quantile(np.abs(residuals[used]), keep)]
-        error = float(np.abs(residuals[used]).mean()) if len(used) else np.nan
+            best = np.abs(residuals) <= np.quantile(np.abs(residuals), keep)
+            used, residuals = used[best], residuals[best]
+        error = float(np.abs(residuals).mean()) if len(used) else np.nan
         if history:
             past.append(Round(pose, error, np.column_stack([used, indices[used]])))
         if verdict or rounds == max_rounds:
             break
-        step = gauss_newton(n[used], moved[used] - pose[:2], residuals[used])
+        c = max(FLOOR, width / 10, 1.4826 * np.median(np.abs(residuals)))
+        guess = pose - start
+        guess[2] = wrap(guess[2])
+        step = gauss_newton(n[used], moved[used] - pose[:2], residuals, c, information, guess)
         # pairs that flip to and fro would never let it rest: late steps are damped
         step *= 0.9 ** max(0, rounds - CALM)
         pose = np.array([*(pose + step)[:2], wrap(pose[2] + step[2])])
         if width <= min(gate) and np.hypot(*step[:2]) + reach * abs(step[2]) < tolerance:
             verdict = STILL
-        width = max(min(gate), 0.7 * width)
+        width = max(min(gate), 0.8 * width)
     return Match(
         pose,
         rounds,
@@ -108,31 +115,32 @@ def walls_agree(n, n_source, turn, limit):
         return cosine > np.cos(limit)
 
 
-def gauss_newton(n, arm, residuals, floor=0.005, unseen=1e-3):
-    """The step (dx, dy, dθ) that lowers Σ w r², with r's derivative [n_x, n_y, arm × n].
+def gauss_newton(n, arm, residuals, c, information, guess):
+    """The step (dx, dy, dθ) that lowers Σ w r² / c² + eᵀ diag(information) e.
 
-    Cauchy's weight is w = 1 / (1 + (r/c)²), with c from the residuals' median. A direction that
-    the walls do not fix, such as along a corridor, is left as it was.
+    r has the derivative [n_x, n_y, arm × n]; Cauchy's weight is w = 1 / (1 + (r/c)²). A direction
+    that neither the walls nor the first guess fix is left as it was.
 
     Parameters
     ----------
     n : (k, 2) unit normals
     arm : (k, 2) points seen from the robot, in the target's directions [m]
     residuals : (k,) distances across the walls [m]
-    floor : float, least c [m]
-    unseen : float, eigenvalue under this share of the largest counts as not fixed [1]
+    c : float, residual at which a pair counts half [m]
+    information : (3,) of the first guess [1/m², 1/m², 1/rad²]
+    guess : (3,) e, how far the pose is from the first guess [m, m, rad]
 
     Returns
     -------
     (3,) [m, m, rad]
     """
-    c = max(floor, 1.4826 * np.median(np.abs(residuals)))
     w = 1 / (1 + (residuals / c) ** 2)
     # angles count as the way a point at the middling distance goes
-    reach = max(1e-9, np.sqrt(np.mean(arm**2)))
-    J = np.column_stack([n, (arm[:, 0] * n[:, 1] - arm[:, 1] * n[:, 0]) / reach])
-    A, b = J.T @ (w[:, None] * J), -J.T @ (w * residuals)
+    scale = np.array([1, 1, 1 / max(1e-9, np.sqrt(np.mean(arm**2)))])
+    J = np.column_stack([n, arm[:, 0] * n[:, 1] - arm[:, 1] * n[:, 0]]) * scale
+    prior = c**2 * information * scale
+    A = J.T @ (w[:, None] * J) + np.diag(prior * scale)
     eigenvalues, axes = np.linalg.eigh(A)
-    fixed = eigenvalues > unseen * eigenvalues[-1]
-    step = axes[:, fixed] @ ((axes[:, fixed].T @ b) / eigenvalues[fixed])
-    return np.array([step[0], step[1], step[2] / reach])
+    fixed = eigenvalues > UNSEEN * eigenvalues[-1]
+    downhill = axes.T @ -(J.T @ (w * residuals) + prior * guess)
+    return scale * (axes[:, fixed] @ (downhill[fixed] / eigenvalues[fixed]))

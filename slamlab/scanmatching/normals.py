@@ -4,7 +4,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 
-def normals(points, neighbours=11, radius=0.3, flatness=0.2):
+def normals(points, neighbours=7, radius=1.0, flatness=0.5):
     """Unit normals by a line fitted to each point's nearest neighbours.
 
     The line's direction is the main axis of the neighbours' covariance,

@@ -55,11 +55,11 @@ class CarmenLog(Source):
         return len(self._rows)
 
     def __iter__(self):
-        before = self._rows[0][1]
+        before = None
         for stamp, odometry, ranges in self._rows:
             yield Reading(
                 time=stamp,
-                odometry=between(before, odometry),
+                odometry=np.zeros(3) if before is None else between(before, odometry),
                 scan=Scan(beam_angles(len(ranges)), ranges, range_max=self._range_max),
             )
             before = odometry
