@@ -13,8 +13,9 @@ from slamlab.layers import Points, Poses
 from slamlab.scanmatching import point_to_line, point_to_point
 
 FEWEST = 3  # points without which a scan cannot be matched
+AGREEING = 0.1  # share of the scan that must lie on what was seen before
 STILL = np.array([1e-6, 1e-6, 1e-6])  # a motion below this is none [m, m, rad]
-GATE = 1.0, 0.3  # far points stand wide apart along a wall: pairs may be this long [m]
+TRUST = 0.05, 0.05, 0.2  # of odometry between scans; decides where no wall does [m, m, rad]
 SPACING = 0.02, np.radians(1)  # a scan enters the map when the robot went or turned this far
 
 
@@ -72,7 +73,7 @@ class IcpSlam(Estimator):
             if stands_still(self._since):
                 return
             match = self._match(points)
-            if match.converged:
+            if match.share >= AGREEING:  # one that still trembles beats odometry too
                 self.pose = compose(self._anchor, match.pose)
             else:
                 self.unmatched += 1
@@ -86,7 +87,7 @@ class IcpSlam(Estimator):
         """The scan's pose in the frame of the last good one."""
         if self.plain:
             return point_to_point(points, self._last, self._since)
-        return point_to_line(points, self._last, self._since, gate=GATE)
+        return point_to_line(points, self._last, self._since, trust=TRUST)
 
 
 def stands_still(motion):
