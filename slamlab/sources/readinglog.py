@@ -19,6 +19,8 @@ from slamlab.sources.base import Source, SourceError
 from slamlab.sources.text import lines, read_bytes, reason
 
 FORMAT, VERSION = "slamlab reading log", 1
+# what reading a damaged line can raise
+DAMAGE = (ValueError, TypeError, KeyError, AttributeError, RecursionError, OverflowError)
 
 
 class ReadingLog(Source):
@@ -41,18 +43,18 @@ class ReadingLog(Source):
             self.damage["file torn"] += 1
         first, *rest = list(lines(content)) or [(b"", False)]
         self._angles = self._header(path, first[0])
-        self._readings, truth, before, lost = [], [], None, False
+        self._readings, truth, before, lost = [], [], np.zeros(3), False
         for line, _ in rest:
             if not line.strip():
                 continue
             try:
                 reading, reckoned, true = self._reading(json.loads(line))
-            except (ValueError, TypeError, KeyError, RecursionError, OverflowError):
+            except DAMAGE:
                 self.damage["lines that are no reading"] += 1
                 self.skipped += 1
                 lost = True
                 continue
-            if lost and before is not None:
+            if lost:
                 reading = Reading(**vars(reading) | {"odometry": between(before, reckoned)})
             before, lost = reckoned, False
             self._readings.append(reading)

@@ -1,0 +1,142 @@
+"""``slamlab run`` and ``slamlab convert`` as a user meets them."""
+
+import csv
+import json
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from slamlab import estimators, sources
+from slamlab.cli import main
+from slamlab.cli.run import COLUMNS
+from slamlab.runner import run
+from slamlab.sources import SourceError
+
+
+def refused(capsys, *words):
+    """The one line that a refused command says."""
+    assert main(list(words)) == 2
+    said = capsys.readouterr()
+    lines = [line for line in said.err.splitlines() if line.startswith("slamlab ")]
+    assert len(lines) == 1
+    assert "Traceback" not in said.err
+    return lines[0]
+
+
+def test_run_writes_trajectory_map_and_summary(tmp_path, capsys):
+    out = tmp_path / "new" / "folder"
+    assert main(["run", "sim:polygon-wrong", "--seed", "3", "--out", str(out)]) == 0
+    rows = list(csv.reader((out / "trajectory.csv").open()))
+    source = sources.open("sim:polygon-wrong", np.random.default_rng(3))
+    result = run(source, estimators.make("icp", source))
+    expected = np.column_stack([result.naive.times, result.trajectory.poses, result.naive.poses])
+    assert tuple(rows[0]) == COLUMNS
+    assert np.array_equal(np.array(rows[1:], dtype=float), expected)
+    assert (out / "map.png").read_bytes().startswith(b"\x89PNG")
+    summary = json.loads((out / "summary.json").read_text())
+    assert {"source", "estimator", "frames", "skipped", "seconds"} <= set(summary)
+    assert summary["truth"]["corrected_m"] < summary["truth"]["naive_m"]
+    assert "4 readings of sim:polygon-wrong" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("estimator", estimators.NAMES)
+def test_every_estimator_runs_and_draws(tmp_path, estimator):
+    assert main(["run", "sim:polygon", "--estimator", estimator, "--out", str(tmp_path)]) == 0
+    assert (tmp_path / "map.png").stat().st_size > 5000
+
+
+def test_convert_writes_what_run_reads(tmp_path, capsys):
+    log = str(tmp_path / "log.gz")
+    assert main(["convert", "sim:polygon", log, "--seed", "5"]) == 0
+    assert "4 readings written" in capsys.readouterr().out
+    assert main(["run", log, "--out", str(tmp_path)]) == 0
+    assert json.loads((tmp_path / "summary.json").read_text())["frames"] == 4
+
+
+def test_relations_that_do_not_fit_are_refused_in_one_line(tmp_path, capsys):
+    relations = tmp_path / "relations"
+    relations.write_text("5000 6000 1 0 0 0 0 0\n")
+    said = refused(capsys, "run", "sim:polygon", "--relations", str(relations))
+    assert "do they belong to this log" in said
+
+
+def test_relations_are_judged_and_stand_in_the_summary(tmp_path):
+    relations = tmp_path / "relations"
+    relations.write_text("0 1.5 0 0 0 0 0 0\n")
+    words = ["run", "sim:polygon", "--relations", str(relations), "--out", str(tmp_path)]
+    assert main(words) == 0
+    found = json.loads((tmp_path / "summary.json").read_text())["relations"]
+    assert set(found) == {"count", "naive_m", "corrected_m", "naive_rad", "corrected_rad"}
+    assert found["count"] == 1
+
+
+@pytest.mark.parametrize(
+    ("words", "says"),
+    [
+        (["run", "/nowhere/log"], "no such file"),
+        (["run", "sim:atlantis"], "there are: room"),
+        (["run", "sim:polygon", "--estimator", "magic"], "there are: odometry"),
+        (["run", "sim:polygon", "--seed", "-1"], "--seed"),
+        (["run", "sim:polygon", "--relations", "/nowhere"], "no such file"),
+        (["convert", "/nowhere/log", "x"], "no such file"),
+        (["convert", "sim:polygon", "/nowhere/x"], "cannot be written"),
+    ],
+)
+def test_wrong_use_is_refused_in_one_line(capsys, words, says):
+    assert says in refused(capsys, *words)
+
+
+def test_folders_junk_and_an_out_that_is_a_file_are_refused(tmp_path, capsys):
+    junk = tmp_path / "junk"
+    junk.write_bytes(bytes(range(256)) * 50)
+    assert "is a folder" in refused(capsys, "run", str(tmp_path))
+    assert "no log that slamlab knows" in refused(capsys, "run", str(junk))
+    assert str(junk) in refused(capsys, "run", "sim:polygon", "--out", str(junk))
+    assert "is a directory" in refused(capsys, "convert", "sim:polygon", str(tmp_path))
+
+
+@pytest.mark.skipif(not hasattr(os, "geteuid") or os.geteuid() == 0, reason="root may write all")
+def test_an_out_that_cannot_be_written_is_refused(tmp_path, capsys):
+    tmp_path.chmod(0o500)
+    assert str(tmp_path) in refused(capsys, "run", "sim:polygon", "--out", str(tmp_path / "x"))
+
+
+def test_an_interrupt_ends_quietly(monkeypatch, capsys):
+    def interrupted(arguments):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("slamlab.cli.run.run", interrupted)
+    assert main(["run", "sim:polygon"]) == 130
+    assert capsys.readouterr().err == ""
+
+
+def test_help_names_every_command_and_imports_nothing_heavy():
+    code = (
+        "import sys; from slamlab.cli import main\n"
+        "try: main(['--help'])\n"
+        "except SystemExit as end: assert end.code == 0\n"
+        "heavy = {'matplotlib', 'scipy', 'sympy', 'filterpy'} & set(sys.modules)\n"
+        "assert not heavy, heavy"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    for command in ("run", "convert", "check", "grade"):
+        assert f"    {command} " in done.stdout
+
+
+def test_intel_without_loop_closure_comes_out_ten_times_better_than_odometry(tmp_path):
+    try:
+        log, relations = sources.recording("intel"), sources.recording("intel-relations")
+    except SourceError as missing:
+        pytest.skip(str(missing))
+    assert main(["run", str(log), "--relations", str(relations), "--out", str(tmp_path)]) == 0
+    summary = json.loads((tmp_path / "summary.json").read_text())
+    assert (summary["frames"], summary["skipped"]) == (910, 0)
+    found = summary["relations"]
+    assert found["count"] == 108
+    assert found["naive_m"] == pytest.approx(4.09, abs=0.01)
+    assert found["corrected_m"] < 0.32
+    assert found["corrected_rad"] < 0.1 * found["naive_rad"]

@@ -1,0 +1,80 @@
+"""Trajectory errors and the relations error."""
+
+import gzip
+
+import numpy as np
+import pytest
+
+from slamlab.evaluation import absolute_error, load_relations, relations_error, relative_error
+from slamlab.evaluation.relations import Relations, nearest_in_time
+from slamlab.geometry import between, compose
+from slamlab.readings import Trajectory
+from slamlab.sources import SourceError
+
+RNG = np.random.default_rng(6)
+TIMES = np.arange(8) * 2.0
+POSES = RNG.normal(size=(8, 3))
+PATH = Trajectory(TIMES, POSES)
+PAIRS = np.array([[0, 1], [2, 5], [7, 3]])
+TRUE = Relations(TIMES[PAIRS], between(POSES[PAIRS[:, 0]], POSES[PAIRS[:, 1]]))
+
+
+def test_errors_do_not_depend_on_where_the_frame_lies():
+    moved = Trajectory(TIMES, compose(np.array([3.0, -2.0, 1.1]), POSES))
+    assert absolute_error(moved, PATH).translation < 1e-12
+    assert relative_error(moved, PATH).rotation < 1e-12
+    assert relations_error(moved, TRUE).translation < 1e-12
+
+
+def test_a_known_offset_is_measured_in_metres_and_radians():
+    poses = POSES.copy()
+    poses[5] = compose(poses[5], [0.3, 0.4, 0.2])
+    wrong = Trajectory(TIMES, poses)
+    error = absolute_error(wrong, PATH)
+    assert error.translation_max == pytest.approx(0.5)
+    assert error.rotation_max == pytest.approx(0.2)
+    assert error.translation == pytest.approx(0.5 / np.sqrt(8))
+    found = relations_error(wrong, TRUE)
+    assert found.count == 3
+    assert found.translation == pytest.approx(0.5 / 3)
+    assert found.rotation == pytest.approx(0.2 / 3)
+
+
+def test_only_relations_within_two_milliseconds_of_a_pose_count():
+    stamps = TRUE.stamps + np.array([[0.0019, -0.0019], [0.0, 0.0025], [0.0, 0.0]])
+    assert relations_error(PATH, Relations(stamps, TRUE.poses)).count == 2
+
+
+def test_relations_of_another_log_are_refused():
+    with pytest.raises(ValueError, match="do they belong to this log"):
+        relations_error(PATH, Relations(TRUE.stamps + 0.5, TRUE.poses))
+
+
+@pytest.mark.parametrize("count", [1, 2, 30])
+def test_the_nearest_time_is_found_in_any_order(count):
+    times, stamps = RNG.normal(size=count), RNG.normal(size=(40, 2))
+    index, gap = nearest_in_time(times, stamps)
+    assert np.allclose(gap, np.abs(times - stamps[..., None]).min(axis=-1))
+    assert np.allclose(np.abs(times[index] - stamps), gap)
+
+
+@pytest.mark.parametrize("pack", [bytes, gzip.compress])
+def test_relations_are_read_and_damaged_lines_counted(tmp_path, pack):
+    text = b"# a comment\n1 2 0.5 0.25 0 0 0 0.1\n1 2 3\n1 2 x 0 0 0 0 0\n3 4 1 2 0 0 0 nan\n"
+    (tmp_path / "relations").write_bytes(pack(text))
+    found = load_relations(tmp_path / "relations")
+    assert found.poses.tolist() == [[0.5, 0.25, 0.1]]
+    assert found.damage == {"lines that are no relation": 3}
+
+
+def test_a_file_without_relations_is_refused(tmp_path):
+    (tmp_path / "relations").write_text("nothing here\n")
+    with pytest.raises(SourceError, match="holds no relation"):
+        load_relations(tmp_path / "relations")
+
+
+def test_trajectories_that_do_not_belong_together_are_refused():
+    with pytest.raises(ValueError, match="cannot be compared"):
+        absolute_error(PATH, Trajectory(TIMES[:3], POSES[:3]))
+    with pytest.raises(ValueError, match="no motion over 8 steps"):
+        relative_error(PATH, PATH, steps=8)
