@@ -1,14 +1,20 @@
-"""How good an estimate is: against the truth, against published relations."""
+"""How good an estimate is: against the truth, against published relations, against its own P."""
 
+from slamlab.evaluation.consistency import Consistency, band, consistency, nees, nis
 from slamlab.evaluation.relations import Relations, RelationsError, load_relations, relations_error
 from slamlab.evaluation.trajectory import TrajectoryError, absolute_error, relative_error
 
 __all__ = [
+    "Consistency",
     "Relations",
     "RelationsError",
     "TrajectoryError",
     "absolute_error",
+    "band",
+    "consistency",
     "load_relations",
+    "nees",
+    "nis",
     "relations_error",
     "relative_error",
 ]

@@ -1,0 +1,175 @@
+"""Whether a filter's covariance tells the truth about its errors: NEES, NIS, and the definition.
+
+One run says little: the laws below are about averages over independent runs, all at the same step.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+# Tracy and Widom's law as a shifted gamma distribution: shape, scale, shift (Chiani 2014, table 1)
+TRACY_WIDOM = 46.446, 0.186054, 9.84801
+
+
+def nees(error, P):
+    """Normalised estimation error squared, x̃ᵀ P⁻¹ x̃ (Bar-Shalom, Li, Kirubarajan 2001, 5.4).
+
+    χ² with n degrees of freedom, so n on average, where P is the covariance of the error.
+
+    Parameters
+    ----------
+    error : (..., n) estimate minus truth, angles wrapped
+    P : (..., n, n) what the filter believes of it
+
+    Returns
+    -------
+    (...,)
+
+    Raises
+    ------
+    ValueError : shapes that do not fit, or a P that is not positive definite
+    """
+    white = _whitened(error, P)
+    return np.sum(white**2, axis=-1)
+
+
+def nis(innovation, S):
+    """Normalised innovation squared, vᵀ S⁻¹ v: what :func:`nees` is where no truth is known.
+
+    Parameters
+    ----------
+    innovation : (..., m) v = z − h(x), bearings wrapped
+    S : (..., m, m) H P Hᵀ + R
+
+    Returns
+    -------
+    (...,)
+
+    Raises
+    ------
+    ValueError : shapes that do not fit, or an S that is not positive definite
+    """
+    return nees(innovation, S)
+
+
+def band(size, runs, share=0.95):
+    """Where the average of NEES or NIS over runs lies when the filter is consistent.
+
+    runs · average ~ χ² with runs · size degrees of freedom, at one step: the steps of a run hang
+    together, so an average over steps has no such law.
+
+    Parameters
+    ----------
+    size : int, of the error or the innovation
+    runs : int, independent ones
+    share : float, how often a consistent filter lies inside [1]
+
+    Returns
+    -------
+    (low, high) : floats
+
+    Raises
+    ------
+    ValueError
+    """
+    from scipy.stats import chi2
+
+    if size < 1 or runs < 1:
+        raise ValueError(f"a band needs a size and runs of at least 1, not {size} and {runs}")
+    _check_share(share)
+    low, high = chi2.ppf([(1 - share) / 2, (1 + share) / 2], runs * size) / runs
+    return float(low), float(high)
+
+
+@dataclass(frozen=True)
+class Consistency:
+    """What runs say of P − E[x̃ x̃ᵀ] ⪰ 0.
+
+    Parameters
+    ----------
+    largest : float, largest mean square of an error in units of its variance, over all directions;
+        the definition asks for at most 1 in expectation [1]
+    limit : float, what a filter with P = E[x̃ x̃ᵀ] stays below in the share asked for [1]
+    direction : (n,) where the worst error points, by whitened components
+    """
+
+    largest: float
+    limit: float
+    direction: np.ndarray
+
+    @property
+    def refuted(self):
+        """Whether the runs show that the filter is too sure of itself.
+
+        False is no proof: it says that so many runs hold nothing against the filter.
+        """
+        return self.largest > self.limit
+
+
+def consistency(errors, P, share=0.95):
+    """The definition of consistency, P − E[x̃ x̃ᵀ] ⪰ 0, put to the test (MAK thesis, chapter 2).
+
+    With P = L Lᵀ it says that no eigenvalue of E[w wᵀ], w = L⁻¹ x̃, is above 1. The mean over n
+    runs always has one above 1 by chance; how far, its law tells: n times the mean is Wishart
+    distributed (Johnstone 2001; Chiani 2014).
+
+    Parameters
+    ----------
+    errors : (runs, n) estimate minus truth at one step, angles wrapped
+    P : (runs, n, n) what the filter believed in each run
+    share : float, how often a filter with P = E[x̃ x̃ᵀ] is not refuted [1]
+
+    Returns
+    -------
+    Consistency
+
+    Raises
+    ------
+    ValueError : fewer runs than components of the error, or what :func:`nees` refuses
+    """
+    white = np.atleast_2d(_whitened(errors, P))
+    runs, n = white.shape
+    if runs < n:
+        raise ValueError(f"{runs} runs say nothing of a {n} × {n} covariance: make at least {n}")
+    values, vectors = np.linalg.eigh(white.T @ white / runs)
+    return Consistency(float(values[-1]), largest_eigenvalue(n, runs, share), vectors[:, -1])
+
+
+def largest_eigenvalue(size, runs, share=0.95):
+    """Quantile of the largest eigenvalue of a mean of w wᵀ, w standard normal.
+
+    Johnstone's centre and spread, Tracy–Widom's law; the probability is met within 1 %.
+
+    Parameters
+    ----------
+    size : int, of w
+    runs : int
+    share : float [1]
+
+    Returns
+    -------
+    float
+    """
+    from scipy.stats import gamma
+
+    _check_share(share)
+    shape, scale, shift = TRACY_WIDOM
+    a, b = np.sqrt(runs - 0.5), np.sqrt(size - 0.5)
+    spread = (a + b) * (1 / a + 1 / b) ** (1 / 3)
+    return float(((a + b) ** 2 + spread * (gamma.ppf(share, shape, scale=scale) - shift)) / runs)
+
+
+def _whitened(error, P):
+    error, P = np.asarray(error, dtype=float), np.asarray(P, dtype=float)
+    if error.ndim < 1 or P.shape[-2:] != 2 * error.shape[-1:]:
+        raise ValueError(f"an error of shape {error.shape} has no covariance of shape {P.shape}")
+    try:
+        root = np.linalg.cholesky(P)
+    except np.linalg.LinAlgError:
+        raise ValueError("P is not positive definite: its error cannot be normalised") from None
+    return np.linalg.solve(root, error[..., None])[..., 0]
+
+
+def _check_share(share):
+    if not 0 < share < 1:
+        raise ValueError(f"share is between 0 and 1, such as 0.95, not {share}")
