@@ -22,11 +22,16 @@ def add_parser(subparsers):
         "source", metavar="SOURCE", help="a log file, sim:WORLD, or a recording's name"
     )
     parser.add_argument(
-        "--estimator", metavar="NAME", default="icp", help="odometry, icp or icp-plain (icp)"
+        "--estimator",
+        metavar="NAME",
+        default="icp",
+        help="odometry, icp, icp-plain, mak or mak-first-estimates (icp)",
     )
     parser.add_argument("--out", metavar="DIR", type=Path, help="a folder for the results")
     parser.add_argument(
-        "--relations", metavar="FILE", help="trusted relative poses to judge by: t1 t2 x y z r p y"
+        "--relations",
+        metavar="FILE",
+        help="trusted relative poses to judge by, lines of t1 t2 x y z roll pitch yaw",
     )
     parser.add_argument("--seed", metavar="N", type=int, default=0, help="of a simulation's noise")
     parser.set_defaults(run=run)

@@ -11,6 +11,7 @@ import numpy as np
 
 from slamlab.geometry import between, wrap
 from slamlab.sources.base import SourceError
+from slamlab.sources.recordings import located
 from slamlab.sources.text import lines, read_bytes
 
 NEAR = 0.002  # a relation's stamps and a pose's differ by no more than this [s]
@@ -55,7 +56,7 @@ def load_relations(path):
 
     Parameters
     ----------
-    path : str or Path
+    path : str or Path, or a recording's name
 
     Returns
     -------
@@ -65,7 +66,7 @@ def load_relations(path):
     ------
     SourceError : the file cannot be read or holds no relation
     """
-    content, torn = read_bytes(path)
+    content, torn = read_bytes(located(path))
     damage, rows = Counter({"file torn": 1} if torn else {}), []
     for line, ended in lines(content):
         if not line.strip() or line.lstrip().startswith(b"#"):

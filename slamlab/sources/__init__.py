@@ -4,10 +4,13 @@ import json
 
 import numpy as np
 
+from slamlab.sources import breezyslam
 from slamlab.sources.base import Source, SourceError
+from slamlab.sources.breezyslam import BreezySlamLog
 from slamlab.sources.carmen import CarmenLog
+from slamlab.sources.grabber import POINT, GrabberLog
 from slamlab.sources.readinglog import FORMAT, ReadingLog, write
-from slamlab.sources.recordings import FILES, recording
+from slamlab.sources.recordings import located, recording
 from slamlab.sources.simulation import simulation
 from slamlab.sources.text import read_bytes
 
@@ -38,8 +41,7 @@ def open(spec, rng=None):
     if spec.startswith(SIMULATED):
         rng = np.random.default_rng(0) if rng is None else rng
         return simulation(spec.removeprefix(SIMULATED), rng)
-    if spec in FILES:
-        spec = str(recording(spec))
+    spec = located(spec)
     content, torn = read_bytes(spec)
     if not content.strip():
         raise SourceError(f"{spec} is empty: it holds no readings")
@@ -47,9 +49,13 @@ def open(spec, rng=None):
         return ReadingLog(spec, (content, torn))
     if content.startswith(b"FLASER") or b"\nFLASER" in content or b"\rFLASER" in content:
         return CarmenLog(spec, (content, torn))
+    if POINT.search(content):
+        return GrabberLog(spec, (content, torn))
+    if breezyslam.looks_like(content.lstrip().split(b"\n", 1)[0]):
+        return BreezySlamLog(spec, (content, torn))
     raise SourceError(
-        f"{spec} is no log that slamlab knows: it is neither a CARMEN log with FLASER lines nor a "
-        "reading log"
+        f"{spec} is no log that slamlab knows: neither a reading log, nor a CARMEN log with FLASER "
+        "lines, nor the RPLIDAR grabber's text, nor a BreezySLAM log"
     )
 
 
