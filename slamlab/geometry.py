@@ -18,9 +18,14 @@ def wrap(angle):
     -------
     float or (...,) array [rad]
     """
-    wrapped = np.pi - np.mod(np.pi - np.asarray(angle, dtype=float), 2 * np.pi)
-    # mod may round up to 2 pi just above pi, which would give -pi
-    return np.where(wrapped <= -np.pi, np.pi, wrapped)[()]
+    if not isinstance(angle, float):
+        angle = np.asarray(angle, dtype=float)
+    wrapped = np.pi - (np.pi - angle) % (2 * np.pi)
+    # the remainder may round up to 2 pi just above pi, which would give -pi
+    if isinstance(wrapped, float):
+        return np.pi if wrapped <= -np.pi else wrapped
+    wrapped[wrapped <= -np.pi] = np.pi
+    return wrapped
 
 
 def compose(a, b):

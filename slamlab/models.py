@@ -67,8 +67,10 @@ def h(x, p):
     (..., 2) range [m] and bearing [rad], wrapped
     """
     d = np.asarray(p, dtype=float) - np.asarray(x, dtype=float)[:2]
-    r = np.hypot(d[..., 0], d[..., 1])
-    return np.stack([r, wrap(np.arctan2(d[..., 1], d[..., 0]) - x[2])], axis=-1)
+    z = np.empty_like(d)
+    z[..., 0] = np.hypot(d[..., 0], d[..., 1])
+    z[..., 1] = wrap(np.arctan2(d[..., 1], d[..., 0]) - x[2])
+    return z
 
 
 def g(x, z):

@@ -10,6 +10,7 @@ import numpy as np
 from scipy.linalg import solve_triangular
 
 from slamlab.filters.mak import MAK
+from slamlab.filters.state import ROBOT
 
 
 class CompressedMAK:
@@ -49,7 +50,7 @@ class CompressedMAK:
         """
         rows = self.whole.rows(ids)
         self.settle()
-        self._rows = np.concatenate([[0, 1, 2], rows])
+        self._rows = np.concatenate([ROBOT, rows])
         self._local = self.whole.part(ids)
         n = len(self._rows)
         self._phi, self._psi, self._theta = np.eye(n), np.zeros((n, n)), np.zeros(n)
@@ -80,5 +81,13 @@ class CompressedMAK:
         """Bring every landmark outside the region up to date."""
         if self._local is None:
             return
-        self.whole.settle(self._rows, self._local, self._phi, self._psi, self._theta)
+        whole, A = self.whole, self._rows
+        rest = np.setdiff1d(np.arange(len(whole.x)), A)
+        P_A = whole._P.columns(A)
+        whole._x[rest] += P_A[rest] @ self._theta
+        whole._x[A] = self._local.x
+        values, vectors = np.linalg.eigh(self._psi)
+        whole._P.subtract(np.asfortranarray(P_A @ (vectors * np.sqrt(np.maximum(values, 0)))))
+        whole._P.put(A, P_A @ self._phi.T, self._local.P)
+        whole._predicted = self._local._predicted
         self._local = None

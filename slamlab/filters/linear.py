@@ -5,7 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.linalg import cholesky, solve_triangular
 
-from slamlab.filters.step import Step, covariance, matrix, vector
+from slamlab.filters.guards import covariance, matrix, vector
+from slamlab.filters.step import Step
 
 
 @dataclass(frozen=True)

@@ -3,8 +3,8 @@
 import numpy as np
 
 from slamlab import jacobians, models
+from slamlab.filters.guards import covariance, vector
 from slamlab.filters.linear import Belief, correct
-from slamlab.filters.step import covariance, vector
 from slamlab.geometry import wrap
 
 

@@ -7,6 +7,8 @@ contiguous, so BLAS works on it without a copy; a block of a larger matrix it wo
 import numpy as np
 from scipy.linalg.blas import dsyrk
 
+UNIT_ROUNDOFF = float(np.finfo(float).eps) / 2
+
 
 class Triangle:
     """A symmetric matrix of which only the lower triangle is kept up to date.
@@ -38,15 +40,16 @@ class Triangle:
 
         Parameters
         ----------
-        index : sequence of k row numbers
+        index : (k,) int array, row numbers
 
         Returns
         -------
         (n, k) column-major
         """
-        out = np.asfortranarray(self.lower[:, index])
-        for k, j in enumerate(index):
-            out[:j, k] = self.lower[j, :j]
+        L = self.lower
+        out = np.asfortranarray(L[:, index])
+        for k, j in enumerate(index.tolist()):
+            out[:j, k] = L[j, :j]
         return out
 
     def block(self, rows):
@@ -74,7 +77,7 @@ class Triangle:
         B : (n, m) column-major
         """
         n, m = B.shape
-        guard = self.diagonal * (n * (m + 2) * np.finfo(float).eps / 2)
+        guard = self.diagonal * (n * (m + 2) * UNIT_ROUNDOFF)
         dsyrk(-1.0, B, beta=1.0, c=self.lower, lower=1, overwrite_c=1)
         self.diagonal += guard
 

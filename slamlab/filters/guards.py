@@ -1,0 +1,131 @@
+"""The guards every filter puts before its arguments: what is wrong, said in one line."""
+
+from itertools import chain
+from math import isfinite
+
+import numpy as np
+from scipy.linalg.lapack import dpotrf
+
+SYMMETRY = 1e-9  # relative; what rounding leaves is far below, a mistake far above
+
+
+def vector(name, value, length=None):
+    """A finite float vector, or an error that names the argument.
+
+    Parameters
+    ----------
+    name : str
+    value : array-like
+    length : int or None, for any
+
+    Returns
+    -------
+    (length,) float array
+
+    Raises
+    ------
+    ValueError
+    """
+    return _finite(name, value, (length,))
+
+
+def matrix(name, value, rows, columns):
+    """A finite float matrix, or an error that names the argument.
+
+    Parameters
+    ----------
+    name : str
+    value : (rows, columns) array-like; None for any number of rows or columns
+
+    Returns
+    -------
+    (rows, columns) float array
+
+    Raises
+    ------
+    ValueError
+    """
+    return _finite(name, value, (rows, columns))
+
+
+def covariance(name, value, size):
+    """A symmetric positive semidefinite matrix, or an error that names the argument.
+
+    No eigenvalue lies below −ε when P + ε I has a Cholesky root, which is cheap to try.
+
+    Parameters
+    ----------
+    name : str
+    value : (size, size) array-like
+
+    Returns
+    -------
+    (size, size) float array
+
+    Raises
+    ------
+    ValueError
+    """
+    P = _finite(name, value, (size, size))
+    slack = SYMMETRY * np.abs(P).max(initial=0.0)
+    if np.abs(P - P.T).max(initial=0.0) > slack:
+        raise ValueError(f"{name} is not symmetric: a covariance equals its transpose")
+    raised = P.flatten()
+    raised[:: size + 1] += slack
+    if slack and dpotrf(raised.reshape(size, size))[1]:
+        raise ValueError(
+            f"{name} has a negative eigenvalue: no covariance has (variances, not deviations?)"
+        )
+    return P
+
+
+def observations(z, R, m):
+    """Ranges and bearings of one scan with their noise, or an error that says what is wrong.
+
+    Parameters
+    ----------
+    z : (m, 2) array-like, range [m], bearing [rad]
+    R : (2, 2) of each, or (m, 2, 2)
+    m : int
+
+    Returns
+    -------
+    (m, 2), (2, 2) or (m, 2, 2) float arrays
+
+    Raises
+    ------
+    ValueError
+    """
+    z, R = _numbers("z", z), _numbers("R", R)
+    if z.shape != (m, 2):
+        raise ValueError(f"z has shape {z.shape}, expected ({m}, 2): a row for each id")
+    if R.shape not in ((2, 2), (m, 2, 2)):
+        raise ValueError(f"R has shape {R.shape}, expected (2, 2) or ({m}, 2, 2)")
+    seen, noise = z.tolist(), R.reshape(-1, 4).tolist()  # a scan is short: floats are faster
+    if not all(map(isfinite, chain(*seen, *noise))):
+        raise ValueError("z or R holds NaN or infinity")
+    if any(r <= 0 for r, _ in seen):
+        raise ValueError("z: a range is not positive")
+    if any(b != c or a < 0 or d < 0 or a * d < b * c for a, b, c, d in noise):
+        raise ValueError("R is no covariance: it must be symmetric and positive semidefinite")
+    return z, R
+
+
+def _numbers(name, value):
+    try:
+        return np.asarray(value, dtype=float)
+    except (TypeError, ValueError):
+        raise ValueError(f"{name} is not an array of numbers") from None
+
+
+def _finite(name, value, shape):
+    array = _numbers(name, value)
+    fits = len(array.shape) == len(shape) and all(
+        want is None or want == got for want, got in zip(shape, array.shape, strict=True)
+    )
+    if not fits:
+        want = tuple("any" if n is None else n for n in shape)
+        raise ValueError(f"{name} has shape {array.shape}, expected {want}")
+    if not np.isfinite(array).all():
+        raise ValueError(f"{name} holds NaN or infinity")
+    return array
