@@ -44,7 +44,8 @@ def test_run_writes_trajectory_map_and_summary(tmp_path, capsys):
 
 @pytest.mark.parametrize("estimator", estimators.NAMES)
 def test_every_estimator_runs_and_draws(tmp_path, estimator):
-    assert main(["run", "sim:polygon", "--estimator", estimator, "--out", str(tmp_path)]) == 0
+    world = "sim:landmarks" if estimator.startswith("mak") else "sim:polygon"
+    assert main(["run", world, "--estimator", estimator, "--out", str(tmp_path)]) == 0
     assert (tmp_path / "map.png").stat().st_size > 5000
 
 
@@ -79,6 +80,7 @@ def test_relations_are_judged_and_stand_in_the_summary(tmp_path):
         (["run", "/nowhere/log"], "no such file"),
         (["run", "sim:atlantis"], "there are: room"),
         (["run", "sim:polygon", "--estimator", "magic"], "there are: odometry"),
+        (["run", "sim:polygon", "--estimator", "mak"], "no landmark observations"),
         (["run", "sim:polygon", "--seed", "-1"], "--seed"),
         (["run", "sim:polygon", "--relations", "/nowhere"], "no such file"),
         (["convert", "/nowhere/log", "x"], "no such file"),

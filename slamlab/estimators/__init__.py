@@ -2,14 +2,17 @@
 
 from slamlab.estimators.base import Estimator
 from slamlab.estimators.icp import IcpSlam
+from slamlab.estimators.mak import MakSlam, mak
 from slamlab.estimators.odometry import Odometry
 
-__all__ = ["NAMES", "Estimator", "IcpSlam", "Odometry", "make"]
+__all__ = ["NAMES", "Estimator", "IcpSlam", "MakSlam", "Odometry", "make"]
 
 MAKERS = {
     "odometry": lambda source: Odometry(),
     "icp": lambda source: IcpSlam(),
     "icp-plain": lambda source: IcpSlam(plain=True),
+    "mak": mak,
+    "mak-first-estimates": lambda source: mak(source, first_estimates=True),
 }
 NAMES = tuple(MAKERS)
 

@@ -9,6 +9,7 @@ from slamlab.readings import Reading, Trajectory
 from slamlab.sensors import RPLIDAR_A2
 from slamlab.simulator import DifferentialDrive, Simulator, follow
 from slamlab.sources.base import Source, SourceError
+from slamlab.sources.landmarks import LandmarkRun, Loop
 
 PERIOD = 0.5  # between readings [s]
 
@@ -149,13 +150,13 @@ def simulation(world_name, rng, lidar=RPLIDAR_A2, robot=ROBOT, tour=True):
     ----------
     world_name : str, one of NAMES
     rng : numpy.random.Generator
-    lidar : Lidar
-    robot : DifferentialDrive; the polygon's runs have given odometry and do not use it
+    lidar : Lidar; among landmarks there is nothing to scan
+    robot : DifferentialDrive; only the tours use it, the other runs have odometry of their own
     tour : bool; False starts with one reading and waits for ``drive``
 
     Returns
     -------
-    Simulation
+    Source, a Simulation or a LandmarkRun
 
     Raises
     ------
@@ -163,6 +164,8 @@ def simulation(world_name, rng, lidar=RPLIDAR_A2, robot=ROBOT, tour=True):
     """
     if world_name not in NAMES:
         raise SourceError(f"no simulation {world_name!r}; there are: {', '.join(NAMES)}")
+    if world_name == LANDMARKS:
+        return LandmarkRun(Loop(), rng)
     if world_name in POLYGON_RUNS:
         return _polygon(world_name, rng, lidar)
     return _toured(world_name, rng, lidar, robot, tour)
@@ -189,4 +192,5 @@ def _toured(name, rng, lidar, robot, tour):
 
 
 POLYGON_RUNS = {"polygon": POLYGON_TRUE_STEPS, "polygon-wrong": POLYGON_WRONG_STEPS}
-NAMES = (*TOURS, *POLYGON_RUNS)
+LANDMARKS = "landmarks"
+NAMES = (*TOURS, *POLYGON_RUNS, LANDMARKS)

@@ -1,0 +1,116 @@
+"""EKF-SLAM as an estimator: odometry predicts, landmarks with known ids correct."""
+
+import numpy as np
+
+from slamlab import noise
+from slamlab.estimators.base import Estimator
+from slamlab.filters.mak import MAK
+from slamlab.geometry import compose
+from slamlab.layers import Ellipses, Points, Poses
+
+
+class MakSlam(Estimator):
+    """The MAK filter on a source's landmark observations.
+
+    Parameters
+    ----------
+    robot : RobotModel, how wrong the odometry is
+    sensor : SensorModel, how wrong a range and a bearing are
+    first_estimates : bool, take every Jacobian at the first estimate, see :class:`MAK`
+    """
+
+    def __init__(self, robot, sensor, first_estimates=False):
+        super().__init__()
+        self.robot, self.sensor = robot, sensor
+        # the first pose is where the map's frame is laid: nothing about it is uncertain
+        self.filter = MAK(np.zeros(3), np.zeros((3, 3)), first_estimates=first_estimates)
+        self.unknown = 0
+
+    def step(self, reading):
+        """Take a reading in: predict by odometry, correct by landmarks, add the new ones.
+
+        Parameters
+        ----------
+        reading : Reading
+        """
+        pose, odometry = self.filter.pose, np.asarray(reading.odometry, dtype=float)
+        if odometry.any():
+            self.filter.predict(compose(pose, odometry), Q_arc(pose, odometry, self.robot))
+        if reading.observations is not None:
+            self._see(reading.observations)
+        self.pose = self.filter.pose
+        self.record(reading.time)
+        self.status = f"{len(self.filter.ids)} landmarks, {self.unknown} sightings without an id"
+
+    def layers(self):
+        """Landmarks, their 95 % ellipses and the robot's, the track."""
+        P, poses = self.filter.P, self.trajectory().poses
+        corners = [P[i : i + 2, i : i + 2] for i in range(3, len(P), 2)]
+        landmarks = self.filter.landmarks()
+        return [
+            Points("landmarks", landmarks),
+            Ellipses("landmarks 95 %", landmarks, np.array(corners).reshape(-1, 2, 2)),
+            Poses("corrected", poses),
+            Ellipses("robot 95 %", self.pose[None, :2], P[None, :2, :2]),
+        ]
+
+    def _see(self, seen):
+        ids = np.asarray(seen.ids)
+        self.unknown += int(np.sum(ids < 0))
+        new = ~np.isin(ids, self.filter.ids)
+        for rows, take in ((~new, self.filter.update), (new & (ids >= 0), self.filter.add)):
+            if rows.any():
+                take(ids[rows].tolist(), seen.z[rows], self._R(seen.z[rows, 0]))
+
+    def _R(self, ranges):
+        """(m, 2, 2) covariances of the observations."""
+        s = self.sensor
+        return np.array([noise.R(r, s.range_error, s.bearing_sigma, s.range_sigma) for r in ranges])
+
+
+def Q_arc(pose, odometry, robot):
+    """Covariance of the pose after an arc whose length and turn are in error: Q = W C Wᵀ.
+
+    An arc's chord points half the turn off the old heading, so a turn in error swings it by half:
+    W = [c/d  ½ c⊥; 0  1], c being the chord.
+
+    Parameters
+    ----------
+    pose : (3,) before [m, m, rad]
+    odometry : (3,) motion in the frame of that pose [m, m, rad]
+    robot : RobotModel
+
+    Returns
+    -------
+    (3, 3) [m², m², rad²]
+    """
+    d, turn = np.hypot(odometry[0], odometry[1]), odometry[2]
+    direction = pose[2] + np.arctan2(odometry[1], odometry[0])
+    c, s = np.cos(direction), np.sin(direction)
+    W = np.array([[c, -d / 2 * s], [s, d / 2 * c], [0, 1]])
+    C = noise.C_odometry((d, turn), robot.distance_error, robot.turn_error, robot.turn_per_metre)
+    return noise.Q(W, C)
+
+
+def mak(source, first_estimates=False):
+    """The MAK estimator for a source, or an error where it has nothing to see.
+
+    Parameters
+    ----------
+    source : Source
+    first_estimates : bool
+
+    Returns
+    -------
+    MakSlam
+
+    Raises
+    ------
+    ValueError : no reading holds landmark observations
+    """
+    # a source that goes on for ever, such as a robot, has no length and is not run through
+    if len(source) and all(reading.observations is None for reading in source):
+        raise ValueError(
+            f"{source.name} holds no landmark observations, which mak needs; sim:landmarks does"
+        )
+    return MakSlam(source.robot, source.sensor, first_estimates)

@@ -1,0 +1,108 @@
+"""MAK as an estimator: it beats odometry, believes no more than it knows, draws what it has."""
+
+import numpy as np
+import pytest
+
+from slamlab import estimators
+from slamlab.estimators.mak import MakSlam, Q_arc
+from slamlab.evaluation import absolute_error, band, nees
+from slamlab.geometry import compose, wrap
+from slamlab.hardware import RobotModel
+from slamlab.layers import Ellipses, Points, Poses
+from slamlab.readings import Observations, Reading
+from slamlab.runner import run
+from slamlab.simulator import arc
+from slamlab.sources import simulation
+from slamlab.sources.landmarks import LandmarkRun, Loop
+
+BRIEF = Loop(steps=60, landmarks=12)
+
+
+def after(source, name="mak"):
+    return run(source, estimators.make(name, source))
+
+
+def pose_nees(seed, name):
+    """NEES of the last pose, and of the whole map."""
+    source = LandmarkRun(BRIEF, np.random.default_rng(seed))
+    slam = after(source, name).estimator
+    error = slam.pose - source.truth.poses[-1]
+    error[2] = wrap(error[2])
+    off = slam.filter.landmarks() - source.landmarks[slam.filter.ids]
+    P = slam.filter.P
+    return nees(error, P[:3, :3]), nees(off.ravel(), P[3:, 3:]) / off.size
+
+
+@pytest.mark.parametrize("name", ["mak", "mak-first-estimates"])
+def test_it_beats_odometry_on_a_loop_and_finds_every_landmark_it_saw(name):
+    source = simulation("landmarks", np.random.default_rng(2))
+    result = after(source, name)
+    mak, naive = (absolute_error(t, source.truth) for t in (result.trajectory, result.naive))
+    assert mak.translation < naive.translation / 2
+    seen = set(np.concatenate([reading.observations.ids for reading in source]).tolist())
+    assert set(result.estimator.filter.ids) == seen
+    off = result.estimator.filter.landmarks() - source.landmarks[result.estimator.filter.ids]
+    assert np.hypot(*off.T).max() < 0.5
+
+
+@pytest.mark.parametrize("name", ["mak", "mak-first-estimates"])
+def test_over_a_short_way_its_nees_lies_in_its_band(name):
+    runs = 50
+    pose, landmarks = np.mean([pose_nees(seed, name) for seed in range(runs)], axis=0)
+    low, high = band(3, runs, 0.9999)
+    assert low < pose < high
+    # the maps differ in size; a component each, so the spread is at most that of one landmark
+    low, high = band(2, runs, 0.9999)
+    assert low / 2 < landmarks < high / 2
+
+
+def test_the_motions_covariance_is_that_of_many_noisy_arcs():
+    rng, n = np.random.default_rng(5), 20_000
+    robot = RobotModel(distance_error=0.05, turn_error=0.04, turn_per_metre=0.06)
+    pose, d, turn = np.array([1.0, -2.0, 0.7]), 0.4, 0.5
+    turn_sigma = np.hypot(robot.turn_error * turn, robot.turn_per_metre * d)
+    ways = d * (1 + robot.distance_error * rng.standard_normal(n))
+    turns = turn + turn_sigma * rng.standard_normal(n)
+    ends = [compose(pose, arc(w - t / 2, w + t / 2, 1.0)) for w, t in zip(ways, turns, strict=True)]
+    found = np.cov(np.array(ends).T)
+    Q = Q_arc(pose, arc(d - turn / 2, d + turn / 2, 1.0), robot)
+    scale = np.sqrt(np.outer(np.diag(Q), np.diag(Q)))
+    np.testing.assert_allclose(found / scale, Q / scale, atol=0.04)
+
+
+def test_turning_on_the_spot_moves_no_place():
+    Q = Q_arc(np.array([0.0, 0.0, 0.4]), np.array([0.0, 0.0, 0.3]), RobotModel())
+    assert np.count_nonzero(Q) == 1
+    assert Q[2, 2] > 0
+
+
+def test_it_draws_landmarks_an_ellipse_for_each_and_for_the_robot_and_the_track():
+    source = LandmarkRun(BRIEF, np.random.default_rng(1))
+    slam = after(source).estimator
+    landmarks, around, track, robot = slam.layers()
+    assert [type(a) for a in slam.layers()] == [Points, Ellipses, Poses, Ellipses]
+    np.testing.assert_array_equal(landmarks.xy, around.centres)
+    assert len(track.rows) == len(source)
+    np.testing.assert_array_equal(robot.centres, [slam.pose[:2]])
+    for P in (*around.covariances, *robot.covariances):
+        assert np.linalg.eigvalsh(P).min() > 0
+
+
+def test_sightings_without_an_id_are_left_out_and_counted():
+    source = LandmarkRun(BRIEF, np.random.default_rng(1))
+    slam = MakSlam(source.robot, source.sensor)
+    seen = next(iter(source)).observations
+    slam.step(Reading(0.0, observations=Observations(seen.z, np.full(len(seen.ids), -1))))
+    assert slam.filter.ids == []
+    assert f"{len(seen.ids)} sightings without an id" in slam.status
+
+
+def test_before_anything_is_seen_there_is_a_robot_and_no_landmark():
+    landmarks, around, *_ = MakSlam(RobotModel(), Loop().sensor).layers()
+    assert landmarks.xy.shape == (0, 2)
+    assert around.covariances.shape == (0, 2, 2)
+
+
+def test_a_source_without_landmarks_is_refused_in_one_line():
+    with pytest.raises(ValueError, match="sim:polygon holds no landmark observations"):
+        estimators.make("mak", simulation("polygon", np.random.default_rng(0)))
