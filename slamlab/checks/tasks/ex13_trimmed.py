@@ -8,6 +8,7 @@ from slamlab.checks.tasks.ex13_clouds import is_best
 from slamlab.checks.tasks.ex13_fit import fit
 from slamlab.checks.tasks.ex13_icp import (
     SHAPES,
+    SHARED,
     WRONG_SIDE,
     first_pairs,
     lands,
@@ -23,8 +24,9 @@ ROUNDINGS = (0, -1, 1)
 def cluttered(rng, count=3):
     """Scans that overlap, but people stand in the source who were not there in the target."""
     shares = rng.choice([0.54, 0.6, 0.62], count)
-    # whoever keeps the other share comes out right as well: the first round tells
-    cases = (one_pair(rng, CLUTTER, (share, 1 - share)) for share in shares)
+    # a pair more or less must lead home as well; and the other share: the first round tells
+    one = 1 / (SHARED + CLUTTER)
+    cases = (one_pair(rng, CLUTTER, (s, s - one, s + one, 1 - s)) for s in shares)
     return stacked(cases) | {"share": shares}
 
 
