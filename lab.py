@@ -243,9 +243,12 @@ def open_lab(venv, arguments):
         command.append("--allow-root")
     command += arguments
     os.chdir(ROOT)
+    # so that slamlab is found in JupyterLab's terminals
+    known = environment()
+    known["PATH"] = os.pathsep.join([os.path.dirname(command[0]), known.get("PATH", os.defpath)])
     if os.name != "nt":
-        os.execve(command[0], command, environment())
-    process = subprocess.Popen(command, env=environment())
+        os.execve(command[0], command, known)
+    process = subprocess.Popen(command, env=known)
     while True:
         try:
             return process.wait()

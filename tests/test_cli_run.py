@@ -39,7 +39,9 @@ def test_run_writes_trajectory_map_and_summary(tmp_path, capsys):
     summary = json.loads((out / "summary.json").read_text())
     assert {"source", "estimator", "frames", "skipped", "seconds"} <= set(summary)
     assert summary["truth"]["corrected_m"] < summary["truth"]["naive_m"]
-    assert "4 readings of sim:polygon-wrong" in capsys.readouterr().out
+    printed = capsys.readouterr().out
+    assert "4 readings of sim:polygon-wrong" in printed
+    assert "position [m]" in printed and "heading [rad]" in printed
 
 
 @pytest.mark.parametrize("estimator", estimators.NAMES)

@@ -58,7 +58,8 @@ def run(arguments) -> int:
             write(result, summary, arguments.out)
     except OSError as error:
         where = error.filename or arguments.out
-        print(f"slamlab run: {where}: {error.strerror}", file=sys.stderr)
+        what = "a file, not a folder" if isinstance(error, FileExistsError) else error.strerror
+        print(f"slamlab run: {where}: {what}", file=sys.stderr)
         return 2
     except ValueError as error:
         print(f"slamlab run: {error}", file=sys.stderr)
@@ -200,5 +201,5 @@ def _print(summary):
                     f"{row[f'corrected_{unit}']:.3f}",
                 )
     if table.row_count:
-        Console().print(table)
+        Console(markup=False).print(table)  # which would take [m] for a style
     print(f"{summary['frames']} readings of {summary['source']} in {summary['seconds']:.1f} s")

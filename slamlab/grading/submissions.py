@@ -137,11 +137,14 @@ def parse(data: bytes) -> Notebook:
         notes.append("an old notebook format, upgraded")
     if not isinstance(content.get("cells"), list):
         raise Unreadable("not a notebook: it has no list of cells")
+    if _named(content, "lesson"):
+        raise Unreadable("a lesson, not an exercise; those are in the folder exercises")
     cells = tuple(_code(content["cells"]))
     if not cells:
         notes.append("no code cells")
     own = tuple((number, source) for number, source in cells if not _CHECK.fullmatch(source))
-    return Notebook(own, _named(content), hashlib.sha256(data).hexdigest(), tuple(notes))
+    digest = hashlib.sha256(data).hexdigest()
+    return Notebook(own, _named(content, "exercise"), digest, tuple(notes))
 
 
 def exercise_of(submission: Submission, notebook: Notebook, default=None):
@@ -234,8 +237,8 @@ def _code(cells):
             yield number, source.encode("utf-8", "replace").decode("utf-8")
 
 
-def _named(content):
+def _named(content, kind):
     metadata = content.get("metadata")
     ours = metadata.get("slamlab") if isinstance(metadata, dict) else None
-    named = ours.get("exercise") if isinstance(ours, dict) else None
+    named = ours.get(kind) if isinstance(ours, dict) else None
     return named if isinstance(named, str) else None

@@ -155,6 +155,12 @@ def test_an_old_format_is_upgraded_and_other_encodings_are_read():
         assert read.notes == notes
 
 
+def test_a_lesson_is_no_submission():
+    text = notebook(exercise=None, metadata={"slamlab": {"lesson": "99"}})
+    with pytest.raises(Unreadable, match="a lesson, not an exercise"):
+        submissions.parse(text.encode())
+
+
 def exercise(name, text, default=None):
     submission = Submission(name, "anna", None)
     return submissions.exercise_of(submission, submissions.parse(text.encode()), default).id

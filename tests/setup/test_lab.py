@@ -186,6 +186,19 @@ def test_slides_stay_once_they_were_asked_for(lab):
     assert lab.calls == []
 
 
+@pytest.mark.skipif(os.name == "nt", reason="JupyterLab is a child process there")
+def test_terminals_of_jupyterlab_find_the_course_s_commands(lab, monkeypatch):
+    def become(path, command, known):
+        sys.exit(known["PATH"])
+
+    monkeypatch.chdir(lab.folder)
+    monkeypatch.setattr(os, "execve", become)
+    monkeypatch.setenv("PATH", "/elsewhere")
+    with pytest.raises(SystemExit) as opened:
+        lab.module.open_lab(str(lab.folder / ".venv"), [])
+    assert opened.value.code == f"{lab.folder / '.venv' / 'bin'}:/elsewhere"
+
+
 def test_the_supported_pythons_are_those_of_the_project(lab):
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     above = (lab.module.NEWEST[0], lab.module.NEWEST[1] + 1)
