@@ -101,7 +101,7 @@ fig, _ = views.side_by_side(
 views.show(fig, alt="Left a sharp rectangular corridor; right the same scans, smeared.")
 
 # %% [markdown]
-# Left, 230 scans fall on the same walls. Right, every wall that was seen for long is a smear, and
+# Left, 231 scans fall on the same walls. Right, every wall that was seen for long is a smear, and
 # at the lower left there are two corridors where there is one: **the ends do not meet**. A robot
 # that trusted this map would look for a door where there is a wall.
 
@@ -155,10 +155,7 @@ views.explore(
 # the way grow in the first case? By which factor does the error across it grow in the second?
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* let them vote: 2, 4, 8 or 16. The reasoning comes after the numbers. Length:
-# the variances of n independent errors add, so the error grows with √n, factor 2. Heading: an error
-# made early is carried on by all the steps that follow, one more power of n under the square: n·√n,
-# factor 8.
+# *For the lecturer:* let them vote: 2, 4, 8 or 16. The reasoning comes after the numbers.
 
 
 # %% name="spread" tags=["nbval-check-output"]
@@ -234,13 +231,14 @@ fig, _ = views.side_by_side(
         "odometry and scans": [Points("corrected", map_from(corrected, readings))],
     }
 )
-views.show(fig, alt="Left the smeared corridor; right the matched one, sharp, its ends meeting.")
+views.show(fig, alt="Left the smeared corridor; right the matched one, sharp, all but closed.")
 
 # %% [markdown]
-# Same robot, same wheels, same scans. On the right the walls are sharp and the ends meet, as far as
-# the eye can see. Not exactly, say the numbers: each match errs by a millimetre or two, and what is
-# only added up runs away, if more slowly. Try other seeds in the second cell of the lesson (run all
-# cells again): the odometry misses by metres each time, the matcher by centimetres.
+# Same robot, same wheels, same scans. On the right the walls are sharp and the ends meet, to within
+# a hand's breadth or two. Not exactly: each match errs by a millimetre or two and some hundredths
+# of a degree, and what is only added up runs away, if more slowly. Try other seeds in the second
+# cell of the lesson (run all cells again): the odometry misses by metres each time, the matcher by
+# centimetres.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## The same on a real robot
@@ -287,7 +285,7 @@ views.show(fig, alt="Left a tangle 80 m long; right a building 30 m across with 
 # a ring of corridors with rooms on both sides.
 #
 # Look closely, though: many walls stand twice, side by side or crossing. The robot came back after
-# a long way, and the matcher, which compares a scan with the few before it, **does not know that it
+# a long way, and the matcher, which compares a scan with the one before it, **does not know that it
 # has been here before**. Recognising a place and mending the past is called closing the loop.
 
 # %% [markdown] slideshow={"slide_type": "slide"}

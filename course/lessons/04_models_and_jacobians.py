@@ -37,8 +37,7 @@ from slamlab.layers import Poses
 # **Predict** the shape of the 1000 end points: a disc, a streak along the way, a streak across it?
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* Take a vote. Most say "along the way", because they think of wheels that
-# slip. Nothing slips here: the control is exact, the streak comes from the heading alone.
+# *For the lecturer:* Take a vote before you go on; what to say to it stands below the picture.
 
 # %% slideshow={"slide_type": "fragment"}
 rng = np.random.default_rng(4)
@@ -77,6 +76,10 @@ views.show(
 # **See:** the streak lies *across* the way (the robots drove to the upper right), about 0.3 m to
 # either side per standard deviation: 3 m · 0.1 rad. One multiplication with A foretold what 1000
 # robots did.
+
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Most say "along the way", because they think of wheels that slip. Nothing
+# slips here: the control is exact, the streak comes from the heading alone.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Where a Jacobian fails

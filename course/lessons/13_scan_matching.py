@@ -14,9 +14,9 @@
 # pairs. So guess one, and improve both in turn.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# Three lectures' worth if all is derived: (1) the motion of paired points, down to the determinant;
-# (2) ICP, watched, and its end; (3) the polygon, partial overlap, the listing's mistake. Part 2
-# stands alone for a class that believes the SVD formula.
+# *For the lecturer:* Three lectures' worth if all is derived: (1) the motion of paired points,
+# down to the determinant; (2) ICP, watched, and its end; (3) the polygon, partial overlap, the
+# listing's mistake. Part 2 stands alone for a class that believes the SVD formula.
 
 # %% slideshow={"slide_type": "skip"}
 from dataclasses import replace
@@ -61,7 +61,7 @@ def told(pose, truth=true_motion):
 
 
 # %% slideshow={"slide_type": "subslide"}
-title = f"second scan where odometry puts it: {told(guess)}"
+title = f"by odometry: {told(guess)}"
 fig, _ = views.overlay(first, transform(guess, second), title=title)
 views.show(fig, "Two scans of the polygon that do not fit: the second is turned and shifted.")
 
@@ -73,9 +73,9 @@ views.show(fig, "Two scans of the polygon that do not fit: the second is turned 
 # motion exactly? How many points of each scan are really *the same spot* on the wall?
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# The answer to the last one is: none. Beams hit where they hit. So "the pairs" do not even exist;
-# nearest points only stand for the same wall. That is why point to point keeps an error however
-# long it runs, and why point to line (below) is better.
+# *For the lecturer:* The answer to the last one is: none. Beams hit where they hit. So "the pairs"
+# do not even exist; nearest points only stand for the same wall. That is why point to point keeps
+# an error however long it runs, and why point to line (below) is better.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## If the pairs were known
@@ -109,8 +109,8 @@ E = squares(R * a + t * sp.ones(1, 3) - b)
 # At the least E its slopes along $t_x$ and $t_y$ are zero. Two equations, two unknowns:
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# "Why centroids?" is answered here, by two derivatives, not by custom. In Tuček's steps this is
-# number 3; he shifts first and turns then, which is the same.
+# *For the lecturer:* "Why centroids?" is answered here, by two derivatives, not by custom. In
+# Tuček's steps this is number 3; he shifts first and turns then, which is the same.
 
 # %% slideshow={"slide_type": "fragment"}
 best_t = sp.solve([E.diff(t_x), E.diff(t_y)], [t_x, t_y], dict=True)[0]
@@ -166,9 +166,10 @@ gain
 # $$\theta = \operatorname{atan2}(h_{12} - h_{21},\ h_{11} + h_{22})$$
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# The four-line product of complex numbers says the same: θ is the argument of Σ conj(a′) b′. Then
-# why do thesis and textbooks take the SVD? Because it works in three dimensions, too, where there
-# is no arctangent. Derive it all the same: the determinant is a trap that people fall into.
+# *For the lecturer:* The four-line product of complex numbers says the same: θ is the argument of
+# Σ conj(a′) b′. Then why do thesis and textbooks take the SVD? Because it works in three
+# dimensions, too, where there is no arctangent. Derive it all the same: the determinant is a trap
+# that people fall into.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Why the SVD
@@ -199,8 +200,9 @@ for Z in (Z_turn, Z_mirror):
 # $$R = V U^{\mathsf T}$$
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# Pause here. "Greatest at φ = 0" holds for the mirror because s_1 ≥ s_2. Ask what happens when
-# s_1 = s_2 (every mirror is as good) and when s_2 = 0 (all points on a line: both win alike).
+# *For the lecturer:* Pause here. "Greatest at φ = 0" holds for the mirror because s_1 ≥ s_2. Ask
+# what happens when s_1 = s_2 (every mirror is as good) and when s_2 = 0 (all points on a line:
+# both win alike).
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Why the determinant
@@ -257,6 +259,7 @@ for name, mirrors in {"naive": True, "corrected": False}.items():
     _, R_wall = best_motion(*looks, mirrors)
     ends = carried(R_wall, inside).reshape(-1, 4)
     views.draw(ax, Segments(name, ends), label=f"carried with det {np.linalg.det(R_wall):+.0f}")
+ax.set_ylim(-1, 2.1)  # room for the legend
 ax.legend(loc="lower right")
 views.show(
     fig, "With det −1 robot and chest lie behind the wall, mirrored; with det +1 in front of it."
@@ -269,9 +272,9 @@ views.show(
 # noise, and noise does not know left from right.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# Draw by hand which two signs the noise can have: if points that stood a little out in the first
-# look stand a little in in the second, the mirror is the better fit. That happens every second
-# time. The thesis' listing has this right.
+# *For the lecturer:* Draw by hand which two signs the noise can have: if points that stood a
+# little out in the first look stand a little in in the second, the mirror is the better fit. That
+# happens every second time. The thesis' listing has this right.
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # SVD and arctangent are the same formula in the plane. A thousand random clouds:
@@ -323,9 +326,10 @@ print("the package's ICP agrees:", np.allclose(pose, match.pose, atol=1e-12))
 # go downhill: ICP always ends, in *a* valley, though not always in the right one.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# The step is found in the target's frame, after the pose has been applied: it goes to the left,
-# step ⊕ pose. A widely copied ICP multiplies on the other side: its exercise diagnosis is
-# "wrong-side". Let the class find what that does when the turn is 90° or more (it runs away).
+# *For the lecturer:* The step is found in the target's frame, after the pose has been applied: it
+# goes to the left, step ⊕ pose. A widely copied ICP multiplies on the other side: its exercise
+# diagnosis is "wrong-side". Let the class find what that does when the turn is 90° or more (it
+# runs away).
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Watch it
@@ -406,8 +410,9 @@ print("change below 0.001 mm:    ", stop(lambda now, before: abs(now - before) <
 # turn is done.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# Both rules have their place: the change ends the loop, the error that is left says whether to
-# believe the match. An error far above the noise after convergence means: the wrong valley.
+# *For the lecturer:* Both rules have their place: the change ends the loop, the error that is left
+# says whether to believe the match. An error far above the noise after convergence means: the
+# wrong valley.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## The polygon: four places, four pictures
@@ -482,8 +487,9 @@ views.show(fig, "Naive map of wrong odometry: four polygons askew. After plain I
 # its first guess once it is near enough.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# The naive error does not simply grow: the second wrong step happens to undo a part of the first.
-# Ask which of the naive pictures a robot could tell from a good one without knowing the truth.
+# *For the lecturer:* The naive error does not simply grow: the second wrong step happens to undo a
+# part of the first. Ask which of the naive pictures a robot could tell from a good one without
+# knowing the truth.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## What only one scan saw
@@ -566,8 +572,8 @@ for title, lidar in {"whole turn": RPLIDAR_A2, "half a turn": ahead}.items():
 # with its dozen rounds against thirty, is the faster one, too.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# Why not always point to line? It needs walls: in a heap of points there are no normals. And from a
-# bad first guess it gets lost sooner: the last section but one shows it.
+# *For the lecturer:* Why not always point to line? It needs walls: in a heap of points there are
+# no normals. And from a bad first guess it gets lost sooner: the last section but one shows it.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## The second scan's motion
@@ -621,9 +627,9 @@ views.show(fig, "As printed: two polygons, turned against each other by 45°. Me
 # listing. Two lines mend it: the first scan is the map **and** the previous scan.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# A good case for reading code against its pictures. The same happens after any scan with fewer than
-# three points, which clears previous_points: the next motion is lost again. `slamlab.estimators`
-# mends both, each with a test of its own.
+# *For the lecturer:* A good case for reading code against its pictures. The same happens after any
+# scan with fewer than three points, which clears previous_points: the next motion is lost again.
+# `slamlab.estimators` mends both, each with a test of its own.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## How bad may the first guess be?
@@ -667,8 +673,8 @@ views.show(fig, "Both find home every time up to 30°; plain ICP falls off later
 # ## A real robot
 #
 # The Intel Research Lab: 910 scans in 44 minutes, a scanner of half a turn, raw odometry. The
-# estimator `icp-plain` is the thesis' way; `icp` matches point to line, gated and weighed, with the
-# last ten scans instead of one.
+# estimator `icp-plain` is the thesis' way; `icp` matches point to line, gated and weighed, and
+# keeps to odometry where no wall decides. Both match each scan with the one before.
 #
 # **Predict** from what you saw: what will plain ICP do with half a turn and fast turns?
 
@@ -727,12 +733,13 @@ except (sources.SourceError, ValueError) as absent:
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # **See:** the numbers say what the maps show. Plain ICP is worth no more than the wheels here; the
-# robust one is several times better. What is left of its error is mostly loops that were never
+# robust one is over ten times better. What is left of its error is mostly loops that were never
 # closed: lesson 15.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# Without the recordings this section runs on a simulated corridor and says so; the stored output is
-# of the real log. Only relations whose two stamps lie within 2 ms of a scan are counted.
+# *For the lecturer:* Without the recordings this section runs on a simulated corridor and says so;
+# the stored output is of the real log. Only relations whose two stamps lie within 2 ms of a scan
+# are counted.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## What you can do now
