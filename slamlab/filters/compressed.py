@@ -7,7 +7,7 @@ seen, the others (B) are touched through three small sums φ, ψ, θ; settling b
 """
 
 import numpy as np
-from scipy.linalg import solve_triangular
+from scipy.linalg.blas import dtrsm, dtrsv
 
 from slamlab.filters.mak import MAK
 from slamlab.filters.state import ROBOT
@@ -71,9 +71,9 @@ class CompressedMAK:
         """
         step = self.local.update(ids, z, R)
         H_phi = step.H @ self._phi[step.columns]
-        white = solve_triangular(step.root, H_phi, lower=True)
+        white = dtrsm(1.0, step.root, H_phi, lower=1)
         self._psi += white.T @ white
-        self._theta += white.T @ solve_triangular(step.root, step.innovation, lower=True)
+        self._theta += white.T @ dtrsv(step.root, step.innovation, lower=1)
         self._phi -= step.B @ white
         return step
 

@@ -68,7 +68,8 @@ def covariance(name, value, size):
     """
     P = _finite(name, value, (size, size))
     slack = SYMMETRY * np.abs(P).max(initial=0.0)
-    if np.abs(P - P.T).max(initial=0.0) > slack:
+    mirrored = P.tobytes() == P.T.tobytes()  # nearly always, and cheap to ask
+    if not mirrored and np.abs(P - P.T).max(initial=0.0) > slack:
         raise ValueError(f"{name} is not symmetric: a covariance equals its transpose")
     raised = P.flatten()
     raised[:: size + 1] += slack
@@ -79,14 +80,14 @@ def covariance(name, value, size):
     return P
 
 
-def observations(z, R, m):
+def observations(z, R, m=None):
     """Ranges and bearings of one scan with their noise, or an error that says what is wrong.
 
     Parameters
     ----------
     z : (m, 2) array-like, range [m], bearing [rad]
     R : (2, 2) of each, or (m, 2, 2)
-    m : int
+    m : int or None, for any
 
     Returns
     -------
@@ -97,6 +98,10 @@ def observations(z, R, m):
     ValueError
     """
     z, R = _numbers("z", z), _numbers("R", R)
+    if m is None:
+        m = z.shape[0] if z.ndim else 1
+    if m == 0:
+        raise ValueError("nothing was seen: leave empty scans out")
     if z.shape != (m, 2):
         raise ValueError(f"z has shape {z.shape}, expected ({m}, 2): a row for each id")
     if R.shape not in ((2, 2), (m, 2, 2)):
@@ -120,12 +125,15 @@ def _numbers(name, value):
 
 def _finite(name, value, shape):
     array = _numbers(name, value)
-    fits = len(array.shape) == len(shape) and all(
-        want is None or want == got for want, got in zip(shape, array.shape, strict=True)
-    )
-    if not fits:
+    if array.shape != shape and not _fits(array.shape, shape):
         want = tuple("any" if n is None else n for n in shape)
         raise ValueError(f"{name} has shape {array.shape}, expected {want}")
     if not np.isfinite(array).all():
         raise ValueError(f"{name} holds NaN or infinity")
     return array
+
+
+def _fits(got, want):
+    return len(got) == len(want) and all(
+        w is None or w == g for g, w in zip(got, want, strict=True)
+    )

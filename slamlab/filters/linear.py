@@ -3,7 +3,8 @@
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.linalg import cholesky, solve_triangular
+from scipy.linalg.blas import dtrsm
+from scipy.linalg.lapack import dpotrf
 
 from slamlab.filters.guards import covariance, matrix, vector
 from slamlab.filters.step import Step
@@ -117,11 +118,10 @@ def correct(b, innovation, H, R):
     """
     PHt = b.P @ H.T
     S = H @ PHt + R
-    try:
-        root = cholesky(S, lower=True)
-    except np.linalg.LinAlgError:
-        raise ValueError("S = H P Hᵀ + R is singular: give R a positive variance") from None
-    B = solve_triangular(root, PHt.T, lower=True).T
+    root, failed = dpotrf(S, lower=1, clean=1)
+    if failed:
+        raise ValueError("S = H P Hᵀ + R is singular: give R a positive variance")
+    B = dtrsm(1.0, root, PHt, side=1, lower=1, trans_a=1)
     step = Step(innovation, S, root, B, H, np.arange(len(b.x)))
     I_KH = np.eye(len(b.x)) - step.K @ H
     P = I_KH @ b.P @ I_KH.T + step.K @ R @ step.K.T

@@ -1,9 +1,10 @@
 """Localisation in a known map: the robot's half of the problem (MAK thesis, 4.1)."""
 
 import numpy as np
+from scipy.linalg import block_diag
 
 from slamlab import jacobians, models
-from slamlab.filters.guards import covariance, vector
+from slamlab.filters.guards import covariance, matrix, observations, vector
 from slamlab.filters.linear import Belief, correct
 from slamlab.geometry import wrap
 
@@ -26,7 +27,7 @@ def predict(b, x, A, Q):
     ------
     ValueError
     """
-    x, Q = vector("x", x, 3), covariance("Q", Q, 3)
+    x, A, Q = vector("x", x, 3), matrix("A", A, 3, 3), covariance("Q", Q, 3)
     P = A @ b.P @ A.T + Q
     return Belief(np.array([x[0], x[1], wrap(x[2])]), (P + P.T) / 2)
 
@@ -39,7 +40,7 @@ def update(b, z, p, R):
     b : Belief of the pose, size 3
     z : (m, 2) range [m] and bearing [rad]
     p : (m, 2) the landmarks [m]
-    R : (2, 2) noise of one observation
+    R : (2, 2) of each, or (m, 2, 2)
 
     Returns
     -------
@@ -49,10 +50,9 @@ def update(b, z, p, R):
     ------
     ValueError
     """
-    z, p = np.atleast_2d(z), np.atleast_2d(p)
-    if z.shape != p.shape or z.shape[1:] != (2,) or not np.isfinite([z, p]).all():
-        raise ValueError(f"z and p must be finite and (m, 2) both, got {z.shape} and {p.shape}")
-    R = np.kron(np.eye(len(z)), covariance("R", R, 2))
+    z, R = observations(z, R)
+    p = matrix("p", p, len(z), 2)
+    R = block_diag(*np.broadcast_to(R, (len(z), 2, 2)))
     v = z - models.h(b.x, p)
     v[:, 1] = wrap(v[:, 1])
     H = jacobians.H_robot(b.x, p).reshape(-1, 3)

@@ -61,12 +61,13 @@ class MAK(AugmentedState):
         ValueError
         """
         x, Q = vector("x", x, 3), covariance("Q", Q, 3)
-        x0, y0 = self._predicted if self.first_estimates else self._x[:2]
-        A = np.array([[1, 0, y0 - x[1]], [0, 1, x[0] - x0], [0, 0, 1.0]])
+        dx, dy = x[:2] - (self._predicted if self.first_estimates else self._x[:2])
+        A = np.array([[1, 0, -dy], [0, 1, dx], [0, 0, 1.0]])
         L = self._P.lower
         L[0, 1], L[0, 2], L[1, 2] = L[1, 0], L[2, 0], L[2, 1]
         L[:3, :3] = A @ L[:3, :3] @ A.T + Q
-        L[3:, :2] += L[3:, 2:3] * A[:2, 2]
+        L[3:, 0] -= dy * L[3:, 2]
+        L[3:, 1] += dx * L[3:, 2]
         self._x[:2], self._x[2] = x[:2], wrap(x[2])
         self._predicted = x[:2].copy()
         return A
@@ -93,7 +94,7 @@ class MAK(AugmentedState):
         rows = self.rows(ids)
         z, R = observations(z, R, len(rows) // 2)
         v, H, index = self._linearise(rows, z)
-        PHt = dgemm(1.0, self._P.columns(index), H, trans_b=1)
+        PHt = dgemm(1.0, self._P.columns(index), H.T)
         S = H @ PHt[index]
         _diagonal_blocks(S)[...] += R
         root, failed = dpotrf(S, lower=1, clean=1)
@@ -145,7 +146,7 @@ class MAK(AugmentedState):
         H_r = jacobians.H_robot(x, self._first_seen(rows) if self.first_estimates else p)
         H = np.zeros((2 * m, 3 + 2 * m))
         H[:, :3] = H_r.reshape(-1, 3)
-        _diagonal_blocks(H[:, 3:])[...] = -H_r[:, :, :2]
+        _diagonal_blocks(H, 3)[...] = -H_r[:, :, :2]
         return v.ravel(), H, np.concatenate([ROBOT, rows])
 
     def _forget_cross_terms(self):
@@ -155,7 +156,9 @@ class MAK(AugmentedState):
         L[3:, 3:][own[:, None] != own] = 0
 
 
-def _diagonal_blocks(M):
-    """(m, 2, 2) view of the 2 × 2 blocks on the diagonal of M (2m, 2m)."""
-    m = len(M) // 2
-    return np.einsum("iaib->iab", M.reshape(m, 2, m, 2))
+def _diagonal_blocks(M, column=0):
+    """(m, 2, 2) view of the 2 × 2 blocks along the diagonal that starts in a column of M."""
+    down, right = M.strides
+    return np.ndarray(
+        (len(M) // 2, 2, 2), float, M, column * right, (2 * (down + right), *M.strides)
+    )

@@ -3,7 +3,7 @@
 import numpy as np
 
 from slamlab import jacobians, models
-from slamlab.filters.guards import covariance, vector
+from slamlab.filters.guards import covariance, observations, vector
 from slamlab.filters.linear import Belief, correct
 from slamlab.geometry import wrap
 
@@ -32,7 +32,8 @@ class KnownPoseMap:
         ------
         ValueError
         """
-        x, z, R = vector("x", x, 3), vector("z", z, 2), covariance("R", R, 2)
+        x, R = vector("x", x, 3), covariance("R", R, 2)
+        (z,), _ = observations([z], R)
         known = self.landmarks.get(id)
         if known is None:
             J_z = jacobians.J_z(x, z)

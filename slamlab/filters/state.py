@@ -82,6 +82,20 @@ class AugmentedState:
         """(k, k) the covariance of some rows of the state, such as those of :meth:`rows`."""
         return self._P.block(np.asarray(rows))
 
+    def blocks(self):
+        """What one landmark and the robot share, for all landmarks at once; O(N).
+
+        Returns
+        -------
+        P_rr (3, 3), P_ir (N, 2, 3), P_ii (N, 2, 2), copies
+        """
+        L = self._P.lower
+        i = np.arange(3, self._P.n, 2)
+        P_ii = np.empty((len(i), 2, 2))
+        P_ii[:, 0, 0], P_ii[:, 1, 1] = L[i, i], L[i + 1, i + 1]
+        P_ii[:, 0, 1] = P_ii[:, 1, 0] = L[i + 1, i]
+        return self.block(ROBOT), L[3:, :3].reshape(-1, 2, 3), P_ii
+
     def part(self, ids):
         """The robot and some of its landmarks, as a state of their own.
 

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.linalg import solve_triangular
+from scipy.linalg.blas import dtrsm, dtrsv
 
 
 @dataclass(frozen=True)
@@ -31,10 +31,10 @@ class Step:
     @cached_property
     def K(self):
         """(n, m) the gain P Hᵀ S⁻¹."""
-        return solve_triangular(self.root, self.B.T, lower=True, trans=1).T
+        return dtrsm(1.0, self.root, self.B, side=1, lower=1)
 
     @cached_property
     def nis(self):
         """Normalised innovation squared vᵀ S⁻¹ v: χ² with m degrees of freedom when consistent."""
-        white = solve_triangular(self.root, self.innovation, lower=True)
+        white = dtrsv(self.root, self.innovation, lower=1)
         return float(white @ white)

@@ -69,11 +69,11 @@ def test_fast_form_equals_the_textbook(seed, m, steps):
 def test_covariance_stays_symmetric_and_positive_over_a_hundred_thousand_updates():
     rng = np.random.default_rng(1)
     mak = filled(rng, 3)
+    z, noise = seen_again(mak, mak.ids, rng), Q * 1e-4
     for k in range(100_000):
         if k % 10 == 0:
-            mak.predict(models.f_odometry(mak.pose, [0.01, 0.02]), Q * 1e-4)
-        ids = [k % 3]
-        mak.update(ids, models.h(mak.pose, mak.x[mak.rows(ids)].reshape(-1, 2)), R)
+            mak.predict(mak.pose, noise)
+        mak.update([k % 3], z[k % 3 : k % 3 + 1], R)
     P = mak.P
     assert np.array_equal(P, P.T)
     assert np.linalg.eigvalsh(P)[0] >= 0
@@ -202,7 +202,9 @@ def test_dropped_cross_terms_are_all_zero():
     [
         (lambda m: m.update([7], [[1, 0]], R), "[7] are not in the map"),
         (lambda m: m.update([1, 1], [[1, 0], [1, 0]], R), "[1] stand more than once"),
+        (lambda m: m.update([], np.empty((0, 2)), R), "nothing was seen"),
         (lambda m: m.update([1], [[1, 0, 2]], R), "z has shape (1, 3)"),
+        (lambda m: m.update([1], [["near", 0]], R), "z is not an array of numbers"),
         (lambda m: m.update([1], [[1, np.nan]], R), "NaN"),
         (lambda m: m.update([1], [[-1, 0]], R), "range is not positive"),
         (lambda m: m.update([1], [[1, 0]], -R), "R is no covariance"),

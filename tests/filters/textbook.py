@@ -45,3 +45,9 @@ def add(x, P, z, R):
         bigger[n:, n:] = J_xr @ P[:3, :3] @ J_xr.T + J_z @ R @ J_z.T
         x, P = np.concatenate([x, models.g(x, row)]), bigger
     return x, P
+
+
+def random_covariance(rng, n, scale=1.0):
+    """(n, n) a covariance with every entry at work."""
+    root = rng.normal(size=(n, n))
+    return scale * (root @ root.T / n + np.eye(n))

@@ -1,0 +1,76 @@
+"""Which landmark was seen: nearest by Mahalanobis distance, within a χ² gate.
+
+One observation of landmark i touches the robot and p_i only: its innovation covariance needs the
+5 × 5 block of P over both, so that all N landmarks are tried in O(N).
+"""
+
+import numpy as np
+from scipy.stats import chi2
+
+from slamlab import jacobians, models
+from slamlab.filters.guards import observations
+from slamlab.geometry import wrap
+
+
+def squared_distances(mak, z, R):
+    """Squared Mahalanobis distance vᵀ S⁻¹ v of every observation to every landmark.
+
+    S_i = H_r P_rr H_rᵀ + H_r P_ri H_pᵀ + (H_r P_ri H_pᵀ)ᵀ + H_p P_ii H_pᵀ + R
+
+    Parameters
+    ----------
+    mak : MAK of N landmarks
+    z : (m, 2) range [m], bearing [rad]
+    R : (2, 2) of each, or (m, 2, 2)
+
+    Returns
+    -------
+    (m, N), columns in the order of ``mak.ids``
+
+    Raises
+    ------
+    ValueError
+    """
+    z, R = observations(z, R)
+    P_rr, P_ir, P_ii = mak.blocks()
+    p = mak.landmarks()
+    H_r, H_p = jacobians.H_robot(mak.pose, p), jacobians.H_landmark(mak.pose, p)
+    cross = H_p @ P_ir @ H_r.transpose(0, 2, 1)
+    HPHt = H_r @ P_rr @ H_r.transpose(0, 2, 1) + H_p @ P_ii @ H_p.transpose(0, 2, 1)
+    HPHt += cross + cross.transpose(0, 2, 1)
+    v = z[:, None] - models.h(mak.pose, p)
+    v[..., 1] = wrap(v[..., 1])
+    S = HPHt + np.broadcast_to(R, (len(z), 2, 2))[:, None]
+    a, b, d = S[..., 0, 0], S[..., 0, 1], S[..., 1, 1]
+    r, beta = v[..., 0], v[..., 1]
+    return (d * r * r - 2 * b * r * beta + a * beta * beta) / (a * d - b * b)
+
+
+def nearest(mak, z, R, probability=0.99):
+    """For each observation the nearest landmark within the gate, or None.
+
+    Two observations of one scan may name the same landmark; the caller decides between them.
+
+    Parameters
+    ----------
+    mak : MAK
+    z : (m, 2) range [m], bearing [rad]
+    R : (2, 2) of each, or (m, 2, 2)
+    probability : float, of a true pairing to pass the gate: χ² with 2 degrees of freedom
+
+    Returns
+    -------
+    list of m ids or None
+
+    Raises
+    ------
+    ValueError
+    """
+    if not 0 < probability < 1:
+        raise ValueError(f"probability must lie between 0 and 1, got {probability}")
+    d2 = squared_distances(mak, z, R)
+    ids = mak.ids
+    if not ids:
+        return [None] * len(d2)
+    best, gate = d2.argmin(axis=1), chi2.ppf(probability, 2)
+    return [ids[i] if row[i] <= gate else None for row, i in zip(d2, best, strict=True)]
