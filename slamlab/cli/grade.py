@@ -1,7 +1,10 @@
 """``slamlab grade FOLDER --out DIR``: grade the submissions of a class."""
 
+import contextlib
 import os
+import signal
 import sys
+import threading
 from pathlib import Path
 
 from rich.console import Console
@@ -65,7 +68,8 @@ def run(arguments) -> int:
         graded = folder.grade_all(
             found, secret, arguments.out, arguments.exercise, min(arguments.jobs, len(found))
         )
-        records = _with_progress(graded, len(found))
+        with _asked_to_end_as_by_a_key():
+            records = _with_progress(graded, len(found))
     except (Unreadable, KeyError) as error:
         print(f"slamlab grade: {error.args[0]}", file=sys.stderr)
         return 2
@@ -75,6 +79,23 @@ def run(arguments) -> int:
     Console().print(_table(records))
     print(_closing(records, arguments.out))
     return 0
+
+
+@contextlib.contextmanager
+def _asked_to_end_as_by_a_key():
+    """Take ``kill`` and a closed terminal as Ctrl+C, which leaves no worker behind."""
+    names = [name for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
+    in_main = threading.current_thread() is threading.main_thread()
+    old = {n: signal.signal(getattr(signal, n), _interrupt) for n in names if in_main}
+    try:
+        yield
+    finally:
+        for name, handler in old.items():
+            signal.signal(getattr(signal, name), handler)
+
+
+def _interrupt(*_):
+    raise KeyboardInterrupt
 
 
 def _with_progress(graded, count):

@@ -12,11 +12,13 @@ from slamlab.grading.process import Process
 START_SECONDS = 120.0
 CELL_SECONDS = 10.0
 TOTAL_SECONDS = 300.0
+GLANCE = 0.2
+"""How often it is looked whether to stop [s]."""
 KINDS = {"missing", "not attempted", "raised", "malformed"}
 
 
 class CannotStart(Exception):
-    """A worker did not come up, which is no fault of the student's."""
+    """A worker did not come up, or was not to: no fault of the student's."""
 
 
 class Gone(Exception):
@@ -35,10 +37,12 @@ class Client:
     exercise : Exercise
     cells : list of (number, source), the student's code cells in order
     start : exercise -> Process, how a worker is started
+    stop : threading.Event or None; once it is set, nothing is waited for any more
     """
 
-    def __init__(self, exercise, cells, start=Process):
+    def __init__(self, exercise, cells, start=Process, stop=None):
         self._exercise, self._cells, self._start = exercise, cells, start
+        self._stop = stop or threading.Event()
         self._process, self._thread, self._turn = None, None, 0
         self._lethal = set()
         self._deadline = time.monotonic() + TOTAL_SECONDS
@@ -136,12 +140,23 @@ class Client:
         )
         self._thread.start()
         try:
-            answer, kind = answers.get(timeout=seconds), "died"
+            answer, kind = self._wait(answers, seconds), "died"
         except queue.Empty:
             answer, kind = None, "time"
         if answer is None or answer[0].get("turn") != self._turn:
             raise Gone(kind)
         return answer
+
+    def _wait(self, answers, seconds):
+        end = time.monotonic() + seconds
+        while not self._stop.is_set():
+            left = end - time.monotonic()
+            try:
+                return answers.get(timeout=max(min(left, GLANCE), 0))
+            except queue.Empty:
+                if left <= GLANCE:
+                    raise
+        raise CannotStart("grading was stopped")
 
     def _end(self):
         if self._process is None:

@@ -1,5 +1,6 @@
 """Grading all submissions of a folder, each written down when it is known."""
 
+import threading
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from pathlib import Path
 
@@ -52,10 +53,11 @@ def grade_all(found, secret: bytes, out: Path, default=None, jobs=1):
     ------
     Record
     """
-    done = []
+    done, stop = [], threading.Event()
     pool = ThreadPoolExecutor(jobs)
     try:
-        for future in as_completed([pool.submit(judge.grade, s, secret, default) for s in found]):
+        futures = [pool.submit(judge.grade, s, secret, default, stop) for s in found]
+        for future in as_completed(futures):
             record = future.result()
             done.append(record)
             records.write_json(out, record)
@@ -63,6 +65,7 @@ def grade_all(found, secret: bytes, out: Path, default=None, jobs=1):
             records.write_csv(out, done, tasks_of(done, default))
             yield record
     finally:
+        stop.set()
         pool.shutdown(cancel_futures=True)
 
 

@@ -49,7 +49,7 @@ def seed_for(secret: bytes, exercise_id: str, sha256: str) -> bytes:
     return hmac.digest(secret, f"{exercise_id} {sha256}".encode(), hashlib.sha256)
 
 
-def grade(submission: Submission, secret: bytes, default=None) -> Record:
+def grade(submission: Submission, secret: bytes, default=None, stop=None) -> Record:
     """Grade a submission, whatever it is.
 
     Parameters
@@ -57,6 +57,7 @@ def grade(submission: Submission, secret: bytes, default=None) -> Record:
     submission : Submission
     secret : bytes
     default : str or None, the exercise of notebooks that do not tell it
+    stop : threading.Event or None; once it is set, nothing is waited for any more
 
     Returns
     -------
@@ -69,14 +70,15 @@ def grade(submission: Submission, secret: bytes, default=None) -> Record:
         exercise = submissions.exercise_of(submission, notebook, default)
         names |= {"exercise": exercise.id}
         seed = seed_for(secret, exercise.id, notebook.sha256)
-        return Record(**names, seed=seed.hex(), **judge(exercise, notebook.cells, seed))
+        judged = judge(exercise, notebook.cells, seed, stop=stop)
+        return Record(**names, seed=seed.hex(), **judged)
     except (Unreadable, CannotStart) as error:
         return Record(**names, reason=str(error))
     except Exception as error:  # a fault of the grader's own must not end the class
         return Record(**names, reason=f"the grader failed: {type(error).__name__}: {error}")
 
 
-def judge(exercise, cells, seed: bytes, start=process.Process) -> dict:
+def judge(exercise, cells, seed: bytes, start=process.Process, stop=None) -> dict:
     """Judge a notebook's cells with the inputs of a seed.
 
     Parameters
@@ -85,6 +87,7 @@ def judge(exercise, cells, seed: bytes, start=process.Process) -> dict:
     cells : (number, source) in order
     seed : bytes
     start : exercise -> Process
+    stop : threading.Event or None
 
     Returns
     -------
@@ -95,7 +98,7 @@ def judge(exercise, cells, seed: bytes, start=process.Process) -> dict:
     CannotStart
     """
     begin, judging = time.monotonic(), time.thread_time()
-    with Client(exercise, cells, start) as client:
+    with Client(exercise, cells, start, stop) as client:
 
         def judge_one(task):
             inputs = task.draw(seed)

@@ -4,7 +4,12 @@ import csv
 import html.parser
 import json
 import os
+import signal
 import stat
+import subprocess
+import sys
+import time
+from pathlib import Path
 
 import pytest
 
@@ -236,3 +241,46 @@ def test_files_are_named_apart_whatever_submissions_are_called(tmp_path):
     for stem in stems:
         records.write(tmp_path / f"{stem}.json", "half a character: \udce9")
     assert len(list(tmp_path.iterdir())) == len(names)
+
+
+def grading_of_one_that_never_ends(tmp_path):
+    """A running ``slamlab grade`` and the process number of the worker that hangs in it."""
+    folder, told = tmp_path / "class", tmp_path / "told"
+    folder.mkdir()
+    hangs = f"import os, pathlib\npathlib.Path({str(told)!r}).write_text(str(os.getpid()))"
+    stays = "while True:\n    try:\n        while True: pass\n    except BaseException: pass"
+    (folder / "hangs_04.ipynb").write_text(notebook(f"{hangs}\n{stays}", exercise="04"), "utf-8")
+    start = "import sys; from slamlab.cli import main; sys.exit(main())"
+    command = [sys.executable, "-c", start, "grade", folder, "--out", tmp_path / "out"]
+    grading = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+    assert comes_true(lambda: told.is_file() and told.read_text())
+    return grading, int(told.read_text())
+
+
+def comes_true(claim, seconds=60):
+    end = time.monotonic() + seconds
+    while not claim():
+        if time.monotonic() > end:
+            return False
+        time.sleep(0.05)
+    return True
+
+
+def is_gone(process):
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return True
+    stat_file = Path(f"/proc/{process}/stat")  # dead, but nobody has asked for its end yet
+    return stat_file.exists() and stat_file.read_text().rsplit(")", 1)[1].split()[0] == "Z"
+
+
+@pytest.mark.skipif(os.name != "posix", reason="signals of POSIX")
+@pytest.mark.parametrize("name", ["SIGTERM", "SIGHUP", "SIGKILL"])
+def test_a_grader_that_is_ended_leaves_no_worker_running(tmp_path, name):
+    grading, worker = grading_of_one_that_never_ends(tmp_path)
+    grading.send_signal(getattr(signal, name))
+    _, said = grading.communicate(timeout=60)
+    assert b"Traceback" not in said
+    assert grading.returncode == (-signal.SIGKILL if name == "SIGKILL" else 130)
+    assert comes_true(lambda: is_gone(worker))
