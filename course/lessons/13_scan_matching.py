@@ -253,13 +253,12 @@ def carried(R, points):
 
 robot, chest = ring([(-0.15, 0), (0.15, 0), (0, 0.35)]), box((-0.7, 0.6), (0.4, 0.25))
 inside = np.vstack([robot, chest]).reshape(-1, 2)
-fig, ax = views.axes("one wall, two looks, two fits", size=(4.6, 3.8))
+fig, ax = views.axes("one wall, two looks, two fits", size=(6.4, 3.8))
 views.draw(ax, Points("wall", np.vstack(looks)), markersize=6)
 for name, mirrors in {"naive": True, "corrected": False}.items():
     _, R_wall = best_motion(*looks, mirrors)
     ends = carried(R_wall, inside).reshape(-1, 4)
     views.draw(ax, Segments(name, ends), label=f"carried with det {np.linalg.det(R_wall):+.0f}")
-ax.set_ylim(-1, 2.1)  # room for the legend
 ax.legend(loc="lower right")
 views.show(
     fig, "With det −1 robot and chest lie behind the wall, mirrored; with det +1 in front of it."
