@@ -4,8 +4,9 @@ One observation of landmark i touches the robot and p_i only: its innovation cov
 5 × 5 block of P over both, so that all N landmarks are tried in O(N).
 """
 
+from math import log
+
 import numpy as np
-from scipy.stats import chi2
 
 from slamlab import jacobians, models
 from slamlab.filters.guards import observations
@@ -72,5 +73,5 @@ def nearest(mak, z, R, probability=0.99):
     ids = mak.ids
     if not ids:
         return [None] * len(d2)
-    best, gate = d2.argmin(axis=1), chi2.ppf(probability, 2)
+    best, gate = d2.argmin(axis=1), -2 * log(1 - probability)  # χ² of 2 degrees: exponential
     return [ids[i] if row[i] <= gate else None for row, i in zip(d2, best, strict=True)]

@@ -1,0 +1,184 @@
+"""The MAK filter against one copy of P, the textbook's dense EKF and filterpy's.
+
+A step is one prediction and one scan of four known landmarks; P holds 3 + 2N rows of float64.
+"""
+
+import sys
+
+import numpy as np
+from filterpy.kalman import ExtendedKalmanFilter
+
+from benchmarks.common import cpu_times, main, row, speed_rows
+from slamlab import jacobians, models
+from slamlab.filters.association import nearest
+from slamlab.filters.compressed import CompressedMAK
+from slamlab.filters.mak import MAK
+from slamlab.geometry import wrap
+
+TITLE = "EKF-SLAM: predict + 4 updates (CPU time, one thread, methods taking turns)"
+SIZES = (50, 200, 500, 1000, 2000)
+TEXTBOOK, FILTERPY = 1000, 500  # landmarks up to which they are run; both grow as N³
+QUICK_FILTERPY = 200
+GROWTH_FROM = 500  # below it, calls cost more than arithmetic
+COMPARED = (  # besides everything with the copy: who, with whom
+    ("slamlab", "textbook dense EKF"),
+    ("slamlab", "filterpy EKF"),
+    ("slamlab, compressed", "slamlab"),
+)
+REGION, REGION_STEPS = 25, 100  # compressed filter: landmarks around, steps until it moves on
+Q, R = np.diag([1e-6, 1e-6, 1e-7]), np.diag([0.01, 0.001])
+
+
+def scene(N):
+    """A filter of N landmarks, four of their ids, and how they look from its pose."""
+    rng = np.random.default_rng(N)
+    mak = MAK([0.3, -0.2, 0.4], np.diag([0.02, 0.03, 0.01]), N)
+    mak.add(range(N), np.column_stack([rng.uniform(1, 20, N), rng.uniform(-3, 3, N)]), R)
+    ids = rng.choice(N, 4, replace=False).tolist()
+    return mak, ids, models.h(mak.pose, mak.landmarks()[ids])
+
+
+def h_and_H(x, ids):
+    """The dense observation of four landmarks: h (8,) and H (8, n)."""
+    H, z = np.zeros((2 * len(ids), len(x))), np.empty((len(ids), 2))
+    for k, i in enumerate(ids):
+        own = slice(3 + 2 * i, 5 + 2 * i)
+        z[k] = models.h(x, x[own])
+        H[2 * k : 2 * k + 2, :3] = jacobians.H_robot(x, x[own])
+        H[2 * k : 2 * k + 2, own] = jacobians.H_landmark(x, x[own])
+    return z.ravel(), H
+
+
+def residual(z, expected):
+    """z − h with its bearings wrapped."""
+    v = z - expected
+    v[1::2] = wrap(v[1::2])
+    return v
+
+
+def dense_noise(n, m):
+    """Q over the whole state (n, n) and R over the whole scan (2m, 2m)."""
+    whole = np.zeros((n, n))
+    whole[:3, :3] = Q
+    return whole, np.kron(np.eye(m), R)
+
+
+class Textbook:
+    """The filter as it is first written: whole matrices, P ← (I − K H) P."""
+
+    def __init__(self, mak, ids, z):
+        self.x, self.P, self.ids, self.z = mak.x.copy(), mak.P, ids, z.ravel()
+        self.Q, self.R = dense_noise(len(self.x), len(ids))
+
+    def step(self):
+        A = np.eye(len(self.x))
+        P = A @ self.P @ A.T + self.Q
+        h, H = h_and_H(self.x, self.ids)
+        K = P @ H.T @ np.linalg.inv(H @ P @ H.T + self.R)
+        self.x = self.x + K @ residual(self.z, h)
+        self.P = (np.eye(len(P)) - K @ H) @ P
+
+
+class Filterpy:
+    """filterpy's EKF, which knows nothing of landmarks."""
+
+    def __init__(self, mak, ids, z):
+        self.ids, self.z = ids, z.ravel()
+        self.ekf = ExtendedKalmanFilter(len(mak.x), z.size)
+        self.ekf.x, self.ekf.P = mak.x.copy(), mak.P
+        self.ekf.Q, self.ekf.R = dense_noise(len(mak.x), len(ids))
+
+    def step(self):
+        self.ekf.predict()
+        self.ekf.update(
+            self.z,
+            lambda x: h_and_H(x, self.ids)[1],
+            lambda x: h_and_H(x, self.ids)[0],
+            residual=residual,
+        )
+
+    @property
+    def P(self):
+        return self.ekf.P
+
+
+def compressed_round(mak):
+    """One region's life: focus, its steps, and settling; the cost of one step is its share."""
+    rng = np.random.default_rng(1)
+    region = rng.choice(mak.ids, REGION, replace=False).tolist()
+    z = models.h(mak.pose, mak.landmarks()[region[:4]])
+    compressed = CompressedMAK(mak)
+
+    def live():
+        compressed.focus(region)
+        for _ in range(REGION_STEPS):
+            compressed.predict(compressed.local.pose, Q)
+            compressed.update(region[:4], z, R)
+        compressed.settle()
+
+    return live
+
+
+def same_first_step(mak, ids, z, peers):
+    """Hold the methods' first steps equal, so that all are timed at the same work."""
+    mak.predict(mak.pose, Q)
+    mak.update(ids, z, R)
+    for name, peer in peers.items():
+        peer.step()
+        np.testing.assert_allclose(peer.P, mak.P, rtol=1e-6, atol=1e-9, err_msg=name)
+
+
+def of_size(N, quick):
+    """{method: median CPU time} of a map of N landmarks [s]."""
+    mak, ids, z = scene(N)
+    peers = {}
+    filterpy_to = QUICK_FILTERPY if quick else FILTERPY
+    if N <= TEXTBOOK:
+        peers["textbook dense EKF"] = Textbook(mak, ids, z)
+    if filterpy_to >= N:
+        peers["filterpy EKF"] = Filterpy(mak, ids, z)
+    same_first_step(mak, ids, z, peers)
+    source = mak.P
+    target = np.empty_like(source)
+
+    def step():
+        mak.predict(mak.pose, Q)
+        mak.update(ids, z, R)
+
+    methods = {
+        "np.copyto(P)": lambda: np.copyto(target, source),
+        "slamlab": step,
+        "slamlab, association of 4": lambda: nearest(mak, z, R),
+        **{name: peer.step for name, peer in peers.items()},
+    }
+    times = cpu_times(methods, quick)
+    if N >= GROWTH_FROM:
+        whole = cpu_times({"compressed": compressed_round(scene(N)[0])}, quick, 3.0)
+        times["slamlab, compressed"] = whole["compressed"] / REGION_STEPS
+    return times
+
+
+def exponent(times, method):
+    """b of time = a Nᵇ, fitted where arithmetic rules."""
+    sizes = [N for N in SIZES if N >= GROWTH_FROM]
+    return np.polyfit(np.log(sizes), np.log([times[N][method] for N in sizes]), 1)[0]
+
+
+def run(quick):
+    """Rows of all sizes, each against one copy of P and slamlab against its peers, and growth."""
+    times = {N: of_size(N, quick) for N in SIZES}
+    rows = []
+    for N, found in times.items():
+        rows += speed_rows(f"N = {N}", found)
+        for method, reference in COMPARED:
+            if method in found and reference in found:
+                label, t = f"N = {N}: {method}", found[method]
+                rows.append(row(label, 1e3 * t, "ms", reference, found[reference] / t))
+    for method in ("slamlab", "slamlab, association of 4", "slamlab, compressed"):
+        b = exponent(times, method)
+        rows.append(row(f"growth exponent, {method}, N = 500…2000", b, "", "N²", 2 / b))
+    return rows
+
+
+if __name__ == "__main__":
+    sys.exit(main({TITLE: run}, "python -m benchmarks.mak"))
