@@ -157,7 +157,7 @@ def picture(result):
     -------
     Figure
     """
-    from slamlab.layers import Points, Poses
+    from slamlab.layers import Ellipses, Points, Poses
     from slamlab.views import COLOURS, draw, legend, panels
 
     layers = result.estimator.layers()
@@ -167,8 +167,11 @@ def picture(result):
     fig, all_axes = panels([title for title, _ in shown], size=(6 * len(shown), 6))
     for ax, (title, group) in zip(all_axes, shown, strict=True):
         for layer in group:
-            what = {Points: "map", Poses: "track"}.get(type(layer), layer.name)
-            colour = COLOURS["robot" if what == "track" else title]
+            around = f"{layer.name} 95 %"
+            what = {Points: "map", Poses: "track", Ellipses: around}.get(type(layer), layer.name)
+            colour = (
+                COLOURS["robot"] if what == "track" else COLOURS.get(layer.name, COLOURS[title])
+            )
             draw(ax, layer, label=f"{title} {what}", color=colour)
         legend(ax, loc="best", fontsize="small")
     fig.suptitle(result.source.name.rpartition("/")[2])

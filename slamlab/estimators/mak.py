@@ -48,10 +48,10 @@ class MakSlam(Estimator):
         corners = [P[i : i + 2, i : i + 2] for i in range(3, len(P), 2)]
         landmarks = self.filter.landmarks()
         return [
-            Points("landmarks", landmarks),
-            Ellipses("landmarks 95 %", landmarks, np.array(corners).reshape(-1, 2, 2)),
+            Points("landmark", landmarks),
+            Ellipses("landmark", landmarks, np.array(corners).reshape(-1, 2, 2)),
             Poses("corrected", poses),
-            Ellipses("robot 95 %", self.pose[None, :2], P[None, :2, :2]),
+            Ellipses("robot", self.pose[None, :2], P[None, :2, :2]),
         ]
 
     def _see(self, seen):
