@@ -1003,10 +1003,11 @@ def tex(entry):
 
 
 def table(errata):
-    columns = ["printed", "derived", "difference", "harm"]
-    lines = ["| formula | " + " | ".join(columns) + " |", "|---" * (len(columns) + 1) + "|"]
+    lines = ["| formula, harm | printed, derived | difference |", "|---|---|---|"]
     for where, found in errata.items():
-        lines.append(f"| {where} | " + " | ".join(tex(found[c]) for c in columns) + " |")
+        both = f"{tex(found['printed'])}<br><br>{tex(found['derived'])}"
+        cells = f"**{where}**<br>{found['harm']}", both, tex(found["difference"])
+        lines.append("| " + " | ".join(cells) + " |")
     return "\n".join(lines)
 
 
