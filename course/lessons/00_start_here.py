@@ -218,7 +218,7 @@ for theta in (25, 115):
 # Every lesson is also a set of slides, with live cells and sliders; derivations open one line per
 # key press, and speaker's notes stand in cells of their own. `python lab.py --lecture` adds the
 # slideshow to JupyterLab; [docs/lecturing.md](../docs/lecturing.md) says which keys to press and
-# how to see your notes. *View → Presentation Mode* makes everything larger without it.
+# how to see your notes. *View → Appearance → Presentation Mode* makes everything larger without it.
 
 # %% [markdown]
 # ## Where help is
