@@ -700,6 +700,10 @@ views.show(
     fig, "The tracks of odometry and of plain ICP wander off; that of icp goes round and round."
 )
 
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# **See:** odometry wanders off by tens of metres, and plain ICP is no better: what a scanner of
+# half a turn sees anew in a fast turn drags it off, as in the polygon.
+
 # %% slideshow={"slide_type": "subslide"}
 xy = [transform(p, r.scan.points()[::5]) for p, r in zip(real.trajectory.poses, log, strict=True)]
 fig, _ = views.side_by_side({f"{title}: icp": [Points("map", np.vstack(xy[::2]))]}, size=(5, 4.2))
@@ -708,10 +712,9 @@ views.show(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** odometry wanders off by tens of metres, and plain ICP is no better: what a scanner of
-# half a turn sees anew in a fast turn drags it off, as in the polygon. The same scans, matched
-# point to line, gated and weighed, give a floor plan. Look closely, though: where the robot comes
-# back, walls stand twice. Nothing here knows that it has been in a place before.
+# **See:** the same scans, matched point to line, gated and weighed, give a floor plan. Look
+# closely, though: where the robot comes back, walls stand twice. Nothing here knows that it has
+# been in a place before.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # How good is that in numbers, when nobody knows the truth? Kümmerle and others published
