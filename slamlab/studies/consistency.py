@@ -1,0 +1,174 @@
+"""``python -m slamlab.studies.consistency``: is EKF-SLAM consistent? NEES over many loops.
+
+Standard Jacobians, first estimates and the ideal filter (Jacobians at the truth) see the same
+readings. Written as JSON: command, seeds, versions, scenario, and a row a filter.
+"""
+
+import argparse
+import json
+import platform
+import sys
+from dataclasses import asdict, fields, replace
+from functools import partial
+from importlib.metadata import version
+from pathlib import Path
+
+import numpy as np
+
+from slamlab.estimators.mak import MakSlam, Q_arc
+from slamlab.evaluation import band, consistency, nees
+from slamlab.geometry import compose, wrap
+from slamlab.parallel import RunError, map_runs
+from slamlab.sources.landmarks import LandmarkRun, Loop
+from slamlab.studies.ideal import IdealFilter
+
+FILTERS = ("ideal", "first estimates", "standard")
+SETTLED = 10  # steps until the pose's covariance, zero at first, can be inverted safely
+LAST = 100  # steps that show where it ends
+TABLE = Path(__file__).parent.parent / "data" / "studies" / "consistency.json"
+
+
+def errors_of(seed, loop):
+    """One run of every filter on the same readings.
+
+    Parameters
+    ----------
+    seed : int
+    loop : Loop
+
+    Returns
+    -------
+    dict, filter to (errors (steps, 3), P (steps, 3, 3), mean square landmark error [m²])
+    """
+    source = LandmarkRun(loop, np.random.default_rng(seed))
+    return {
+        "ideal": _summary(source, *_ideal(source)),
+        "first estimates": _summary(source, *_mak(source, True)),
+        "standard": _summary(source, *_mak(source, False)),
+    }
+
+
+def _mak(source, first_estimates):
+    slam, P = MakSlam(source.robot, source.sensor, first_estimates), []
+    for reading in source:
+        slam.step(reading)
+        P.append(slam.filter.block([0, 1, 2]))
+    return slam.trajectory().poses, P, slam.filter
+
+
+def _ideal(source):
+    slam, poses, P = IdealFilter(source.landmarks), [], []
+    R = np.diag([source.sensor.range_sigma**2, source.sensor.bearing_sigma**2])
+    for reading, true in zip(source, source.truth.poses, strict=True):
+        pose = slam.x[:3].copy()
+        Q = Q_arc(pose, reading.odometry, source.robot)
+        slam.predict(compose(pose, reading.odometry), Q, true)
+        seen = reading.observations
+        slam.see(seen.ids, seen.z, np.broadcast_to(R, (len(seen.ids), 2, 2)))
+        poses.append(slam.x[:3].copy())
+        P.append(slam.P[:3, :3].copy())
+    return np.array(poses), P, slam
+
+
+def _summary(source, poses, P, slam):
+    errors = poses - source.truth.poses
+    errors[:, 2] = wrap(errors[:, 2])
+    off = slam.landmarks() - source.landmarks[slam.ids]
+    return errors, np.array(P), float(np.mean(np.sum(off**2, axis=1)))
+
+
+def row(runs):
+    """One line of the table.
+
+    Parameters
+    ----------
+    runs : list of what one filter gave in each run
+
+    Returns
+    -------
+    dict of plain numbers
+    """
+    errors, P = (np.array([run[k] for run in runs])[:, SETTLED:] for k in (0, 1))
+    each = nees(errors, P)
+    low, high = band(3, len(runs))
+    over_runs = each.mean(axis=0)
+    at_end = consistency(errors[:, -1], P[:, -1])
+    return {
+        "nees": each.mean(),
+        # the steps of a run hang together, runs do not: their scatter gives the mean's error
+        "nees_standard_error": each.mean(axis=1).std(ddof=1) / np.sqrt(len(runs)),
+        "nees_last": each[:, -LAST:].mean(),
+        "steps_above_band": np.mean(over_runs > high),
+        "steps_below_band": np.mean(over_runs < low),
+        "largest_eigenvalue_at_end": at_end.largest,
+        "largest_eigenvalue_limit": at_end.limit,
+        "position_rmse_m": np.sqrt(np.mean(np.sum(errors[..., :2] ** 2, axis=-1))),
+        "heading_rmse_deg": np.degrees(np.sqrt(np.mean(errors[..., 2] ** 2))),
+        "landmark_rmse_m": np.sqrt(np.mean([run[2] for run in runs])),
+    }
+
+
+def study(loop, runs, jobs=None, scheduler=None):
+    """The table.
+
+    Parameters
+    ----------
+    loop : Loop
+    runs : int; seeds 0 to runs − 1
+    jobs, scheduler : see :func:`slamlab.parallel.map_runs`
+
+    Returns
+    -------
+    dict
+    """
+    results = map_runs(partial(errors_of, loop=loop), range(runs), jobs, scheduler)
+    table = {name: row([result[name] for result in results]) for name in FILTERS}
+    return {
+        "versions": {"python": platform.python_version()}
+        | {name: version(name) for name in ("slamlab", "numpy", "scipy")},
+        "seeds": [0, runs - 1],
+        "scenario": asdict(loop),
+        "band_95": band(3, runs),
+        "filters": {
+            name: {key: round(float(value), 4) for key, value in numbers.items()}
+            for name, numbers in table.items()
+        },
+    }
+
+
+def main(argv=None):
+    """The command; 0 when written, 2 when something is wrong with what was asked."""
+    words = sys.argv[1:] if argv is None else argv
+    parser = argparse.ArgumentParser(prog="python -m slamlab.studies.consistency")
+    parser.add_argument("--runs", type=int, default=100, help="how many loops are driven (100)")
+    parser.add_argument("--jobs", type=int, help="processes, every core by default")
+    parser.add_argument("--scheduler", help="a Dask scheduler in their place, tcp://host:port")
+    parser.add_argument("--out", type=Path, default=TABLE, help="the file to write")
+    for field in fields(Loop):
+        kind = type(field.default)
+        parser.add_argument("--" + field.name.replace("_", "-"), type=kind, default=field.default)
+    arguments = parser.parse_args(words)
+    try:
+        if arguments.runs < 3:
+            raise ValueError(f"--runs is at least 3, not {arguments.runs}")
+        if arguments.steps < SETTLED:
+            raise ValueError(f"--steps is at least {SETTLED}, not {arguments.steps}")
+        loop = replace(
+            Loop(), **{field.name: getattr(arguments, field.name) for field in fields(Loop)}
+        )
+        table = study(loop, arguments.runs, arguments.jobs, arguments.scheduler)
+        command = " ".join(["python -m slamlab.studies.consistency", *words])
+        arguments.out.parent.mkdir(parents=True, exist_ok=True)
+        text = json.dumps({"command": command} | table, indent=1)
+        arguments.out.write_text(text + "\n", encoding="utf-8")
+    except (ValueError, RunError, OSError) as error:
+        print(f"{parser.prog}: {error}", file=sys.stderr)
+        return 2
+    except KeyboardInterrupt:
+        return 130
+    print(text)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
