@@ -12,5 +12,5 @@ def generator(seed):
 
 def damage_line(source):
     """What of a source could not be used, as the end of a line; empty where all was well."""
-    kinds = ", ".join(f"{count} {kind}" for kind, count in source.damage.items())
+    kinds = ", ".join(f"{kind}: {count}" for kind, count in source.damage.items())
     return f"; damage: {kinds}" if kinds else ""

@@ -56,7 +56,11 @@ def numbers(value, function):
         if isinstance(value, str | bytes):  # which astype would read as numbers
             raise TypeError
         array = np.asarray(value)
-        if array.dtype.kind not in "biufO":  # of complex numbers astype would take the half
+        if array.dtype.kind == "c":  # of which astype would take the half
+            raise StudentError(
+                "malformed", f"{function} returned complex numbers: a root of something negative?"
+            )
+        if array.dtype.kind not in "biufO":
             raise TypeError
         if array.size > MOST_NUMBERS:
             raise StudentError("malformed", f"{function} returned {array.size} numbers: too many")
@@ -137,8 +141,11 @@ class Drive:
         """
         functions = {}
         for name in self.functions:
-            if not callable(namespace.get(name)):
+            if name not in namespace:
                 raise StudentError("missing", f"{name} is not defined")
+            if not callable(namespace[name]):
+                what = type(namespace[name]).__name__
+                raise StudentError("malformed", f"{name} is of type {what}, not a function")
             functions[name] = namespace[name]
         try:
             return self.run(functions, inputs)
