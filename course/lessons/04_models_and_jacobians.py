@@ -726,8 +726,8 @@ by_name = {
     "A as printed in (5)": sp.lambdify([theta, d], printed_A)(west[2], straight_on[0]),
 }
 claims = {name: A @ P_home @ A.T for name, A in by_name.items()}
-way = Poses("the way, as believed", [west, models.f_odometry(west, straight_on)])
-fig, ax = views.cloud(ends, claims, "Heading 150°, 3 m driven", layers=[way])
+westward = Poses("the way, as believed", [west, models.f_odometry(west, straight_on)])
+fig, ax = views.cloud(ends, claims, "Heading 150°, 3 m driven", layers=[westward])
 views.show(fig, "The derived ellipse covers the samples; the printed one leans the other way.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
