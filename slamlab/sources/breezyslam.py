@@ -11,8 +11,8 @@ from slamlab.geometry import compose, inverse
 from slamlab.hardware import SensorModel
 from slamlab.readings import Reading, Scan
 from slamlab.simulator import arc
-from slamlab.sources.base import Source, SourceError
-from slamlab.sources.text import lines, read_bytes
+from slamlab.sources.base import SourceError
+from slamlab.sources.logfile import LogFile
 
 BEAMS, FIRST = 682, 24
 FIELD = np.radians(240)
@@ -22,30 +22,15 @@ WHEEL_RADIUS, AXLE, TICKS_PER_TURN = 0.077, 0.33, 2000  # [m], [m], [1]
 LIDAR_AHEAD = 0.145  # of the axle [m]
 
 
-class BreezySlamLog(Source):
-    """A log in BreezySLAM's format.
-
-    Parameters
-    ----------
-    path : str or Path
-    content : (bytes, bool) what ``read_bytes`` gave for the path, where that was done already
-
-    Raises
-    ------
-    SourceError : the file cannot be read or holds no readable scan
-    """
+class BreezySlamLog(LogFile):
+    """A log in BreezySLAM's format."""
 
     sensor = SensorModel(RANGE_MIN, RANGE_MAX, FIELD, range_error=0.01, range_sigma=0.01)
 
-    def __init__(self, path, content=None):
-        super().__init__()
-        self.name = str(path)
-        content, torn = read_bytes(path) if content is None else content
-        if torn:
-            self.damage["file torn"] += 1
-        rows = [row for line, _ in lines(content) if (row := self._row(line)) is not None]
+    def _read(self, lines):
+        rows = [row for line, _ in lines if (row := self._row(line)) is not None]
         if not rows:
-            raise SourceError(f"{path} holds no readable scan: is it a BreezySLAM log?")
+            raise SourceError(f"{self.name} holds no readable scan: is it a BreezySLAM log?")
         self._rows = np.array(rows)
 
     def __len__(self):

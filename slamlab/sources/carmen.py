@@ -10,40 +10,27 @@ import numpy as np
 from slamlab.geometry import between
 from slamlab.hardware import SensorModel
 from slamlab.readings import Reading, Scan
-from slamlab.sources.base import Source, SourceError
-from slamlab.sources.text import lines, read_bytes
+from slamlab.sources.base import SourceError
+from slamlab.sources.logfile import LogFile
 
 RANGE_MAX = 80.0  # a SICK LMS reports 81.83 or 81.91 m where nothing came back
 FARTHEST = 1e7  # no robot's odometry is beyond this [m]
 STEPS = {180: 1.0, 181: 1.0, 360: 0.5, 361: 0.5, 400: 0.25, 401: 0.25}  # degrees between beams
 
 
-class CarmenLog(Source):
-    """A CARMEN log, plain or gzip.
+class CarmenLog(LogFile):
+    """A CARMEN log, plain or gzip."""
 
-    Parameters
-    ----------
-    path : str or Path
-    content : (bytes, bool) what ``read_bytes`` gave for the path, where that was done already
-
-    Raises
-    ------
-    SourceError : the file cannot be read or holds no readable scan
-    """
-
-    def __init__(self, path, content=None):
-        super().__init__()
-        self.name = str(path)
-        content, torn = read_bytes(path) if content is None else content
-        if torn:
-            self.damage["file torn"] += 1
+    def _read(self, lines):
         self._range_max = RANGE_MAX
         self._rows = []
-        for line, ended in lines(content):
+        for line, ended in lines:
             self._take(line, ended)
         if not self._rows:
             lost = f" ({self.skipped} were unreadable)" if self.skipped else ""
-            raise SourceError(f"{path} holds no readable FLASER line{lost}: is it a CARMEN log?")
+            raise SourceError(
+                f"{self.name} holds no readable FLASER line{lost}: is it a CARMEN log?"
+            )
         backwards = np.diff([stamp for stamp, _, _ in self._rows]) < 0
         if backwards.any():
             self.damage["stamps that run backwards"] += int(backwards.sum())

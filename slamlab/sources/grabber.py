@@ -11,8 +11,8 @@ import numpy as np
 
 from slamlab.readings import Reading, Scan
 from slamlab.sensors import RPLIDAR_A2
-from slamlab.sources.base import Source, SourceError
-from slamlab.sources.text import lines, read_bytes
+from slamlab.sources.base import SourceError
+from slamlab.sources.logfile import LogFile
 
 POINT = re.compile(rb"theta:\s*(\S+)\s+Dist:\s*(\S+)\s+Q:\s*(\d+)")
 TURNS_PER_SECOND = 10.0
@@ -21,35 +21,20 @@ WHOLE = 350.0  # what a turn spans [degrees]
 FEWEST = 50  # points without which it is none
 
 
-class GrabberLog(Source):
-    """What the data grabber printed, as scans of a lidar that stands still.
-
-    Parameters
-    ----------
-    path : str or Path
-    content : (bytes, bool) what ``read_bytes`` gave for the path, where that was done already
-
-    Raises
-    ------
-    SourceError : the file cannot be read or holds no whole turn
-    """
+class GrabberLog(LogFile):
+    """What the data grabber printed, as scans of a lidar that stands still."""
 
     sensor = RPLIDAR_A2.model
 
-    def __init__(self, path, content=None):
-        super().__init__()
-        self.name = str(path)
-        content, torn = read_bytes(path) if content is None else content
-        if torn:
-            self.damage["file torn"] += 1
-        points = [p for line, _ in lines(content) if (p := self._point(line)) is not None]
+    def _read(self, lines):
+        points = [p for line, _ in lines if (p := self._point(line)) is not None]
         theta, distance = np.array(points).reshape(-1, 2).T
         starts = np.flatnonzero(np.diff(theta) < -JUMP) + 1
         pieces = np.split(np.arange(len(theta)), starts)
         # the first and the last turn are seldom whole
         whole = [p for p in pieces if len(p) >= FEWEST and np.ptp(theta[p]) > WHOLE]
         if not whole:
-            raise SourceError(f"{path} holds no whole turn of a lidar: has it been cut short?")
+            raise SourceError(f"{self.name} holds no whole turn of a lidar: has it been cut short?")
         self._turns = [(np.radians(-theta[piece]), distance[piece] / 1000) for piece in whole]
 
     def __len__(self):

@@ -15,34 +15,21 @@ import numpy as np
 from slamlab.geometry import between, compose
 from slamlab.hardware import RobotModel, SensorModel
 from slamlab.readings import Observations, Reading, Scan, Trajectory
-from slamlab.sources.base import Source, SourceError
-from slamlab.sources.text import lines, read_bytes, reason
+from slamlab.sources.base import SourceError
+from slamlab.sources.logfile import LogFile
+from slamlab.sources.text import reason
 
 FORMAT, VERSION = "slamlab reading log", 1
 # what reading a damaged line can raise
 DAMAGE = (ValueError, TypeError, KeyError, AttributeError, RecursionError, OverflowError)
 
 
-class ReadingLog(Source):
-    """A reading log, plain or gzip.
+class ReadingLog(LogFile):
+    """A reading log, plain or gzip."""
 
-    Parameters
-    ----------
-    path : str or Path
-    content : (bytes, bool) what ``read_bytes`` gave for the path, where that was done already
-
-    Raises
-    ------
-    SourceError : the file cannot be read, is no reading log or holds no readable reading
-    """
-
-    def __init__(self, path, content=None):
-        super().__init__()
-        content, torn = read_bytes(path) if content is None else content
-        if torn:
-            self.damage["file torn"] += 1
-        first, *rest = list(lines(content)) or [(b"", False)]
-        self._angles = self._header(path, first[0])
+    def _read(self, lines):
+        first, *rest = lines or [(b"", False)]
+        self._angles = self._header(self.name, first[0])
         self._readings, truth, before, lost = [], [], np.zeros(3), False
         for line, _ in rest:
             if not line.strip():
@@ -61,7 +48,7 @@ class ReadingLog(Source):
             if true is not None:
                 truth.append((reading.time, true))
         if not self._readings:
-            raise SourceError(f"{path} holds no readable reading after its header")
+            raise SourceError(f"{self.name} holds no readable reading after its header")
         if truth:
             times, poses = zip(*truth, strict=True)
             self.truth = Trajectory(np.array(times), np.array(poses))
