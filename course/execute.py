@@ -73,6 +73,7 @@ def execute(derived, folder):
         resources={"metadata": {"path": str(folder)}},
         store_widget_state=False,
         record_timing=False,
+        coalesce_streams=True,  # how a print is cut into messages is chance
         extra_arguments=["--log-level=ERROR"],
     )
     env = os.environ | {
