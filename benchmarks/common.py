@@ -99,6 +99,10 @@ def table(title, rows):
     Console().print(shown)
 
 
+class Missing(Exception):
+    """What a benchmark compares with is not installed; the text says how to get it."""
+
+
 def main(benchmarks, prog, argv=None):
     """The command line of one benchmark or of several.
 
@@ -110,15 +114,20 @@ def main(benchmarks, prog, argv=None):
 
     Returns
     -------
-    int, exit code: 0 done, 2 the file cannot be written
+    int, exit code: 0 done, 2 a benchmark was left out or the file cannot be written
     """
     parser = argparse.ArgumentParser(prog=prog, description=", ".join(benchmarks))
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the rows there")
     parser.add_argument("--quick", action="store_true", help="fewer repetitions: under 40 s each")
     options = parser.parse_args(argv)
-    rows = []
+    rows, code = [], 0
     for title, run in benchmarks.items():
-        found = run(options.quick)
+        try:
+            found = run(options.quick)
+        except Missing as error:
+            print(f"left out: {title}: {error}", file=sys.stderr)
+            code = 2
+            continue
         table(title, found)
         rows += found
     if options.json:
@@ -127,4 +136,4 @@ def main(benchmarks, prog, argv=None):
         except OSError as error:
             print(f"cannot write {options.json}: {error.strerror}", file=sys.stderr)
             return 2
-    return 0
+    return code

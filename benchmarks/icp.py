@@ -5,7 +5,7 @@ from functools import partial
 
 import numpy as np
 
-from benchmarks.common import cpu_times, main, row, speed_rows
+from benchmarks.common import Missing, cpu_times, main, row, speed_rows
 from slamlab.geometry import between, transform
 from slamlab.scanmatching import point_to_line, point_to_point, rigid_fit
 from slamlab.sources.simulation import POLYGON_WRONG_STEPS, simulation, turn_then_drive
@@ -19,10 +19,9 @@ def sklearn_neighbours():
     try:
         from sklearn.neighbors import NearestNeighbors
     except ImportError:
-        sys.exit(
-            "benchmarks.icp compares with scikit-learn, which is not part of the project: "
-            "install it with 'python -m pip install scikit-learn' and run again"
-        )
+        raise Missing(
+            "compares with scikit-learn, which is not here: python -m pip install scikit-learn"
+        ) from None
     return NearestNeighbors
 
 

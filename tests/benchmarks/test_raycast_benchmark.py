@@ -63,3 +63,14 @@ def test_a_file_that_cannot_be_written_is_told_in_one_line(tmp_path, capsys):
     code = common.main({"none": lambda quick: []}, "x", ["--json", str(tmp_path / "no" / "f")])
     assert code == 2
     assert capsys.readouterr().err.count("\n") == 1
+
+
+def test_a_benchmark_whose_peer_is_missing_is_left_out_and_the_others_run(tmp_path, capsys):
+    def lonely(quick):
+        raise common.Missing("install the peer")
+
+    file = tmp_path / "rows"
+    both = {"lonely": lonely, "fine": lambda quick: [common.row("a", 1.0, "ms", "b", 2.0)]}
+    assert common.main(both, "x", ["--json", str(file)]) == 2
+    assert "left out: lonely: install the peer" in capsys.readouterr().err
+    assert [row["name"] for row in json.loads(file.read_text())] == ["a"]
