@@ -24,6 +24,7 @@ class Wrong:
         What is lost because another task needs it is added by itself.
     diagnosis : name of the diagnosis that must be given; None: none may be given
     problem : kind of problem instead of laws: "malformed", "raised", "missing", "not attempted"
+    may_lose : "task-id:law" of laws that break or hold by the luck of the inputs
     """
 
     name: str
@@ -31,6 +32,7 @@ class Wrong:
     loses: frozenset | set | tuple
     diagnosis: str | None = None
     problem: str | None = None
+    may_lose: frozenset | set | tuple = ()
 
 
 @dataclass(frozen=True)
@@ -48,3 +50,4 @@ class Right:
     loses: frozenset = field(default=frozenset(), init=False)
     diagnosis: None = field(default=None, init=False)
     problem: None = field(default=None, init=False)
+    may_lose: frozenset = field(default=frozenset(), init=False)

@@ -183,8 +183,23 @@ WRONG = [
     Wrong(
         "share dropped",
         trimmed(kept="np.argsort(distances)[:-keep]"),
-        {"13-trimmed:first-round"},
+        {"13-trimmed:first-round", "13-trimmed:sorted-anew"},
         "share-dropped",
+    ),
+    Wrong(
+        "sorted once, before the rounds",
+        """
+def trimmed_icp(source, target, T, rounds, share):
+    distances, _ = nearest(carry(T, source), target)
+    source = source[np.argsort(distances)[: int(share * len(source))]]
+    for _ in range(rounds):
+        moved = carry(T, source)
+        T = best_motion(moved, target[nearest(moved, target)[1]]) @ T
+    return T
+""",
+        {"13-trimmed:sorted-anew"},
+        "sorted-once",
+        may_lose={"13-trimmed:lands"},  # a lucky first choice leads home
     ),
     Wrong("first rows kept", trimmed(kept="np.arange(keep)"), TRIMMED_ALL, "first-rows"),
     Wrong(

@@ -17,17 +17,29 @@ def _motions(value, function, shape):
 
 def _matched(functions, inputs):
     """Each match after one round and after all of them."""
+    return _after(functions, inputs, {"one": 1, "end": ROUNDS})
+
+
+def _trimmed(functions, inputs):
+    """The same, and of scans whose guess is far off what the first two rounds make."""
+    far = {key.removeprefix("far_"): a for key, a in inputs.items() if key.startswith("far_")}
+    found = _after(functions, far, {"far_one": 1, "far_two": 2})
+    return _matched(functions, inputs) | found
+
+
+def _after(functions, inputs, stops):
+    """Each match after as many rounds as each stop says."""
     name, match = next(iter(functions.items()))
     share = inputs.get("share")
-    one, end = [], []
+    found = {stop: [] for stop in stops}
     for i, (source, target, guess) in enumerate(
         rows({key: inputs[key] for key in ("source", "target", "guess")})
     ):
         rest = () if share is None else (float(share[i]),)
-        for rounds, into in ((1, one), (ROUNDS, end)):
+        for stop, rounds in stops.items():
             clouds = source.copy(), target.copy(), guess.copy()
-            into.append(_motions(match(*clouds, rounds, *rest), name, "(3, 3)"))
-    return {"one": np.array(one), "end": np.array(end)}
+            found[stop].append(_motions(match(*clouds, rounds, *rest), name, "(3, 3)"))
+    return {stop: np.array(motions) for stop, motions in found.items()}
 
 
 def _walked(functions, inputs):
@@ -44,6 +56,6 @@ DRIVES = {
     "13-best-motion": Drive(("best_motion",)),
     "13-mirror": Drive(("best_motion",)),
     "13-icp": Drive(("icp",), _matched),
-    "13-trimmed": Drive(("trimmed_icp",), _matched),
+    "13-trimmed": Drive(("trimmed_icp",), _trimmed),
     "13-walk": Drive(("walk",), _walked),
 }

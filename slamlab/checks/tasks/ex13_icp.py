@@ -31,15 +31,20 @@ def stacked(cases):
     return {name: np.array([case[name] for case in cases]) for name in cases[0]}
 
 
-def one_pair(rng, clutter=0, shares=(1.0,)):
-    """A source, its target and a guess, with a large turn between the two."""
+def scene(rng, clutter=0):
+    """A target, a source that saw a part of it, who else stood there, and T between the two."""
     target = outline(rng, 48)
     T = motion(*either_sign(rng, 0.4, 1.5, 2), either_sign(rng, 1.4, 2.8))
     back = np.linalg.inv(T)
     source = carried(back, rng.permutation(target)[:SHARED])
     way = rng.uniform(0, 2 * np.pi)
     group = target.mean(axis=0) + 4.2 * np.array([np.cos(way), np.sin(way)])
-    people = carried(back, group + rng.uniform(-0.4, 0.4, (clutter, 2)))
+    return target, source, carried(back, group + rng.uniform(-0.4, 0.4, (clutter, 2))), T
+
+
+def one_pair(rng, clutter=0, shares=(1.0,)):
+    """A source, its target and a guess, with a large turn between the two."""
+    target, source, people, T = scene(rng, clutter)
     # what trimming leaves has to suffice: fewer wrong pairs among it
     low = 0.65 if clutter else 0.4
     guess = good_guess(rng, T, source, target, people, shares, low)
