@@ -69,20 +69,26 @@ def _turn(method):
             return spent / calls
 
 
-def speed_rows(label, times):
-    """Rows that compare every method's time with the first one's.
+def speed_rows(label, times, compared=()):
+    """Rows that compare every method's time with the first one's, and some with others'.
 
     Parameters
     ----------
     label : str, the case
     times : {method: float} [s], the reference first
+    compared : (method, reference) pairs; those without a time are passed over
 
     Returns
     -------
     list of rows, in milliseconds
     """
-    reference, slow = next(iter(times.items()))
-    return [row(f"{label}: {m}", 1e3 * t, "ms", reference, slow / t) for m, t in times.items()]
+    first = next(iter(times))
+    pairs = [(method, first) for method in times]
+    pairs += [pair for pair in compared if times.keys() >= set(pair)]
+    return [
+        row(f"{label}: {m}", 1e3 * times[m], "ms", reference, times[reference] / times[m])
+        for m, reference in pairs
+    ]
 
 
 def table(title, rows):

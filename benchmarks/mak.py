@@ -169,11 +169,7 @@ def run(quick):
     times = {N: of_size(N, quick) for N in SIZES}
     rows = []
     for N, found in times.items():
-        rows += speed_rows(f"N = {N}", found)
-        for method, reference in COMPARED:
-            if method in found and reference in found:
-                label, t = f"N = {N}: {method}", found[method]
-                rows.append(row(label, 1e3 * t, "ms", reference, found[reference] / t))
+        rows += speed_rows(f"N = {N}", found, COMPARED)
     for method in ("slamlab", "slamlab, association of 4", "slamlab, compressed"):
         b = exponent(times, method)
         rows.append(row(f"growth exponent, {method}, N = 500…2000", b, "", "N²", 2 / b))

@@ -69,7 +69,8 @@ def run(quick):
         for name in ("dense NumPy", "slamlab"):
             np.testing.assert_allclose(methods[name](), ranges, rtol=1e-9, err_msg=name)
         times = cpu_times(methods, quick)
-        rows += speed_rows(f"{beams} beams, {count} walls", times)
+        beside = [("slamlab", "dense NumPy")]
+        rows += speed_rows(f"{beams} beams, {count} walls", times, beside)
     return rows
 
 
