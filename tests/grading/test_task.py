@@ -6,6 +6,7 @@ import re
 import numpy as np
 import pytest
 
+from slamlab.checks.drives import Drive, StudentError
 from slamlab.checks.task import Exercise, Law
 from tests.grading import fake
 
@@ -57,3 +58,17 @@ def test_a_task_may_only_need_one_that_stands_before_it():
     backwards = tuple(reversed(fake.EXERCISE.tasks))
     with pytest.raises(ValueError, match="99-total needs a task"):
         Exercise("99", "x", "x", backwards, "x")
+
+
+def test_of_several_functions_the_one_not_attempted_is_named():
+    def done(a):
+        return a
+
+    def open_(a):
+        raise NotImplementedError
+
+    drive = Drive(("done", "open_"), lambda functions, inputs: [f(1) for f in functions.values()])
+    with pytest.raises(StudentError, match="^open_ is not attempted yet$"):
+        drive({"done": done, "open_": open_}, {})
+    with pytest.raises(StudentError, match="^not attempted yet$"):
+        Drive(("open_",), lambda functions, inputs: functions["open_"](1))({"open_": open_}, {})

@@ -7,6 +7,7 @@ code holds nothing else of the checks.
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from traceback import walk_tb
 
 import numpy as np
 
@@ -151,10 +152,17 @@ class Drive:
             return self.run(functions, inputs)
         except (StudentError, KeyboardInterrupt):
             raise
-        except NotImplementedError:
-            raise StudentError("not attempted", "not attempted yet") from None
+        except NotImplementedError as error:
+            raise StudentError("not attempted", self._unsolved(error)) from None
         except BaseException as error:  # SystemExit too: sys.exit() in a function is a mistake
             raise StudentError("raised", describe(error)) from None
+
+    def _unsolved(self, error):
+        """That something is not attempted yet; of several functions, which."""
+        passed = [frame.f_code.co_name for frame, _ in walk_tb(error.__traceback__)]
+        which = [name for name in passed if name in self.functions]
+        named = f"{which[-1]} is " if which and len(self.functions) > 1 else ""
+        return f"{named}not attempted yet"
 
 
 def describe(error: BaseException) -> str:
