@@ -68,7 +68,7 @@ def test_of_several_functions_the_one_not_attempted_is_named():
         raise NotImplementedError
 
     drive = Drive(("done", "open_"), lambda functions, inputs: [f(1) for f in functions.values()])
-    with pytest.raises(StudentError, match="^open_ is not attempted yet$"):
+    with pytest.raises(StudentError, match=r"^open_ is not attempted yet$"):
         drive({"done": done, "open_": open_}, {})
-    with pytest.raises(StudentError, match="^not attempted yet$"):
+    with pytest.raises(StudentError, match=r"^not attempted yet$"):
         Drive(("open_",), lambda functions, inputs: functions["open_"](1))({"open_": open_}, {})
