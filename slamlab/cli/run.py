@@ -99,28 +99,24 @@ def summarise(result, estimator, relations=None):
         "damage": dict(result.source.damage),
     }
     if relations is not None:
-        naive, corrected = (
-            relations_error(t, relations) for t in (result.naive, result.trajectory)
-        )
-        summary["relations"] = {
-            "count": corrected.count,
-            "naive_m": naive.translation,
-            "corrected_m": corrected.translation,
-            "naive_rad": naive.rotation,
-            "corrected_rad": corrected.rotation,
-        }
+        summary["relations"] = _errors(relations_error, result, relations)
     truth = result.source.truth
     # readings lost to damage leave no true pose for each estimate
     if truth is not None and len(truth) == result.frames:
-        naive, corrected = (absolute_error(t, truth) for t in (result.naive, result.trajectory))
-        summary["truth"] = {
-            "count": corrected.count,
-            "naive_m": naive.translation,
-            "corrected_m": corrected.translation,
-            "naive_rad": naive.rotation,
-            "corrected_rad": corrected.rotation,
-        }
+        summary["truth"] = _errors(absolute_error, result, truth)
     return summary
+
+
+def _errors(measure, result, trusted):
+    """How far the naive and the corrected trajectory are off by a measure, as plain numbers."""
+    naive, corrected = (measure(t, trusted) for t in (result.naive, result.trajectory))
+    return {
+        "count": corrected.count,
+        "naive_m": naive.translation,
+        "corrected_m": corrected.translation,
+        "naive_rad": naive.rotation,
+        "corrected_rad": corrected.rotation,
+    }
 
 
 def write(result, summary, folder):

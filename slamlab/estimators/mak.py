@@ -44,14 +44,13 @@ class MakSlam(Estimator):
 
     def layers(self):
         """Landmarks, their 95 % ellipses and the robot's, the track."""
-        P, poses = self.filter.P, self.trajectory().poses
-        corners = [P[i : i + 2, i : i + 2] for i in range(3, len(P), 2)]
+        P_rr, _, P_ii = self.filter.blocks()
         landmarks = self.filter.landmarks()
         return [
             Points("landmark", landmarks),
-            Ellipses("landmark", landmarks, np.array(corners).reshape(-1, 2, 2)),
-            Poses("corrected", poses),
-            Ellipses("robot", self.pose[None, :2], P[None, :2, :2]),
+            Ellipses("landmark", landmarks, P_ii),
+            Poses("corrected", self.trajectory().poses),
+            Ellipses("robot", self.pose[None, :2], P_rr[None, :2, :2]),
         ]
 
     def _see(self, seen):
