@@ -26,8 +26,6 @@ def point_to_line(
     gate=(1.0, 0.1),
     normal_gate=0.7,
     trust=None,
-    source_normals=None,
-    target_normals=None,
     history=False,
 ):
     """Lay a source cloud over the walls that a target cloud shows.
@@ -49,7 +47,6 @@ def point_to_line(
     gate : (2,) longest pair in the first and in the last rounds [m]
     normal_gate : float, largest angle between the two walls of a pair [rad]
     trust : (3,) standard deviations of the first guess [m, m, rad], or None to trust it nothing
-    source_normals, target_normals : (n, 2), (m, 2) where known already; NaN where there is none
     history : bool, keep a Round for the start and after each fit
 
     Returns
@@ -63,8 +60,7 @@ def point_to_line(
     source, target, pose = checked(source, target, initial)
     limits(tolerance, max_rounds, keep)
     nearest = Nearest(target)
-    n_source = normals(source) if source_normals is None else source_normals
-    n_target = normals(target) if target_normals is None else target_normals
+    n_source, n_target = normals(source), normals(target)
     start, information = pose, np.zeros(3) if trust is None else 1 / np.asarray(trust) ** 2
     reach = np.hypot(*source.T).max()
     past, width, verdict = [], max(gate), ""
