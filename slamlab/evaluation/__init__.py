@@ -1,6 +1,7 @@
 """How good an estimate is: against the truth, against published relations, against its own P."""
 
 from slamlab.evaluation.consistency import Consistency, band, consistency, nees, nis
+from slamlab.evaluation.correlation import correlation
 from slamlab.evaluation.relations import Relations, RelationsError, load_relations, relations_error
 from slamlab.evaluation.trajectory import TrajectoryError, absolute_error, relative_error
 
@@ -12,6 +13,7 @@ __all__ = [
     "absolute_error",
     "band",
     "consistency",
+    "correlation",
     "load_relations",
     "nees",
     "nis",

@@ -4,6 +4,7 @@ Drawing takes plain arrays (:mod:`slamlab.layers`): it computes no pose and no m
 """
 
 from slamlab.views.compare import cloud, curves
+from slamlab.views.correlation import correlation
 from slamlab.views.figures import COLOURS, axes, chart, panels, png, show
 from slamlab.views.growth import growth
 from slamlab.views.layers import draw, legend, side_by_side
@@ -16,6 +17,7 @@ __all__ = [
     "axes",
     "chart",
     "cloud",
+    "correlation",
     "curves",
     "draw",
     "explore",
