@@ -97,6 +97,33 @@ def test_sightings_without_an_id_are_left_out_and_counted():
     assert f"{len(seen.ids)} sightings without an id" in slam.status
 
 
+def steps_apart(smoothing, seed):
+    """How much the shown pose jumps beyond the odometry [m], and how wrong it is [m], root mean."""
+    source = LandmarkRun(Loop(steps=200), np.random.default_rng(seed))
+    slam = MakSlam(source.robot, source.sensor, smoothing=smoothing)
+    shown = run(source, slam).trajectory.poses
+    moved = [compose(a, r.odometry) for a, r in zip(shown, list(source)[1:], strict=False)]
+    jumps = (shown[1:] - np.array(moved))[:, :2]
+    return jumps.std(), np.sqrt(np.mean((shown - source.truth.poses)[:, :2] ** 2)), slam
+
+
+def test_smoothing_makes_the_shown_pose_calmer_and_wrong_and_leaves_the_filter_alone():
+    calm, plain = (
+        np.array([steps_apart(smoothing, seed)[:2] for seed in range(8)]).mean(axis=0)
+        for smoothing in (0.95, 0.0)
+    )
+    assert calm[0] < plain[0] / 3
+    assert calm[1] > plain[1] * 1.1
+    filters = [steps_apart(smoothing, 3)[2].filter for smoothing in (0.95, 0.0)]
+    np.testing.assert_array_equal(filters[0].x, filters[1].x)
+
+
+@pytest.mark.parametrize("smoothing", [-0.1, 1.0, np.nan])
+def test_a_smoothing_that_never_listens_is_refused(smoothing):
+    with pytest.raises(ValueError, match="smoothing is from 0"):
+        MakSlam(RobotModel(), Loop().sensor, smoothing=smoothing)
+
+
 def test_before_anything_is_seen_there_is_a_robot_and_no_landmark():
     landmarks, around, *_ = MakSlam(RobotModel(), Loop().sensor).layers()
     assert landmarks.xy.shape == (0, 2)

@@ -5,7 +5,7 @@ import numpy as np
 from slamlab import noise
 from slamlab.estimators.base import Estimator
 from slamlab.filters.mak import MAK
-from slamlab.geometry import compose
+from slamlab.geometry import compose, wrap
 from slamlab.layers import Ellipses, Points, Poses
 
 
@@ -17,11 +17,19 @@ class MakSlam(Estimator):
     robot : RobotModel, how wrong the odometry is
     sensor : SensorModel, how wrong a range and a bearing are
     first_estimates : bool, take every Jacobian at the first estimate, see :class:`MAK`
+    smoothing : float from 0 to below 1, share of the last shown pose that the next one keeps: the
+        recursive filter behind the update of the EKF note. The filter's own state is left alone.
+
+    Raises
+    ------
+    ValueError : a smoothing outside
     """
 
-    def __init__(self, robot, sensor, first_estimates=False):
+    def __init__(self, robot, sensor, first_estimates=False, smoothing=0.0):
         super().__init__()
-        self.robot, self.sensor = robot, sensor
+        if not 0 <= smoothing < 1:
+            raise ValueError(f"smoothing is from 0 (none) to below 1, not {smoothing}")
+        self.robot, self.sensor, self.smoothing = robot, sensor, smoothing
         # the first pose is where the map's frame is laid: nothing about it is uncertain
         self.filter = MAK(np.zeros(3), np.zeros((3, 3)), first_estimates=first_estimates)
         self.unknown = 0
@@ -38,7 +46,7 @@ class MakSlam(Estimator):
             self.filter.predict(compose(pose, odometry), Q_arc(pose, odometry, self.robot))
         if reading.observations is not None:
             self._see(reading.observations)
-        self.pose = self.filter.pose
+        self.pose = self._smoothed(odometry)
         self.record(reading.time)
         self.status = f"{len(self.filter.ids)} landmarks, {self.unknown} sightings without an id"
 
@@ -60,6 +68,14 @@ class MakSlam(Estimator):
         for rows, take in ((~new, self.filter.update), (new & (ids >= 0), self.filter.add)):
             if rows.any():
                 take(ids[rows].tolist(), seen.z[rows], self._R(seen.z[rows, 0]))
+
+    def _smoothed(self, odometry):
+        """The pose to show: s ← s ⊕ odometry, then (1 − smoothing) of the way to the estimate."""
+        back = compose(self.pose, odometry) - self.filter.pose
+        back[2] = wrap(back[2])
+        shown = self.filter.pose + self.smoothing * back
+        shown[2] = wrap(shown[2])
+        return shown
 
     def _R(self, ranges):
         """(m, 2, 2) covariances of the observations."""
