@@ -6,29 +6,39 @@ import traceback
 import ipywidgets
 from IPython.display import display
 
+from slamlab.views import play as players
 from slamlab.views.figures import bundle
 
 
-def explore(draw, alt, **controls):
+def explore(draw, alt, play=None, **controls):
     """Show a figure and controls that redraw it.
 
     The first view is drawn at once, so that a mistake in ``draw`` surfaces as any other; what a
-    notebook stores is that view. A later mistake is shown in place of the figure.
+    notebook stores is that view. A later mistake is shown in place of the figure. Calling this
+    stops whatever plays, so that a cell can be run again.
 
     Parameters
     ----------
     draw : (values of the controls by name) -> Figure
     alt : str, or (values by name) -> str, what the figure shows
+    play : str or None, name of a slider that gets a button which moves it from where it stands to
+        its end, a step a picture
     controls : by name of draw's argument, in order: a widget of ipywidgets, or
         ``(low, high, first)`` for a slider, whole-numbered when all three are int;
         a list for a choice, its first entry first; a bool for a tick box
 
     Raises
     ------
-    ValueError : when a control is none of these
+    ValueError : when a control is none of these, or ``play`` names no slider
     """
+    players.stop()
     widgets = {name: _control(name, given) for name, given in controls.items()}
     view = ipywidgets.HTML()
+    buttons = []
+    if play is not None:
+        if play not in widgets:
+            raise ValueError(f"play: no control is called {play!r}, only {', '.join(widgets)}")
+        buttons.append(players.Player(widgets[play]).button)
 
     def redraw():
         values = {name: widget.value for name, widget in widgets.items()}
@@ -41,12 +51,13 @@ def explore(draw, alt, **controls):
             redraw()
         except Exception:
             # a callback has no cell to fail in
+            players.stop()
             view.value = f"<pre>{html.escape(traceback.format_exc(limit=-2))}</pre>"
 
     data, metadata = redraw()
     for widget in widgets.values():
         widget.observe(changed, "value")
-    box = ipywidgets.VBox([*widgets.values(), view])
+    box = ipywidgets.VBox([*widgets.values(), *buttons, view])
     live = box._repr_mimebundle_() or {}
     display(live | data, metadata=metadata, raw=True)
 
