@@ -8,6 +8,7 @@ from slamlab.views.correlation import correlation
 from slamlab.views.figures import COLOURS, axes, chart, panels, png, show
 from slamlab.views.growth import growth
 from slamlab.views.layers import draw, legend, side_by_side
+from slamlab.views.linked import linked
 from slamlab.views.overlay import overlay
 from slamlab.views.sketches import frames
 from slamlab.views.widgets import explore
@@ -24,6 +25,7 @@ __all__ = [
     "frames",
     "growth",
     "legend",
+    "linked",
     "overlay",
     "panels",
     "png",
