@@ -19,7 +19,7 @@ def test_a_landmark_has_the_colour_of_its_correlation_with_the_marked_one(rho):
     _, (map_, matrix) = views.linked(LANDMARKS, rho, "abc", marked=1)
     dots, square = map_.collections
     expected = [(rho[5, k] + rho[6, k + 1]) / 2 for k in (3, 5, 7)]
-    assert dots.get_array() == pytest.approx(expected)
+    assert np.asarray(dots.get_array()) == pytest.approx(expected)
     assert np.array_equal(square.get_offsets(), LANDMARKS[1:2])
     (picture,) = matrix.images
     assert dots.get_cmap().name == picture.get_cmap().name
