@@ -1,4 +1,4 @@
-"""Range sensors: what a lidar reports of a world, with its noise, gaps and limits."""
+"""Range scanners: what a lidar, an infrared or an ultrasonic scanner reports of a world."""
 
 from dataclasses import dataclass
 
@@ -7,13 +7,16 @@ import numpy as np
 from slamlab.hardware import SensorModel
 from slamlab.readings import Scan
 
+RAY_STEP = np.radians(0.5)  # rays of a wide beam: off by 1e-5 of the range at most
+
 
 @dataclass(frozen=True)
-class Lidar:
-    """A turning laser range finder in the robot's centre, looking along its heading.
+class Scanner:
+    """A turning range finder in the robot's centre, looking along its heading.
 
     A beam flies at its nominal angle plus noise and is reported at the nominal angle; the range
-    gets noise that grows with it. A whole turn is taken from one pose.
+    gets noise that grows with it. A wide beam returns the nearest surface in its cone. A whole
+    turn is taken from one pose.
 
     Parameters
     ----------
@@ -22,7 +25,10 @@ class Lidar:
     field_of_view : float, centred on the heading [rad]
     range_error : float, standard deviation as a share of the range [1]
     range_sigma : float, standard deviation at range zero [m]
+    range_curvature : float, standard deviation per range squared, of sensors whose signal falls off
+        as 1/r [1/m]
     bearing_sigma : float, standard deviation of a beam's direction [rad]
+    cone : float, full opening angle of a beam [rad]
     dropouts : float, share of the beams that return nothing [1]
     """
 
@@ -32,19 +38,24 @@ class Lidar:
     field_of_view: float = 2 * np.pi
     range_error: float = 0.01
     range_sigma: float = 0.0
+    range_curvature: float = 0.0
     bearing_sigma: float = 0.0
+    cone: float = 0.0
     dropouts: float = 0.0
 
     def __post_init__(self):
         if self.beams < 1:
-            raise ValueError(f"a lidar needs at least one beam, not {self.beams}")
+            raise ValueError(f"a scanner needs at least one beam, not {self.beams}")
         if not 0 < self.field_of_view <= 2 * np.pi:
             raise ValueError(f"field_of_view is in radians, above 0 to 2π: {self.field_of_view}")
         if not 0 <= self.range_min < self.range_max:
             raise ValueError(f"ranges from {self.range_min} to {self.range_max} m are none")
         if not 0 <= self.dropouts <= 1:
             raise ValueError(f"dropouts is a share, 0 to 1: {self.dropouts}")
-        if min(self.range_error, self.range_sigma, self.bearing_sigma) < 0:
+        if not 0 <= self.cone < np.pi:
+            raise ValueError(f"cone is an angle in radians, 0 to below π: {self.cone}")
+        sigmas = self.range_error, self.range_sigma, self.range_curvature, self.bearing_sigma
+        if min(sigmas) < 0:
             raise ValueError("a standard deviation is not negative")
 
     @property
@@ -61,13 +72,34 @@ class Lidar:
             range_min=self.range_min,
             range_max=self.range_max,
             field_of_view=self.field_of_view,
-            range_error=self.range_error,
+            # what grows with the square is told as it is at the far end: never too sure
+            range_error=self.range_error + self.range_curvature * self.range_max,
             range_sigma=self.range_sigma,
-            bearing_sigma=self.bearing_sigma,
+            # anywhere in the cone, all places alike
+            bearing_sigma=float(np.hypot(self.bearing_sigma, self.cone / np.sqrt(12))),
+        )
+
+    def sigma(self, ranges):
+        """Standard deviation of a range.
+
+        σ² = (error r)² + σ₀² + (curvature r²)²
+
+        Parameters
+        ----------
+        ranges : (...,) [m]
+
+        Returns
+        -------
+        (...,) [m]
+        """
+        return np.sqrt(
+            (self.range_error * ranges) ** 2
+            + self.range_sigma**2
+            + (self.range_curvature * ranges**2) ** 2
         )
 
     def scan(self, world, pose, rng):
-        """One turn of the lidar in a world.
+        """One turn of the scanner in a world.
 
         Parameters
         ----------
@@ -84,19 +116,56 @@ class Lidar:
         noise = rng.standard_normal(self.beams)
         dropped = rng.random(self.beams) < self.dropouts
 
-        ranges = world.cast(pose[:2], directions)
+        ranges = self._nearest(world, pose[:2], directions)
         ranges[np.isinf(ranges)] = np.nan
-        ranges += np.hypot(self.range_error * ranges, self.range_sigma) * noise
+        ranges += self.sigma(ranges) * noise
         with np.errstate(invalid="ignore"):
             outside = (ranges < self.range_min) | (ranges > self.range_max)
         ranges[outside | dropped] = np.nan
         return Scan(angles, ranges, range_max=self.range_max, range_min=self.range_min)
 
+    def _nearest(self, world, position, directions):
+        """The nearest surface in each beam's cone."""
+        if self.cone == 0:
+            return world.cast(position, directions)
+        rays = int(np.ceil(self.cone / RAY_STEP)) + 1
+        across = np.linspace(-self.cone / 2, self.cone / 2, rays)
+        fan = (directions[:, None] + across).ravel()
+        return world.cast(position, fan).reshape(-1, rays).min(axis=1)
 
-RPLIDAR_A2 = Lidar(range_error=0.004, bearing_sigma=np.radians(0.1), dropouts=0.03)
+
+RPLIDAR_A2 = Scanner(range_error=0.004, bearing_sigma=np.radians(0.1), dropouts=0.03)
 """An RPLIDAR A2: 400 beams a turn (0.9° apart), 0.2 to 12 m by its data sheet.
 
 The noise is that of real recordings of an A2 standing still: σ 0.34–0.46 % of the range, 2.4–3.9 %
 empty returns. The data sheet allows 0.75 %, Smolec simulates 1 %:
 ``dataclasses.replace(RPLIDAR_A2, range_error=0.01)``.
+"""
+
+GP2D120 = Scanner(
+    beams=90,
+    range_min=0.04,
+    range_max=0.28,
+    field_of_view=np.radians(178),
+    range_error=0.0,
+    range_curvature=0.125,
+)
+"""The MAK thesis' Sharp GP2D120 on a servo: 90 infrared readings, 2° apart, 0.04 to 0.30 m.
+
+Its voltage falls as 1/r, about 0.12 V·m, so 15 mV of noise are 1 mm at 0.1 m and 11 mm at 0.3 m.
+As in the thesis a reading over 0.28 m is none (chapter 8).
+"""
+
+ULTRASONIC = Scanner(
+    beams=37,
+    range_min=0.02,
+    range_max=4.0,
+    field_of_view=np.pi,
+    range_error=0.01,
+    range_sigma=0.003,
+    cone=np.radians(25),
+)
+"""The EKF note's ultrasonic scanner on a servo: 37 readings 5° apart, each from a cone of 25°.
+
+The note gives no figures; these are those of a common 40 kHz ranger.
 """

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 from slamlab.geometry import transform
-from slamlab.sensors import RPLIDAR_A2, Lidar
+from slamlab.sensors import GP2D120, RPLIDAR_A2, ULTRASONIC, Scanner
 from slamlab.world import World
 from slamlab.worlds import ring, room
 
-IDEAL = Lidar(range_error=0.0)
+IDEAL = Scanner(range_error=0.0)
 WELL = World(circles=[(0.0, 0.0, 5.0)])
 
 
@@ -34,7 +34,7 @@ def test_a_whole_turn_has_no_beam_twice_and_a_sector_reaches_both_ends():
     steps = np.diff(IDEAL.angles)
     np.testing.assert_allclose(steps, 2 * np.pi / 400)
     assert IDEAL.angles[-1] + steps[0] == pytest.approx(np.pi)
-    sector = Lidar(beams=181, field_of_view=np.pi).angles
+    sector = Scanner(beams=181, field_of_view=np.pi).angles
     np.testing.assert_allclose(sector[[0, 90, -1]], [-np.pi / 2, 0, np.pi / 2], atol=1e-12)
 
 
@@ -66,7 +66,7 @@ def test_the_share_of_dropouts_is_as_set():
 
 def test_nothing_nearer_or_farther_than_the_limits_is_reported():
     world = World(ring([(-0.1, -20), (20, -20), (20, 20), (-0.1, 20)]))
-    lidar = Lidar(range_min=0.2, range_max=12.0, range_error=0.05)
+    lidar = Scanner(range_min=0.2, range_max=12.0, range_error=0.05)
     scan = lidar.scan(world, np.zeros(3), np.random.default_rng(4))
     true = world.cast((0, 0), lidar.angles)
     assert np.isnan(scan.ranges[(true < 0.15) | (true > 16)]).all()
@@ -110,10 +110,57 @@ def test_the_a2_lies_within_what_real_recordings_show():
 )
 def test_a_lidar_that_makes_no_sense_is_refused(wrong, message):
     with pytest.raises(ValueError, match=message):
-        Lidar(**wrong)
+        Scanner(**wrong)
 
 
 def test_worlds_and_sensors_need_no_geometry_so_exercises_on_it_may_use_them():
     code = "import sys, slamlab.worlds, slamlab.sensors; print('slamlab.geometry' in sys.modules)"
     shown = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert shown.stdout.strip() == "False"
+
+
+def test_a_wide_beam_returns_the_nearest_surface_in_its_cone():
+    wall = World([(-5.0, 2.0, 5.0, 2.0)])
+    silent = replace(ULTRASONIC, range_error=0.0, range_sigma=0.0)
+    scan = silent.scan(wall, np.array([0, 0, np.pi / 2]), np.random.default_rng(0))
+    off = np.abs(scan.angles) - silent.cone / 2
+    seen = scan.valid
+    # within half a cone of the perpendicular its foot is met, beyond it the cone's nearer edge
+    expected = 2 / np.cos(np.maximum(off, 0))
+    np.testing.assert_allclose(scan.ranges[seen], expected[seen], rtol=1e-4)
+    assert np.all(scan.ranges[seen] <= 2 / np.cos(scan.angles[seen]) + 1e-12)
+
+
+def test_a_beam_without_width_and_a_very_narrow_one_agree():
+    world, pose = room(), np.array([0.3, 0.2, 0.7])
+    narrow = replace(IDEAL, cone=1e-9)
+    np.testing.assert_allclose(
+        narrow.scan(world, pose, np.random.default_rng(0)).ranges,
+        IDEAL.scan(world, pose, np.random.default_rng(0)).ranges,
+        atol=1e-6,
+    )
+
+
+def test_infrared_noise_grows_with_the_square_of_the_range():
+    deviations = []
+    for radius in (0.1, 0.2):
+        ring_of = World(circles=[(0.0, 0.0, radius)])
+        rng = np.random.default_rng(1)
+        scans = [GP2D120.scan(ring_of, np.zeros(3), rng).ranges for _ in range(200)]
+        deviations.append(np.std(scans))
+    np.testing.assert_allclose(deviations, [0.00125, 0.005], rtol=0.03)
+    np.testing.assert_allclose(deviations, GP2D120.sigma(np.array([0.1, 0.2])), rtol=0.03)
+
+
+@pytest.mark.parametrize("scanner", [RPLIDAR_A2, GP2D120, ULTRASONIC])
+def test_an_estimator_is_never_told_less_noise_than_there_is(scanner):
+    r = np.linspace(scanner.range_min, scanner.range_max, 50)
+    told = np.hypot(scanner.model.range_error * r, scanner.model.range_sigma)
+    assert np.all(told >= scanner.sigma(r) - 1e-12)
+    assert scanner.model.bearing_sigma >= scanner.bearing_sigma
+
+
+def test_the_servos_scan_as_wide_and_as_fine_as_the_theses_say():
+    np.testing.assert_allclose(np.degrees(np.diff(GP2D120.angles)), 2)
+    assert len(GP2D120.angles) == 90
+    np.testing.assert_allclose(np.degrees(np.diff(ULTRASONIC.angles)), 5)

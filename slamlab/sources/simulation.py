@@ -56,7 +56,7 @@ class Simulation(Source):
     ----------
     name : str
     world : World
-    lidar : Lidar
+    lidar : Scanner
     rng : numpy.random.Generator; one number is drawn, all noise grows from it
     poses : (n, 3) true poses so far [m, m, rad]
     odometry : (n, 3) motion since the pose before, as the robot believes it [m, m, rad]
@@ -150,7 +150,7 @@ def simulation(world_name, rng, lidar=RPLIDAR_A2, robot=ROBOT, tour=True):
     ----------
     world_name : str, one of NAMES
     rng : numpy.random.Generator
-    lidar : Lidar; among landmarks there is nothing to scan
+    lidar : Scanner; among landmarks there is nothing to scan
     robot : DifferentialDrive; only the tours use it, the other runs have odometry of their own
     tour : bool; False starts with one reading and waits for ``drive``
 

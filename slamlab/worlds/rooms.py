@@ -1,41 +1,9 @@
-"""Ready worlds. In each a robot starts at the origin, heading along +x."""
+"""Rooms for a lidar: a living room, a corridor that closes, Tuček's polygon."""
 
 import numpy as np
 
 from slamlab.world import World
-
-
-def ring(corners):
-    """Walls round a closed polygon.
-
-    Parameters
-    ----------
-    corners : (n, 2) [m], in order
-
-    Returns
-    -------
-    (n, 4) rows x1 y1 x2 y2 [m]
-    """
-    corners = np.asarray(corners, dtype=float)
-    return np.hstack([corners, np.roll(corners, -1, axis=0)])
-
-
-def box(centre, size, turn=0.0):
-    """The four walls of a turned rectangle.
-
-    Parameters
-    ----------
-    centre : (2,) [m]
-    size : (2,) length and width [m]
-    turn : float [rad]
-
-    Returns
-    -------
-    (4, 4) rows x1 y1 x2 y2 [m]
-    """
-    c, s = np.cos(turn), np.sin(turn)
-    half = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]]) * np.asarray(size) / 2
-    return ring(half @ np.array([[c, s], [-s, c]]) + np.asarray(centre))
+from slamlab.worlds.shapes import box, ring
 
 
 def room():
@@ -83,26 +51,3 @@ def polygon():
     ]
     walls = np.concatenate([ring(outer), box((0.75, -0.42), (0.35, 0.25), np.radians(15))])
     return World(walls, [(-0.45, -0.75, 0.15)], "polygon")
-
-
-WORLDS = {"room": room, "corridor": corridor, "polygon": polygon}
-
-
-def by_name(name):
-    """A ready world by its name.
-
-    Parameters
-    ----------
-    name : str, a key of WORLDS
-
-    Returns
-    -------
-    World
-
-    Raises
-    ------
-    ValueError : there is no such world; the text lists those there are
-    """
-    if name not in WORLDS:
-        raise ValueError(f"no world {name!r}; there are: {', '.join(WORLDS)}")
-    return WORLDS[name]()

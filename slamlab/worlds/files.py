@@ -1,0 +1,104 @@
+"""Worlds as text: a row of four numbers is a wall, a row of three a circle.
+
+# x1 y1 x2 y2 [m]: a wall; x y radius [m]: a circle
+-2 -1 3 -1
+1.3 0.85 0.15
+"""
+
+from pathlib import Path
+
+import numpy as np
+
+from slamlab.world import World
+
+HEAD = "# x1 y1 x2 y2 [m]: a wall; x y radius [m]: a circle\n"
+MOST = 50_000_000  # bytes; a million walls take 40 MB
+
+
+class WorldFileError(ValueError):
+    """A file that is no world; the text names file and line."""
+
+
+def load(path):
+    """A world from a text file; what stands behind # is left out.
+
+    Parameters
+    ----------
+    path : str or Path
+
+    Returns
+    -------
+    World, named by the file
+
+    Raises
+    ------
+    WorldFileError : the file cannot be read, or a line is neither wall nor circle
+    """
+    path = Path(path)
+    rows = {4: [], 3: []}
+    for number, line in enumerate(_lines(path), 1):
+        words = line.split("#", 1)[0].replace(",", " ").split()
+        if not words:
+            continue
+        if len(words) not in rows:
+            raise WorldFileError(
+                f"{path}:{number}: {len(words)} numbers; a wall has four (x1 y1 x2 y2), "
+                "a circle three (x y radius)"
+            )
+        row = _numbers(words, path, number)
+        if len(row) == 4 and row[:2] == row[2:]:
+            raise WorldFileError(f"{path}:{number}: the wall has no length: it starts at its end")
+        if len(row) == 3 and row[2] <= 0:
+            raise WorldFileError(f"{path}:{number}: a circle needs a radius above zero")
+        rows[len(row)].append(row)
+    if not any(rows.values()):
+        raise WorldFileError(f"{path} holds no wall and no circle")
+    return World(rows[4], rows[3], path.stem)
+
+
+def save(world, path):
+    """Write a world so that :func:`load` gives the same one.
+
+    Parameters
+    ----------
+    world : World
+    path : str or Path
+
+    Raises
+    ------
+    OSError
+    """
+    rows = [*world.walls.tolist(), *world.circles.tolist()]
+    text = "".join(" ".join(f"{value!r}" for value in row) + "\n" for row in rows)
+    Path(path).write_text(HEAD + text, encoding="utf-8")
+
+
+def _lines(path):
+    try:
+        size = path.stat().st_size
+        if size > MOST:
+            raise WorldFileError(f"{path} has {size >> 20} MB: no world is that large")
+        return path.read_text(encoding="utf-8").splitlines()
+    except OSError as error:
+        raise WorldFileError(f"{path}: {error.strerror}") from None
+    except UnicodeDecodeError:
+        raise WorldFileError(f"{path} is no text file") from None
+
+
+def _numbers(words, path, number):
+    try:
+        row = [float(word) for word in words]
+    except ValueError:
+        bad = next(word for word in words if not _is_number(word))
+        raise WorldFileError(f"{path}:{number}: {bad!r} is no number") from None
+    if not np.isfinite(row).all():
+        raise WorldFileError(f"{path}:{number}: a number is not finite")
+    return row
+
+
+def _is_number(word):
+    try:
+        float(word)
+        return True
+    except ValueError:
+        return False
