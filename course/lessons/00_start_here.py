@@ -198,6 +198,20 @@ for theta in (25, 115):
 # | | `geometry.from_matrix(T)` | (3,) | m, m, rad | the pose of a homogeneous matrix |
 # | | `geometry.transform(a, points)` | (n, 2) | m | points (n, 2) of a's frame in the frame a is given in |
 #
+# A filter holds a belief `b` of n numbers and takes in m measured ones (lesson 03 derives it); its
+# update returns a new belief and a `step` that says what it was made of:
+#
+# | Symbol | In the code | Shape | What it is |
+# | --- | --- | --- | --- |
+# | x | `b.x` | (n,) | the mean: what is believed |
+# | P | `b.P` | (n, n) | its covariance: how wrong that may be |
+# | F, Q | `linear.predict(b, F, Q)` | (n, n) | time passes: x becomes F x, and noise of covariance Q is added |
+# | H, R | `linear.update(b, z, H, R)` | (m, n), (m, m) | a measurement z of H x, with noise of covariance R |
+# | v | `step.innovation` | (m,) | measured minus predicted: z − H x |
+# | S | `step.S` | (m, m) | covariance of v: H P Hᵀ + R |
+# | K | `step.K` | (n, m) | the gain: P Hᵀ S⁻¹; x grows by K v |
+# | | `step.nis` | () | vᵀ S⁻¹ v: m on average while the filter is consistent |
+#
 # Put the cursor behind a name in any cell and press **Shift+Tab** to read what it does.
 
 # %% [markdown] slideshow={"slide_type": "slide"} name="map-of-lessons"

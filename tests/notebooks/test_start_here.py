@@ -8,17 +8,26 @@ import numpy as np
 import pytest
 
 from course.source import ROOT, read
+from slamlab.filters import linear
 
 LESSONS = ROOT / "course" / "lessons"
 ROOMS = ("geometry", "models", "jacobians", "noise")
 ANY_LENGTH = 5  # what the table calls n
 
 
-def table(name):
-    """The rows of the table in a cell of lesson 00, as lists of texts; its head left out."""
+def tables(name):
+    """The tables in a cell of lesson 00, each a list of rows of texts; their heads left out."""
     cells = {cell.id: cell for cell in read(LESSONS / "00_start_here.py").cells}
-    lines = [line for line in cells[name].text.splitlines() if line.startswith("|")]
-    return [[text.strip() for text in line.strip("|").split("|")] for line in lines[2:]]
+    found = re.findall(r"(?:^\|.*\n?)+", cells[name].text, re.MULTILINE)
+    return [
+        [[text.strip() for text in line.strip("|").split("|")] for line in lines.splitlines()[2:]]
+        for lines in found
+    ]
+
+
+def table(name):
+    """The rows of the first table in a cell."""
+    return tables(name)[0]
 
 
 def shape(text):
@@ -45,6 +54,25 @@ def test_a_symbol_of_the_notation_is_a_function_that_returns_its_shape(code, siz
     result = function(*(rng.uniform(0.5, 1.5, s) for s in sizes))
     assert np.shape(result) == size
     assert np.isfinite(result).all()
+
+
+def test_a_symbol_of_the_filter_is_a_field_of_that_shape():
+    sizes = {"n": 3, "m": 2}
+    root = np.random.default_rng(2).standard_normal((3, 5))
+    before = linear.belief(np.ones(3), root @ root.T)
+    b = linear.predict(before, np.eye(3), np.eye(3))
+    b, step = linear.update(b, np.ones(2), root[:2, :3], np.eye(2))
+    rows = tables("notation")[1]
+    assert len(rows) == 8
+    for _, code, size, _ in rows:
+        owner, _, field = code.strip("`").partition(".")
+        if owner == "linear":
+            function, names = re.fullmatch(r"(\w+)\((.*)\)", field).groups()
+            parameters = list(inspect.signature(getattr(linear, function)).parameters)
+            assert names.split(", ") == parameters[: names.count(",") + 1]
+            continue
+        want = tuple(sizes[letter] for letter in re.findall("[nm]", size))
+        assert np.shape(getattr({"b": b, "step": step}[owner], field)) == want, code
 
 
 @pytest.mark.parametrize("room", ROOMS)
