@@ -97,6 +97,7 @@ def row(runs):
         "nees": each.mean(),
         # the steps of a run hang together, runs do not: their scatter gives the mean's error
         "nees_standard_error": each.mean(axis=1).std(ddof=1) / np.sqrt(len(runs)),
+        "nees_median_run": np.median(each.mean(axis=1)),
         "nees_last": each[:, -LAST:].mean(),
         "steps_above_band": np.mean(over_runs > high),
         "steps_below_band": np.mean(over_runs < low),
