@@ -632,7 +632,8 @@ fig, ax = views.curves(
     "σ of x and y [m]",
 )
 ax.axhline(0.2, color=views.COLOURS["walls"], linewidth=1)
-ax.set_ylim(0, 0.35)
+ax.set_ylim(0, 0.47)
+ax.legend(ncols=2, fontsize="small", loc="upper center")
 views.show(
     fig, "Landmarks fall to the grey line at 0.2 m; vectors go on falling, the compass's to zero."
 )
@@ -887,10 +888,10 @@ lines += ["", f"{runs_made} runs; at one step, 95 % of averages lie from {low:.2
 Markdown("\n".join(lines))
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** ideal and first estimates agree within a hundredth or two. The standard filter's NEES is
-# higher on the very same readings, and its map is worse, so it is not for honesty that it is
-# higher. In a world as mild as this the difference is small: the averages lie in the band. A few
-# runs again show the mechanism:
+# **See:** ideal and first estimates agree within a hundredth or two. The standard filter has the
+# higher NEES on the very same readings, and the worse heading and map: it is surer, and farther
+# off. In a world as mild as this the difference is small; its averages come near the band's upper
+# edge. A few runs again show the mechanism:
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 sample = [errors_of(seed, Loop(range_max=2.0)) for seed in range(4)]
