@@ -1,0 +1,23 @@
+"""Exercise 05, two easy halves: what it asks and what its solutions may import."""
+
+from slamlab.checks.task import Exercise
+from slamlab.checks.tasks.ex05_localise import LOCALISE
+from slamlab.checks.tasks.ex05_map import MAP
+from slamlab.checks.tasks.ex05_predict import PREDICT
+from slamlab.checks.tasks.ex05_update import LANDMARK, LOCATE
+
+EXERCISE = Exercise(
+    id="05",
+    notebook="05_two_easy_halves",
+    title="Two easy halves",
+    tasks=(PREDICT, LOCATE, LOCALISE, LANDMARK, MAP),
+    drives="slamlab.checks.drives.ex05",
+    allows=(
+        "slamlab.geometry",
+        "slamlab.jacobians",
+        "slamlab.layers",
+        "slamlab.models",
+        "slamlab.views",
+    ),
+    answers=("slamlab.filters", "slamlab.estimators", "slamlab.studies"),
+)
