@@ -257,7 +257,7 @@ def frame(step, landmark):
 views.explore(
     frame,
     "Map with ellipses beside the correlation matrix, which is filled but for landmark 0's rows; "
-    "landmark 5 and its neighbours are deep red.",
+    "landmark 5 and its neighbours are red.",
     play="step",
     step=(0, len(film) - 1, 37),
     landmark=(0, 15, 5),
@@ -266,15 +266,15 @@ views.explore(
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # **See:** left, the true way is black, the estimate blue; the colour of a landmark is its
 # correlation with the one in the square, whose rows and columns are framed on the right. Just
-# before the loop closes, 5 and its neighbours are deep red: they err *together*. Number 0, seen
+# before the loop closes, 5 and its neighbours are red: they err *together*. Number 0, seen
 # from the start that is certain, errs alone: its rows are nearly white. From here press ▶: with one
 # look at number 0 the robot jumps to its place, and what it had misplaced moves back with it.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* Play it twice, once looking at the map, once at the matrix. Then mark number
 # 12 and go to the end: ask why its neighbours are redder than the far ones (they were placed from
-# the same lost poses). The signs alternate because x and y of one block do: a heading error moves
-# the far side of the loop the other way.
+# the same lost poses). The checkerboard: the x errors of two landmarks go together, those of x and
+# y against each other, as they do when a map is turned about its start.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## What the closing did, in numbers
@@ -364,11 +364,22 @@ Markdown("\n".join(lines))
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # (4.34) begins its second line with P_r2, which is zero here, where P_r1 belongs: the robot forgets
 # landmark 1. (4.37) starts from P_12(1|0) for (2|1): the wrong index, and no harm, both are zero.
+#
+# The gains (4.18) and (4.29), from which all this follows, are right:
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* The second lines show that the author had the right formula in the hand; the
 # first lines are a slip that was copied twelve times. Ask how one would notice it without numbers:
 # by units. W is in m per unit of z, S in units of z squared, so W S Wᵀ is in m².
+
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+gains = {
+    "(4.18)": (P * H_1.T * S.I, [P_rr * H_r.T, P_11 * H_p.T, Z(2, 2)]),
+    "(4.29)": (P_then * H_2.T * S.I, [P_rr * H_r.T, P_1r * H_r.T, P_22 * H_p.T]),
+}
+for number, (derived, printed) in gains.items():
+    as_printed = sp.block_collapse(sp.BlockMatrix([[block] for block in printed]) * S.I)
+    print(number, "right" if sp.block_collapse(derived) == as_printed else "wrong")
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## The corrections of x
@@ -477,9 +488,9 @@ ax.legend()
 views.show(fig, "With all terms NEES stays in its band at 3; without, it rises to about 300.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** the solid curve stays in the grey band. The dashed one leaves it before the first
-# quarter: the robot is off by many of its standard deviations. It falls when the loop closes, not
-# because the filter became honest: the old landmarks, well known, pull the robot back.
+# **See:** the solid curve stays in the grey band. The dashed one is out of it from the
+# start, and at 300 the robot is off by ten times what it claims. It falls when the loop closes, not
+# because the filter became honest: the first landmarks, well known, pull the robot back.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 for name, some in runs.items():
@@ -775,9 +786,9 @@ print(f"itself claims ±{100 * np.sqrt(np.mean(np.trace(P_ii, axis1=1, axis2=2))
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # Two things join them: the pose where one group ends and the next begins, and the landmarks both
-# have seen, which must stand at one place. The result is not the same to the last digit (the
-# Jacobians are taken elsewhere), but it is the same for every purpose. A scan costs the square of a
-# *group*; joining costs N² once a group.
+# have seen, which must stand at one place. The result is not the same to the last digit, since the
+# Jacobians are taken elsewhere; the difference is a tenth of what the filter claims to know. A scan
+# costs the square of a *group*; joining costs N² once a group.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## A way out: a relative map
@@ -795,9 +806,10 @@ for name, covariance in (("landmarks", P_end), ("vectors", D @ P_end @ D.T)):
     print(f"{name}: mean |ρ| of those that are no neighbours: {rho[far].mean():.2f}")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# Less than the landmarks, but not none: without a compass all vectors share the map's turn.
-# Distances and angles do not even share that. What is dropped then is small; but it *is* dropped,
-# and the vectors round a closed loop no longer add up to zero unless one sees to it.
+# Less than the landmarks', but not none: without a compass all vectors share the map's turn.
+# Distances and angles do not even share that. To drop what is left is cheaper than to drop P_ij;
+# but it *is* dropped, and the vectors round a closed loop no longer add up to zero unless one sees
+# to it.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## What even the full filter gets wrong
