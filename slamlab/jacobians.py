@@ -1,5 +1,7 @@
 """Jacobians of the models: A and W of motion, H of observation, J_xr and J_z of a new landmark.
 
+Those that end in ``_line`` are of walls' lines, the others of point landmarks.
+
 Each equals its derivation in :mod:`slamlab.symbolic` and finite differences of the model itself.
 """
 
@@ -154,3 +156,78 @@ def J_z(x, z):
     r, direction = z[..., 0], x[2] + z[..., 1]
     c, s = np.cos(direction), np.sin(direction)
     return np.stack([np.stack([c, -r * s], -1), np.stack([s, r * c], -1)], -2)
+
+
+def H_robot_line(x, line):
+    """∂h_line/∂x: [[−cos α, −sin α, 0], [0, 0, −1]].
+
+    Parameters
+    ----------
+    x : (3,) pose [m, m, rad]
+    line : (..., 2) ρ [m], α [rad]
+
+    Returns
+    -------
+    (..., 2, 3)
+    """
+    alpha = np.asarray(line, dtype=float)[..., 1]
+    H = np.zeros((*alpha.shape, 2, 3))
+    H[..., 0, 0], H[..., 0, 1], H[..., 1, 2] = -np.cos(alpha), -np.sin(alpha), -1
+    return H
+
+
+def H_line(x, line):
+    """∂h_line/∂line: [[1, x sin α − y cos α], [0, 1]].
+
+    Parameters
+    ----------
+    x : (3,) pose [m, m, rad]
+    line : (..., 2) ρ [m], α [rad]
+
+    Returns
+    -------
+    (..., 2, 2)
+    """
+    alpha = np.asarray(line, dtype=float)[..., 1]
+    H = np.zeros((*alpha.shape, 2, 2))
+    H[..., 0, 0] = H[..., 1, 1] = 1
+    H[..., 0, 1] = x[0] * np.sin(alpha) - x[1] * np.cos(alpha)
+    return H
+
+
+def J_xr_line(x, z):
+    """∂g_line/∂x: [[cos α, sin α, −x sin α + y cos α], [0, 0, 1]], α = θ + α'.
+
+    Parameters
+    ----------
+    x : (3,) pose [m, m, rad]
+    z : (..., 2) ρ' [m], α' [rad]
+
+    Returns
+    -------
+    (..., 2, 3)
+    """
+    alpha = x[2] + np.asarray(z, dtype=float)[..., 1]
+    c, s = np.cos(alpha), np.sin(alpha)
+    J = np.zeros((*alpha.shape, 2, 3))
+    J[..., 0, 0], J[..., 0, 1], J[..., 0, 2] = c, s, x[1] * c - x[0] * s
+    J[..., 1, 2] = 1
+    return J
+
+
+def J_z_line(x, z):
+    """∂g_line/∂z: [[1, −x sin α + y cos α], [0, 1]], α = θ + α'.
+
+    Parameters
+    ----------
+    x : (3,) pose [m, m, rad]
+    z : (..., 2) ρ' [m], α' [rad]
+
+    Returns
+    -------
+    (..., 2, 2)
+    """
+    J = np.zeros((*np.shape(z)[:-1], 2, 2))
+    J[..., 0, 0] = J[..., 1, 1] = 1
+    J[..., 0, 1] = J_xr_line(x, z)[..., 0, 2]
+    return J

@@ -92,3 +92,46 @@ def g(x, z):
     return np.stack(
         [x[0] + z[..., 0] * np.cos(direction), x[1] + z[..., 0] * np.sin(direction)], axis=-1
     )
+
+
+def h_line(x, line):
+    """Distance and direction of a wall's line seen from a pose.
+
+    ρ' = ρ − x cos α − y sin α,  α' = α − θ, for the line of all (a, b) with a cos α + b sin α = ρ
+
+    The normal keeps pointing the way it did when the line was placed, so ρ' is negative for whom
+    has gone through the wall; nothing jumps there.
+
+    Parameters
+    ----------
+    x : (3,) pose [m, m, rad]
+    line : (..., 2) ρ [m] and α [rad]
+
+    Returns
+    -------
+    (..., 2) ρ' [m] and α' [rad], wrapped
+    """
+    line = np.asarray(line, dtype=float)
+    rho, alpha = line[..., 0], line[..., 1]
+    distance = rho - x[0] * np.cos(alpha) - x[1] * np.sin(alpha)
+    return np.stack([distance, wrap(alpha - x[2])], axis=-1)
+
+
+def g_line(x, z):
+    """The line that a pose sees at a distance and direction: the inverse of h_line.
+
+    α = θ + α',  ρ = ρ' + x cos α + y sin α
+
+    Parameters
+    ----------
+    x : (3,) pose [m, m, rad]
+    z : (..., 2) ρ' [m] and α' [rad]
+
+    Returns
+    -------
+    (..., 2) lines: ρ [m] and α [rad], wrapped
+    """
+    z = np.asarray(z, dtype=float)
+    alpha = wrap(x[2] + z[..., 1])
+    rho = z[..., 0] + x[0] * np.cos(alpha) + x[1] * np.sin(alpha)
+    return np.stack([rho, alpha], axis=-1)

@@ -13,12 +13,15 @@ B, T = sp.symbols("B T", positive=True)
 p_x, p_y = sp.symbols("p_x p_y", real=True)
 r = sp.symbols("r", positive=True)
 beta = sp.symbols("beta", real=True)
+rho, alpha, rho_seen, alpha_seen = sp.symbols("rho alpha rho' alpha'", real=True)
 
 pose = Matrix([x, y, theta])
 u_odometry = Matrix([d, dtheta])
 u_steered = Matrix([V, gamma])
 p = Matrix([p_x, p_y])
 z = Matrix([r, beta])
+line = Matrix([rho, alpha])
+z_line = Matrix([rho_seen, alpha_seen])
 
 f_odometry = Matrix([x + d * sp.cos(theta), y + d * sp.sin(theta), theta + dtheta])
 
@@ -42,6 +45,16 @@ H_robot = h.jacobian(pose)
 H_landmark = h.jacobian(p)
 J_xr = g.jacobian(pose)
 J_z = g.jacobian(z)
+
+h_line = Matrix([rho - x * sp.cos(alpha) - y * sp.sin(alpha), alpha - theta])
+
+_alpha = theta + alpha_seen
+g_line = Matrix([rho_seen + x * sp.cos(_alpha) + y * sp.sin(_alpha), _alpha])
+
+H_robot_line = h_line.jacobian(pose)
+H_line = h_line.jacobian(line)
+J_xr_line = g_line.jacobian(pose)
+J_z_line = g_line.jacobian(z_line)
 
 
 def numeric(expression, *arguments):

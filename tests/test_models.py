@@ -5,7 +5,7 @@ import pytest
 from hypothesis import assume, given
 
 from slamlab import jacobians, models
-from slamlab.geometry import compose, matrix
+from slamlab.geometry import compose, inverse, matrix, transform
 from tests.laws import (
     assert_same_pose,
     bases,
@@ -14,6 +14,7 @@ from tests.laws import (
     periods,
     points,
     poses,
+    same_angle,
     sightings,
     steered_controls,
 )
@@ -123,3 +124,32 @@ def test_the_jacobians_of_h_and_g_undo_each_other(x, z):
     H_x, H_p = jacobians.H_robot(x, p), jacobians.H_landmark(x, p)
     np.testing.assert_allclose(H_p @ jacobians.J_z(x, z), np.eye(2), atol=1e-8)
     np.testing.assert_allclose(H_x + H_p @ jacobians.J_xr(x, z), 0, atol=1e-8)
+
+
+@given(poses, sightings)
+def test_the_line_put_where_it_was_seen_is_seen_there_again(x, z):
+    rho, alpha = models.h_line(x, models.g_line(x, z))
+    assert abs(rho - z[0]) < 1e-9
+    assert same_angle(alpha, z[1])
+
+
+@given(poses, sightings, points)
+def test_a_points_distance_to_a_line_is_the_same_from_every_frame(x, line, point):
+    """a cos α + b sin α − ρ of a point, in the world and as the robot sees both."""
+    outside = point @ [np.cos(line[1]), np.sin(line[1])] - line[0]
+    rho, alpha = models.h_line(x, line)
+    inside = transform(inverse(x), point[None])[0] @ [np.cos(alpha), np.sin(alpha)] - rho
+    assert abs(outside - inside) < 1e-9
+
+
+@given(poses, sightings)
+def test_the_jacobians_of_lines_are_the_slopes_of_their_models(x, line):
+    angular = np.array([False, True])
+    pairs = [
+        (jacobians.H_robot_line(x, line), lambda v: models.h_line(v, line), x),
+        (jacobians.H_line(x, line), lambda v: models.h_line(x, v), line),
+        (jacobians.J_xr_line(x, line), lambda v: models.g_line(v, line), x),
+        (jacobians.J_z_line(x, line), lambda v: models.g_line(x, v), line),
+    ]
+    for coded, f, at in pairs:
+        np.testing.assert_allclose(coded, finite_differences(f, at, angular), atol=1e-6)

@@ -26,6 +26,8 @@ ODOMETRY = (symbolic.pose, symbolic.u_odometry)
 STEERED = (symbolic.pose, symbolic.u_steered, symbolic.B, symbolic.T)
 SEEN = (symbolic.pose, symbolic.p)
 PLACED = (symbolic.pose, symbolic.z)
+LINE_SEEN = (symbolic.pose, symbolic.line)
+LINE_PLACED = (symbolic.pose, symbolic.z_line)
 ARGUMENTS = {
     "f_odometry": ODOMETRY,
     "A_odometry": ODOMETRY,
@@ -39,14 +41,22 @@ ARGUMENTS = {
     "g": PLACED,
     "J_xr": PLACED,
     "J_z": PLACED,
+    "h_line": LINE_SEEN,
+    "H_robot_line": LINE_SEEN,
+    "H_line": LINE_SEEN,
+    "g_line": LINE_PLACED,
+    "J_xr_line": LINE_PLACED,
+    "J_z_line": LINE_PLACED,
 }
 NUMBERS = {
     ODOMETRY: st.tuples(poses, odometry_controls),
     STEERED: st.tuples(poses, steered_controls, bases, periods),
     SEEN: st.tuples(poses, points),
     PLACED: st.tuples(poses, sightings),
+    LINE_SEEN: st.tuples(poses, sightings),
+    LINE_PLACED: st.tuples(poses, sightings),
 }
-ANGULAR = {"f_odometry": 2, "f_steered": 2, "h": 1}
+ANGULAR = {"f_odometry": 2, "f_steered": 2, "h": 1, "h_line": 1, "g_line": 1}
 
 
 @pytest.mark.parametrize("name", ARGUMENTS)

@@ -175,6 +175,7 @@ for theta in (25, 115):
 # | p | `p` | (2,) | m | a landmark's position |
 # | z | `z` | (2,) | m, rad | one observation: range r and bearing β |
 # | a, b | `a`, `b` | (3,) | m, m, rad | any two poses |
+# | l | `line` | (2,) | m, rad | a wall's line: its distance ρ from the origin, the direction α of its normal |
 # | f | `models.f_odometry(x, u)` | (3,) | m, m, rad | motion: the pose after driving d and turning Δθ |
 # | f | `models.f_steered(x, u, B, T)` | (3,) | m, m, rad | motion of a steered robot with wheel base B in time T |
 # | h | `models.h(x, p)` | (2,) | m, rad | observation: range and bearing of a landmark |
@@ -187,6 +188,12 @@ for theta in (25, 115):
 # | H | `jacobians.H_landmark(x, p)` | (2, 2) | | ∂h/∂p, the landmark's part of H |
 # | J_xr | `jacobians.J_xr(x, z)` | (2, 3) | | ∂g/∂x: a new landmark moves with the robot |
 # | J_z | `jacobians.J_z(x, z)` | (2, 2) | | ∂g/∂z: a new landmark moves with its observation |
+# | h | `models.h_line(x, line)` | (2,) | m, rad | distance and direction of a wall's line, seen from a pose |
+# | g | `models.g_line(x, z)` | (2,) | m, rad | the line that was seen: the inverse of h |
+# | H | `jacobians.H_robot_line(x, line)` | (2, 3) | | ∂h/∂x of a line |
+# | H | `jacobians.H_line(x, line)` | (2, 2) | | ∂h/∂l of a line |
+# | J_xr | `jacobians.J_xr_line(x, z)` | (2, 3) | | ∂g/∂x of a line |
+# | J_z | `jacobians.J_z_line(x, z)` | (2, 2) | | ∂g/∂z of a line |
 # | C | `noise.C_odometry(u, distance_error, turn_error)` | (2, 2) | m², rad² | covariance of the control |
 # | Q | `noise.Q(W, C)` | (3, 3) | m², rad² | covariance a motion adds to the pose: W C Wᵀ |
 # | R | `noise.R(r, range_error, bearing_sigma)` | (2, 2) | m², rad² | covariance of one observation |

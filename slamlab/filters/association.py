@@ -8,7 +8,6 @@ from math import log
 
 import numpy as np
 
-from slamlab import jacobians, models
 from slamlab.filters.guards import observations
 from slamlab.geometry import wrap
 
@@ -35,11 +34,11 @@ def squared_distances(mak, z, R):
     z, R = observations(z, R)
     P_rr, P_ir, P_ii = mak.blocks()
     p = mak.landmarks()
-    H_r, H_p = jacobians.H_robot(mak.pose, p), jacobians.H_landmark(mak.pose, p)
+    H_r, H_p = mak.kind.H(mak.pose, p)
     cross = H_p @ P_ir @ H_r.transpose(0, 2, 1)
     HPHt = H_r @ P_rr @ H_r.transpose(0, 2, 1) + H_p @ P_ii @ H_p.transpose(0, 2, 1)
     HPHt += cross + cross.transpose(0, 2, 1)
-    v = z[:, None] - models.h(mak.pose, p)
+    v = z[:, None] - mak.kind.h(mak.pose, p)
     v[..., 1] = wrap(v[..., 1])
     S = HPHt + np.broadcast_to(R, (len(z), 2, 2))[:, None]
     a, b, d = S[..., 0, 0], S[..., 0, 1], S[..., 1, 1]

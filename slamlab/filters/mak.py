@@ -8,8 +8,8 @@ import numpy as np
 from scipy.linalg.blas import dgemm, dtrsm, dtrsv
 from scipy.linalg.lapack import dpotrf
 
-from slamlab import jacobians, models
 from slamlab.filters.guards import covariance, observations, vector
+from slamlab.filters.kinds import POINTS
 from slamlab.filters.state import ROBOT, AugmentedState, distinct
 from slamlab.filters.step import Step
 from slamlab.geometry import wrap
@@ -27,6 +27,7 @@ class MAK(AugmentedState):
         (Huang, Mourikis, Roumeliotis 2010), which keeps the filter from gaining false certainty
     drop_cross_terms_for_demonstration : bool, throw the correlations away after each step;
         the filter is then wrong, which is what lesson 07 shows
+    kind : Kind of the landmarks, points or walls' lines; "z" and "R" below are what it sees
 
     Raises
     ------
@@ -34,11 +35,19 @@ class MAK(AugmentedState):
     """
 
     def __init__(
-        self, x, P, capacity=100, *, first_estimates=False, drop_cross_terms_for_demonstration=False
+        self,
+        x,
+        P,
+        capacity=100,
+        *,
+        first_estimates=False,
+        drop_cross_terms_for_demonstration=False,
+        kind=POINTS,
     ):
         super().__init__(x, P, capacity)
         self.first_estimates = first_estimates
         self.drop_cross_terms = drop_cross_terms_for_demonstration
+        self.kind = kind
         self._predicted = self._x[:2].copy()
 
     def predict(self, x, Q):
@@ -128,12 +137,12 @@ class MAK(AugmentedState):
         if known:
             raise ValueError(f"ids: {known} are in the map already; update them instead")
         z, R = observations(z, R, len(ids))
-        J_xr = jacobians.J_xr(self._x[:3], z).reshape(-1, 3)
-        J_z = jacobians.J_z(self._x[:3], z)
+        J_xr, J_z = self.kind.J(self._x[:3], z)
+        J_xr = J_xr.reshape(-1, 3)
         cross = J_xr @ self._P.columns(ROBOT).T
         corner = cross[:, :3] @ J_xr.T
         _diagonal_blocks(corner)[...] += J_z @ R @ J_z.transpose(0, 2, 1)
-        self._grow(ids, models.g(self._x[:3], z), cross, corner)
+        self._grow(ids, self.kind.g(self._x[:3], z), cross, corner)
         if self.drop_cross_terms:
             self._forget_cross_terms()
 
@@ -141,12 +150,12 @@ class MAK(AugmentedState):
         """Innovation (2m,), H over the columns it touches (2m, 3 + 2m), and those columns."""
         m = len(z)
         x, p = self._x[:3], self._x[rows].reshape(m, 2)
-        v = z - models.h(x, p)
+        v = z - self.kind.h(x, p)
         v[:, 1] = wrap(v[:, 1])
-        H_r = jacobians.H_robot(x, self._first_seen(rows) if self.first_estimates else p)
+        H_r, H_p = self.kind.H(x, self._first_seen(rows) if self.first_estimates else p)
         H = np.zeros((2 * m, 3 + 2 * m))
         H[:, :3] = H_r.reshape(-1, 3)
-        _diagonal_blocks(H, 3)[...] = -H_r[:, :, :2]
+        _diagonal_blocks(H, 3)[...] = H_p
         return v.ravel(), H, np.concatenate([ROBOT, rows])
 
     def _forget_cross_terms(self):
