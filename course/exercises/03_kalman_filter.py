@@ -69,12 +69,11 @@ check("03-predict")
 @attempt
 def _():
     rng = np.random.default_rng(3)
-    F, Q = CART["F"], CART["Q"]
-    carts = rng.multivariate_normal(START["x"], START["P"], 500)
     x, P = START["x"], START["P"]
+    carts = rng.multivariate_normal(x, P, 500)
     for _ in range(4):
-        carts = carts @ F.T + rng.multivariate_normal([0, 0], Q, 500)
-        x, P = predict(x, P, F, Q)
+        carts = carts @ CART["F"].T + rng.multivariate_normal([0, 0], CART["Q"], 500)
+        x, P = predict(x, P, CART["F"], CART["Q"])
     fig, ax = views.cloud(carts, {"your P, 95 %": P}, "after two seconds")
     ax.plot(*x, "x", color=views.COLOURS["truth"], markersize=10, label="your x")
     ax.set(xlabel="position [m]", ylabel="speed [m/s]")
@@ -224,8 +223,9 @@ def _():
 # %% [markdown]
 # ## 5 · The whole filter
 #
-# **Your task.** Run it. The start is the belief *before* the first step; each row of `zs` is
-# measured after one more step. Return all beliefs, one after each measurement, the start left out.
+# **Your task.** Run it, with your `predict` and `update` (the check asks for these two first). The
+# start is the belief *before* the first step; each row of `zs` is measured after one more step.
+# Return all beliefs, one after each measurement, the start left out.
 #
 # The check lets your filter follow 60 drives and asks two things: does it know, at each step, as
 # much as a least squares solution that keeps *everything*? And are the errors as large as P says

@@ -393,6 +393,18 @@ K2.subs(best)
 # The speed's gain is c / (a + R): **no covariance c, no correction**. The speed is never measured;
 # it is corrected through what it shares with the position.
 #
+# May one add m² of position to (m/s)² of speed? Look at what any other gain costs:
+
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+S2 = H2 * P2 * H2.T + R2
+off = K2 - by_formula
+sp.simplify(left2 - left2.subs(best) - off * S2 * off.T)
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# Every other gain adds (K − best) S (K − best)ᵀ, a square: it harms, or at best does nothing, in
+# *every* state. So the best gain is best for position, for speed and for any mixture of the two,
+# whatever their units.
+#
 # The trace is a bowl over k₁ and k₂. **Predict** where its lowest point is for the streak; find it
 # with the sliders.
 
@@ -410,7 +422,7 @@ def bowl(position_gain, speed_gain):
     here = trace_left(np.array([[position_gain], [speed_gain]]))
     title = f"trace P⁺ = {here:.3f}   (before: {np.trace(P_streak):.3f})"
     fig, ax = views.chart("k₁, gain of position [1]", "k₂, gain of speed [1/s]", title)
-    lines = ax.contour(first, second, heights, np.arange(0.12, 1.5, 0.08), cmap="viridis")
+    lines = ax.contour(first, second, heights, np.arange(0.16, 1.5, 0.12), cmap="viridis")
     ax.clabel(lines, fontsize="small")
     ax.plot(position_gain, speed_gain, "o", color=views.COLOURS["naive"], markersize=10)
     ax.plot(*(P_streak @ H.T / S_streak), "*", color=views.COLOURS["corrected"], markersize=14)
@@ -446,9 +458,10 @@ sp.refine(in_S.subs(PP * HH.T, KK * SS).subs(HH * PP, SS * KK.T), symmetric).doi
 # %% slideshow={"slide_type": "fragment"}
 K_best = P_streak @ H.T @ np.linalg.inv(S_streak)
 alphas = np.linspace(0, 2, 21)
-short = [np.trace(P_streak - a * K_best @ S_streak @ K_best.T * a) for a in alphas]
-joseph = [trace_left(a * K_best) for a in alphas]
-carts = [np.sum((errors - innovations @ (a * K_best).T) ** 2, 1).mean() for a in alphas]
+gains = [factor * K_best for factor in alphas]
+short = [np.trace(P_streak - K @ S_streak @ K.T) for K in gains]
+joseph = [trace_left(K) for K in gains]
+carts = [np.sum((errors - innovations @ K.T) ** 2, axis=1).mean() for K in gains]
 
 # %% slideshow={"slide_type": "fragment"}
 claims = {"Joseph's form": joseph, "P − K S Kᵀ": short}
@@ -531,14 +544,13 @@ dead = run(np.full_like(zs, np.nan))[0]
 seconds = T * np.arange(1, 61)
 
 
-def band_chart(component, quantity, size=(7, 3.4)):
+def band_chart(component, quantity):
     """One component of the state: truth, estimate and its band of ±2σ."""
-    fig, ax = views.chart("time [s]", quantity, size=size)
-    middle, two_sigma = xs[:, component], 2 * np.sqrt(Ps[:, component, component])
-    blue = views.COLOURS["corrected"]
-    ax.fill_between(seconds, middle - two_sigma, middle + two_sigma, color=blue, alpha=0.2)
-    ax.plot(seconds, middle, color=blue, label="filter, ±2σ")
-    ax.plot(seconds, dead[:, component], "--", color=views.COLOURS["naive"], label="pushes only")
+    shown = {"filter, ±2σ": xs[:, component], "pushes only": dead[:, component]}
+    fig, ax = views.curves(seconds, shown, "time [s]", quantity, size=(7, 3.4))
+    two_sigma = 2 * np.sqrt(Ps[:, component, component])
+    low, high = xs[:, component] - two_sigma, xs[:, component] + two_sigma
+    ax.fill_between(seconds, low, high, color=views.COLOURS["corrected"], alpha=0.2)
     ax.plot(seconds, true_states[:, component], color=views.COLOURS["truth"], label="truth")
     return fig, ax
 
@@ -590,9 +602,9 @@ print("95 % band of the mean NIS:", np.round(band(size=1, runs=white.size), 2))
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # The *normalised innovation squared*, NIS = vᵀ S⁻¹ v, is 1 on average per measured number, and each
-# innovation is news: it has nothing in common with the one before. A filter that thinks too well of
-# its motor (Q / 100) is surprised again and again, to the same side: innovations tell, without any
-# truth.
+# innovation is news: it has nothing in common with the one before (so all 9600 count, and the band
+# is narrow). A filter that thinks too well of its motor (Q / 100) is surprised again and again, to
+# the same side: innovations tell, without any truth.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Consistency: does P tell the truth?
@@ -643,9 +655,9 @@ views.explore(
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # **See:** the right filter stays in the band round 2 (now and then out: it is a 95 % band). The one
-# that believes in half the slip leaves it within seconds: its ellipses are too small. Too
-# *much* slip brings NEES below the band: consistent by the definition, but it throws knowledge
-# away.
+# that believes in half the slip leaves it within seconds: its ellipses are too small, most of all
+# until 18 s, while nothing is measured and it has nothing but its trust in the motor. Too *much*
+# slip brings NEES below the band: consistent by the definition, but it throws knowledge away.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* Students like small ellipses. Ask which of the two wrong filters they would
@@ -673,11 +685,10 @@ for name, share in {"slip / 2": 1 / 2, "as it is": 1, "slip × 2": 2}.items():
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 alpha = sp.symbols("α", real=True)
-S2 = (H2 * P2 * H2.T + R2)[0, 0]
-best2 = P2 * H2.T / S2
-claimed = P2 - alpha**2 * best2 * S2 * best2.T
-rest2 = sp.eye(2) - alpha * best2 * H2
-really = rest2 * P2 * rest2.T + alpha**2 * best2 * R2 * best2.T
+K_alpha = alpha * by_formula
+claimed = P2 - K_alpha * S2 * K_alpha.T
+rest2 = sp.eye(2) - K_alpha * H2
+really = rest2 * P2 * rest2.T + K_alpha * R2 * K_alpha.T
 gap = (claimed - really).applyfunc(sp.factor)
 gap
 

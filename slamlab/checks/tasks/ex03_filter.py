@@ -111,4 +111,5 @@ FILTER = Task(
         ),
     ),
     diagnoses=MISTAKES,
+    needs=("03-predict", "03-update"),
 )
