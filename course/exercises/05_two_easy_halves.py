@@ -210,7 +210,9 @@ def _():
             layers.Ellipses("robot", xs[::4, :2], Ps[::4, :2, :2]),
             layers.Points("landmark", landmarks),
         ]
-    fig, _ = views.side_by_side(maps, size=(9, 4.5))
+    fig, both = views.side_by_side(maps, size=(9, 4.5))
+    for ax in both:
+        ax.lines[-1].set(markersize=8)
     views.show(fig, alt="Left ellipses that grow round the lap, right small ones near landmarks.")
 
 
@@ -300,10 +302,12 @@ def _():
         p, P = zip(*build_map(poses[seen], ids[seen], zs[seen], R).values(), strict=True)
         maps[title] = [
             layers.Poses("corrected", poses),
-            layers.Points("truth", landmarks),
             layers.Ellipses("landmark", p, P),
+            layers.Points("truth", landmarks),
         ]
-    fig, _ = views.side_by_side(maps, size=(9, 4.5))
+    fig, both = views.side_by_side(maps, size=(9, 4.5))
+    for ax in both:
+        ax.lines[-1].set(marker="x", markersize=5, markeredgewidth=1)
     views.show(fig, alt="Left ellipses round the true landmarks; right as small, and beside them.")
 
 

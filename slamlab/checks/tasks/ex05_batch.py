@@ -39,8 +39,8 @@ def sandwich(J, C):
 
 
 def deviations(P):
-    """Standard deviations (..., k) of covariances (..., k, k)."""
-    return np.sqrt(np.diagonal(P, axis1=-2, axis2=-1))
+    """Standard deviations (..., k) of covariances (..., k, k); a mistake's P may be negative."""
+    return np.sqrt(np.abs(np.diagonal(P, axis1=-2, axis2=-1)))
 
 
 def each(function, *stacks):

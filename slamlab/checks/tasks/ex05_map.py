@@ -2,11 +2,20 @@
 
 import numpy as np
 
-from slamlab import jacobians, models
+from slamlab import models
 from slamlab.checks.drives.ex05 import DRIVES
-from slamlab.checks.task import Diagnosis, Law, Task
+from slamlab.checks.task import Law, Task
 from slamlab.checks.tasks.ex04_laws import differences
-from slamlab.checks.tasks.ex05_batch import deviations, each, gain, placed, same_covariance
+from slamlab.checks.tasks.ex05_batch import deviations, each, same_covariance
+from slamlab.checks.tasks.ex05_map_mistakes import (
+    all_updated,
+    by_each,
+    each_landmark,
+    little_filter,
+    made_by,
+    pose_of_start,
+    raw_R,
+)
 from slamlab.geometry import wrap
 
 MAPS = 3
@@ -59,21 +68,7 @@ def batch(xs, zs, R):
 
 def fitted(inputs):
     """Batch estimates p (m, N, 2) and P (m, N, 2, 2), ids ascending."""
-    return _each_landmark(inputs, batch)
-
-
-def _each_landmark(inputs, estimate):
-    """An estimate from each landmark's own sightings: (xs, zs, R) -> p, P."""
-    p, P = [], []
-    for xs, ids, zs, R in _runs(inputs):
-        found = [estimate(xs[ids == id], zs[ids == id], R) for id in np.unique(ids)]
-        p.append([one[0] for one in found])
-        P.append([one[1] for one in found])
-    return np.array(p), np.array(P)
-
-
-def _runs(inputs):
-    return zip(*(inputs[name] for name in ("xs", "ids", "zs", "R")), strict=True)
+    return each_landmark(inputs, batch)
 
 
 def _often(inputs):
@@ -107,64 +102,6 @@ def _alone(inputs):
     return zip(inputs["ids"], inputs["alone"], strict=True)
 
 
-# ---- mistakes -------------------------------------------------------------------------------
-
-
-def little_filter(xs, zs, R, first=placed, start=1, keep_P=False):
-    """One landmark's filter over its sightings, with what can be done wrong in it."""
-    p, P = (part[0] for part in first(xs[:1], zs[:1], R[None]))
-    for x, z in zip(xs[start:], zs[start:], strict=True):
-        p, after = _corrected(p, P, x, z, R)
-        P = P if keep_P else after
-    return p, P
-
-
-def _corrected(p, P, x, z, R):
-    v = z - models.h(x, p)
-    v[1] = wrap(v[1])
-    K, S = (part[0] for part in gain(P[None], jacobians.H_landmark(x, p)[None], R[None]))
-    return p + K @ v, P - K @ S @ K.T
-
-
-def _raw_R(xs, zs, R):
-    return placed(xs, zs, R)[0], R
-
-
-def _pose_of_start(inputs):
-    return inputs | {"xs": np.repeat(inputs["xs"][:, :1], STEPS, axis=1)}
-
-
-def _all_updated(inputs):
-    """Maps whose every known landmark is corrected by every sighting."""
-    p, P = [], []
-    for xs, ids, zs, R in _runs(inputs):
-        beliefs = {}
-        for x, id, z in zip(xs, ids.tolist(), zs, strict=True):
-            known = list(beliefs) if id in beliefs else []
-            if not known:
-                beliefs[id] = tuple(part[0] for part in placed(x[None], z[None], R[None]))
-            for other in known:
-                beliefs[other] = _corrected(*beliefs[other], x, z, R)
-        p.append([beliefs[id][0] for id in sorted(beliefs)])
-        P.append([beliefs[id][1] for id in sorted(beliefs)])
-    return np.array(p), np.array(P)
-
-
-def _made_by(name, hint, maps_of):
-    """A diagnosis: the maps are what another procedure makes."""
-
-    def matches(inputs, outputs):
-        p, P = maps_of(inputs)
-        near = np.abs(outputs["p"] - p) <= 1e-3 * deviations(np.abs(P))
-        return near.all() and same_covariance(outputs["P"], P).all()
-
-    return Diagnosis(name, hint, matches)
-
-
-def _by_each(**changes):
-    return lambda i: _each_landmark(i, lambda *seen: little_filter(*seen, **changes))
-
-
 MAP = Task(
     id="05-map",
     title="Where are they: a map from known poses",
@@ -187,44 +124,44 @@ MAP = Task(
         Law("apart", 1, "what is seen of other landmarks changes nothing", _apart),
     ),
     diagnoses=(
-        _made_by(
+        made_by(
             "R-for-P",
             "A new landmark's P is R as it is. R is in range and bearing, P in x and y: "
             "J_z R J_zᵀ.",
-            _by_each(first=_raw_R),
+            by_each(first=raw_R),
         ),
-        _made_by(
+        made_by(
             "counted-twice",
             "A new landmark is placed by its first sighting and then corrected by the same one: "
             "it counts twice, and P is too small.",
-            _by_each(start=0),
+            by_each(start=0),
         ),
-        _made_by(
+        made_by(
             "overwritten",
             "Only the last sighting of each landmark is left. Place a landmark when its id is new; "
             "later sightings correct it.",
-            lambda i: _each_landmark(i, lambda xs, zs, R: little_filter(xs[-1:], zs[-1:], R)),
+            lambda i: each_landmark(i, lambda xs, zs, R: little_filter(xs[-1:], zs[-1:], R)),
         ),
-        _made_by(
+        made_by(
             "first-only",
             "Only the first sighting of each landmark is used. Correct it with the later ones.",
-            lambda i: _each_landmark(i, lambda xs, zs, R: little_filter(xs[:1], zs[:1], R)),
+            lambda i: each_landmark(i, lambda xs, zs, R: little_filter(xs[:1], zs[:1], R)),
         ),
-        _made_by(
+        made_by(
             "P-kept",
             "P stays what the first sighting made it: keep both parts of what update_landmark "
             "returns.",
-            _by_each(keep_P=True),
+            by_each(keep_P=True),
         ),
-        _made_by(
+        made_by(
             "all-updated",
             "Every sighting corrects all landmarks. It was made of one: ids[k] says which.",
-            _all_updated,
+            all_updated,
         ),
-        _made_by(
+        made_by(
             "pose-of-start",
             "All sightings are taken as made from the first pose. Sighting k was made from xs[k].",
-            lambda i: _by_each()(_pose_of_start(i)),
+            lambda i: by_each()(pose_of_start(i)),
         ),
     ),
     needs=("05-landmark",),
