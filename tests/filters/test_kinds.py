@@ -10,7 +10,7 @@ from slamlab.filters.kinds import LINES, POINTS
 from slamlab.filters.mak import MAK
 from slamlab.geometry import compose, wrap
 
-WALLS = np.array([[2.0, 0.2], [3.0, 1.8], [1.5, -2.9], [2.5, -1.4], [-1.0, 0.9]])
+WALLS = np.array([[2.0, 0.2], [3.0, 1.8], [1.5, -2.9], [2.5, -1.4], [1.0, 0.9 - np.pi]])
 R = np.diag([0.02, 0.01]) ** 2
 
 
