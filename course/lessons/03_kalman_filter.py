@@ -140,7 +140,7 @@ Q = np.diag([0.02, 0.05]) ** 2
 x_start, P_start = np.array([2.0, 0.0]), np.diag([0.4, 0.3]) ** 2
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# Position and speed of this belief are independent: P_start is diagonal.
+# Position and speed of this belief are unrelated: P_start is diagonal.
 #
 # **Question.** The cart rolls for two seconds, without a push. What becomes of the 1000 places and
 # speeds it may have? **Predict** the shape of the cloud: a disc, a streak? Leaning which way?
@@ -262,6 +262,12 @@ sp.expand((HH * truth + rr) - HH * estimate)
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 innovation = HH * err + rr
 E(innovation * innovation.T)
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# Two unrelated errors: their covariances add. For the question above, in metres:
+
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+np.sqrt(H @ P_start @ H.T + R).item()
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # And how do the error (which nobody sees) and the innovation (which everybody sees) hang together?
@@ -564,7 +570,14 @@ views.show(fig, "Truth inside the filter's band, which swells while nothing is m
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # **See:** the filter (blue) follows the truth (black) more closely than the single measurements do.
 # While nothing is measured the band swells, and one measurement later it is narrow again. Who only
-# adds up the pushes (orange, dashed) loses the cart: lesson 01's drift.
+# adds up the pushes (orange, dashed) loses the cart: lesson 01's drift. In numbers, where there was
+# a measurement:
+
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+seen = np.isfinite(zs[:, 0])
+for name, found in {"measured": zs[:, 0], "filter": xs[:, 0], "pushes only": dead[:, 0]}.items():
+    rms = np.sqrt(np.mean((found - true_states[:, 0])[seen] ** 2))
+    print(f"{name:11}  root mean square error {rms:.2f} m")
 
 # %% slideshow={"slide_type": "fragment"}
 fig, ax = band_chart(1, "speed [m/s]")
