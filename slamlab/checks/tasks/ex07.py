@@ -1,0 +1,31 @@
+"""Exercise 07, correlations: what it asks and what its solutions may import."""
+
+from slamlab.checks.task import Exercise
+from slamlab.checks.tasks.ex07_correlation import CORRELATION
+from slamlab.checks.tasks.ex07_corridor import CORRIDOR
+from slamlab.checks.tasks.ex07_first import FIRST_ESTIMATES
+from slamlab.checks.tasks.ex07_fuse import FUSE
+from slamlab.checks.tasks.ex07_relative import RELATIVE
+from slamlab.checks.tasks.ex07_updates import TWO_UPDATES
+
+EXERCISE = Exercise(
+    id="07",
+    notebook="07_correlations",
+    title="Correlations",
+    tasks=(CORRELATION, TWO_UPDATES, RELATIVE, FUSE, CORRIDOR, FIRST_ESTIMATES),
+    drives="slamlab.checks.drives.ex07",
+    allows=(
+        "slamlab.geometry",
+        "slamlab.jacobians",
+        "slamlab.layers",
+        "slamlab.models",
+        "slamlab.views",
+    ),
+    answers=(
+        "slamlab.estimators",
+        "slamlab.evaluation",
+        "slamlab.filters",
+        "slamlab.runner",
+        "slamlab.studies",
+    ),
+)
