@@ -43,7 +43,7 @@ for reading in list(run)[1:]:
     by_odometry.append(compose(by_odometry[-1], reading.odometry))
 
 # %% slideshow={"slide_type": "fragment"}
-fig, ax = views.axes("One lap, counted by the wheels", size=(5, 4.5))
+fig, ax = views.axes("One lap, counted by the wheels", size=(4.4, 4))
 views.draw(ax, Poses("truth", run.truth.poses))
 views.draw(ax, Poses("naive", by_odometry), label="odometry alone")
 views.draw(ax, Points("landmark", run.landmarks), label="landmarks", markersize=9)
@@ -113,7 +113,7 @@ print("robot known: S =", known(S, "r"))
 # noise. That is lesson 03's COIN, and it is all that makes the halves easy.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
-# # First half: where am I, in a known map?
+# ## First half: where am I, in a known map?
 #
 # The state is the pose, three numbers. The robot predicts by its wheels.
 #
@@ -159,7 +159,29 @@ def update(x, P, z, p, R=R):
     return x + K @ v, P - K @ S @ K.T
 
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
+# %% [markdown] slideshow={"slide_type": "slide"}
+# ## COIN, in numbers
+#
+# With p known, v = h(x, p) + r − h(x̂, p) ≈ H x̃ + r: the pose's error x̃ and the noise r, nothing
+# else. **Predict** the deviations of v from S; 2000 robots that stand where the belief allows tell.
+
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+x_there, p_there, P_there = (
+    np.array([1, 2, 0.4]),
+    np.array([3, 2.5]),
+    np.diag([0.1, 0.1, 0.05]) ** 2,
+)
+rng = np.random.default_rng(5)
+stand = rng.multivariate_normal(x_there, P_there, 2000)
+noise = rng.multivariate_normal([0, 0], R, 2000)
+v = np.array([models.h(x, p_there) for x in stand]) + noise - models.h(x_there, p_there)
+H_there = jacobians.H_robot(x_there, p_there)
+S_there = H_there @ P_there @ H_there.T + R
+print("robots ", v.std(axis=0).round(3), " √S", np.sqrt(np.diag(S_there)).round(3), "[m, rad]")
+
+# %% [markdown] slideshow={"slide_type": "slide"}
+# ## The loop
+#
 # That is all of it. What is left is a loop: drive, look, drive, look. At the start the robot knows
 # its pose only roughly, P_START.
 
@@ -200,24 +222,34 @@ START = np.random.default_rng(5).multivariate_normal(np.zeros(3), P_START)
 poses, covariances = localise(run, run.landmarks, START)
 
 
-def lap(run, poses, covariances, title=None):
-    """A picture of a lap: truth, estimate, every third ellipse."""
-    fig, ax = views.axes(title, size=(5, 4.5))
-    views.draw(ax, Poses("truth", run.truth.poses))
-    views.draw(ax, Poses("corrected", poses), label="localised")
-    views.draw(ax, Ellipses("robot", poses[::3, :2], covariances[::3, :2, :2]), linewidth=0.8)
-    views.draw(ax, Points("landmark", run.landmarks), label="landmarks (known)", markersize=9)
-    ax.legend(loc="center", fontsize="small")
-    return fig
+def eyes_shut(x, P, z, p):
+    return x, P
+
+
+def lap(run, poses, covariances, every=4):
+    """The layers of a lap: truth, estimate, an ellipse every so many steps."""
+    return [
+        Poses("truth", run.truth.poses),
+        Poses("corrected", poses),
+        Ellipses("robot", poses[::every, :2], covariances[::every, :2, :2]),
+        Points("landmark", run.landmarks),
+    ]
 
 
 # %% slideshow={"slide_type": "slide"}
-fig = lap(run, poses, covariances, "Located in a known map")
-views.show(fig, "The estimated lap lies on the true one; ellipses are small near landmarks.")
+laps = {
+    "eyes shut: predict only": lap(run, *localise(run, run.landmarks, START, eyes_shut), every=12),
+    "located in a known map": lap(run, poses, covariances),
+}
+fig, both = views.side_by_side(laps, size=(8, 4))
+for ax in both:
+    ax.lines[-1].set(markersize=8)
+    views.legend(ax, loc="center", fontsize="x-small")
+views.show(fig, "Left, ellipses that grow all round the lap; right, small ones on the true lap.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** the ellipses do not grow round the lap. They are as large at the end as in the middle;
-# large only where no landmark was near.
+# **See:** without eyes the ellipses grow all round the lap. With a map they do not: they are as
+# large at the end as in the middle, and larger only where no landmark is near.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## The robot's covariance breathes
@@ -229,7 +261,8 @@ steps = np.arange(len(run))
 sigma_y = np.sqrt(covariances[:, 1, 1])
 error_y = poses[:, 1] - run.truth.poses[:, 1]
 lines = {"error of y": error_y, "± 2σ": 2 * sigma_y, "": -2 * sigma_y}
-fig, ax = views.curves(steps, lines, "step", "[m]", "The error and what the filter believes of it")
+title = "The error and what the filter believes of it"
+fig, ax = views.curves(steps, lines, "step", "[m]", title, size=(5.4, 3.1))
 looking = np.array([len(reading.observations.ids) > 0 for reading in run])
 ax.lines[2].set(color=ax.lines[1].get_color(), linestyle="dashed")
 ax.plot(steps[looking], np.full(looking.sum(), -0.4), "|", color="black", label="sees a landmark")
@@ -240,6 +273,8 @@ views.show(fig, "The error of y stays within a band that widens where no landmar
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # **See:** where the strip at the bottom has a gap, the band opens; at the next sighting it snaps
 # shut. The robot's own covariance is *not* monotone. Keep that in mind: the map's will be.
+#
+# It also opens from step 8 to 20, where a landmark is in sight all the time, one and the same. Why?
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## What one landmark cannot tell
@@ -289,7 +324,7 @@ for n, agreeing in ((1, one_agrees[:300]), (2, both_agree[:150])):
         Ellipses("corrected", [vague[:2]], [P[:2, :2]]),
         Points("landmark", two[:n]),
     ]
-fig, both = views.side_by_side(beliefs, size=(8, 3.8))
+fig, both = views.side_by_side(beliefs, size=(7.6, 3.6))
 for ax in both:
     ax.lines[-1].set(markersize=9)
     views.legend(ax, loc="upper right", fontsize="small")
@@ -317,7 +352,11 @@ def with_eyes(metres):
     far = Loop(landmarks=8, steps=84, range_max=metres, v_sigma=0.03, omega_sigma=0.03)
     other = LandmarkRun(far, np.random.default_rng(8))
     poses, covariances = localise(other, other.landmarks, START)
-    return lap(other, poses, covariances, f"Sees {metres:.1f} m far")
+    fig, ax = views.axes(f"Sees {metres:.1f} m far", size=(4.4, 4))
+    for layer in lap(other, poses, covariances):
+        views.draw(ax, layer)
+    ax.lines[-1].set(markersize=8)
+    return fig
 
 
 views.explore(
@@ -394,10 +433,10 @@ broken = {
 }
 
 
-def against_band(values, runs, title):
+def against_band(values, runs, title, begin=0):
     """NEES over the steps on a logarithmic scale, with the 95 % band."""
-    steps = np.arange(len(next(iter(values.values()))))
-    fig, ax = views.curves(steps, values, "step", "mean NEES [1]", title)
+    steps = begin + np.arange(len(next(iter(values.values()))))
+    fig, ax = views.curves(steps, values, "step", "mean NEES [1]", title, size=(5.4, 3.2))
     ax.axhspan(*band(3, runs), color=views.COLOURS["guide"], alpha=0.6, label="95 % band")
     ax.set_yscale("log")
     ax.set_ylim(top=8 * ax.get_ylim()[1])  # room for the legend
@@ -456,7 +495,7 @@ for name, peer in (("filterpy", update_by_filterpy), ("slamlab", update_by_slaml
     print(f"{name:9} differs by less than 1e-12: {apart < 1e-12}")
 
 # %% [markdown] slideshow={"slide_type": "slide"}
-# # Second half: where are they, if I know where I am?
+# ## Second half: where are they, if I know where I am?
 #
 # Now the poses are known exactly (say, by a camera on the ceiling). The state is the map.
 #
@@ -522,10 +561,11 @@ def drawn(beliefs, poses):
 
 def maps(layers_by_title):
     """Maps side by side, true landmarks as crosses."""
-    fig, both = views.side_by_side(layers_by_title, size=(9, 4.3))
+    fig, both = views.side_by_side(layers_by_title, size=(7.6, 3.7))
     for ax in both:
         ax.lines[-1].set(marker="x", markersize=5, markeredgewidth=1, label="true landmark")
-        ax.legend(loc="center", fontsize="small")
+        ax.get_legend().remove()
+    both[0].legend(loc="center", fontsize="x-small")
     return fig
 
 
@@ -565,6 +605,7 @@ fig, ax = views.growth(
     {"trace(J_z R J_zᵀ) / k": one_look / np.array(looks)},
     "sightings k",
     "squared error [m²]",
+    size=(5, 3.3),
 )
 views.show(fig, "The measured squared errors lie on the line 1/k over 64 sightings.")
 
@@ -690,7 +731,7 @@ for name, odometry in (("true poses", False), ("odometry's poses", True)):
 # what it was told.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
-# # Neither known: each half in turn?
+# ## Neither known: each half in turn?
 #
 # The obvious idea: at each sighting, correct the pose as if the map were exact, and the map as if
 # the pose were exact. Both halves are written.
@@ -743,12 +784,12 @@ turns = {
     "each pretends the other is exact": nees_in_turn(50, careful=False),
     "each adds the other's covariance to R": nees_in_turn(50, careful=True),
 }
-fig = against_band(turns, 50, "Two laps of two halves in turn, 50 runs")
+fig = against_band(turns, 50, "Two laps of two halves in turn, 50 runs", BEGIN)
 views.show(fig, "NEES of both schemes rises from near the band to hundreds within a lap.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # **See:** both leave the band at once and end at hundreds: an error over ten times what the filter
-# believes. NEES falls after step 84, where the robot meets its first landmarks again, which it
+# believes. NEES falls round step 84, where the robot meets its first landmarks again, which it
 # placed while its pose was still good; then it climbs again.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
