@@ -82,11 +82,12 @@ def _():
 # %% [markdown]
 # ## 2 · Locate: one landmark that is known
 #
-# The landmark at p was seen at z, and its place is known exactly. Innovation, its covariance, gain,
-# and what becomes of the belief:
+# The landmark at p was seen at z, and its place is known exactly. The innovation v is what was
+# measured minus what was to be expected, and H says how that changes with the pose. Then, as in
+# lesson 03,
 #
-# $$v = z - h(x, p), \quad S = H P H^{\mathsf T} + R, \quad K = P H^{\mathsf T} S^{-1}, \quad x
-# \leftarrow x + K v, \quad P \leftarrow P - K S K^{\mathsf T}$$
+# $$S = H P H^{\mathsf T} + R, \quad K = P H^{\mathsf T} S^{-1}, \quad x \leftarrow x + K v, \quad P
+# \leftarrow P - K S K^{\mathsf T}$$
 #
 # **Predict first.** The landmark is right behind the robot. It is expected at 179° and seen at
 # −179°. What is v?

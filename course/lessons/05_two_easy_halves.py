@@ -47,7 +47,7 @@ fig, ax = views.axes("One lap, counted by the wheels", size=(4.4, 4))
 views.draw(ax, Poses("truth", run.truth.poses))
 views.draw(ax, Poses("naive", by_odometry), label="odometry alone")
 views.draw(ax, Points("landmark", run.landmarks), label="landmarks", markersize=9)
-ax.legend(loc="center", fontsize="small")
+views.legend(ax, loc="center", fontsize="small")
 views.show(fig, "The true lap closes; odometry's lap ends more than two metres off.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
@@ -267,7 +267,7 @@ looking = np.array([len(reading.observations.ids) > 0 for reading in run])
 ax.lines[2].set(color=ax.lines[1].get_color(), linestyle="dashed")
 ax.plot(steps[looking], np.full(looking.sum(), -0.4), "|", color="black", label="sees a landmark")
 ax.set_ylim(-0.45, 0.5)
-ax.legend(loc="upper right", fontsize="small", ncols=3)
+views.legend(ax, loc="upper right", fontsize="small", ncols=3)
 views.show(fig, "The error of y stays within a band that widens where no landmark is seen.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
@@ -438,9 +438,8 @@ def against_band(values, runs, title, begin=0):
     steps = begin + np.arange(len(next(iter(values.values()))))
     fig, ax = views.curves(steps, values, "step", "mean NEES [1]", title, size=(5.4, 3.2))
     ax.axhspan(*band(3, runs), color=views.COLOURS["guide"], alpha=0.6, label="95 % band")
-    ax.set_yscale("log")
-    ax.set_ylim(top=8 * ax.get_ylim()[1])  # room for the legend
-    ax.legend(loc="upper right", fontsize="small", ncols=2)
+    ax.set(yscale="log", ylim=(2, 15 * max(map(np.max, values.values()))))
+    views.legend(ax, loc="upper right", fontsize="small", ncols=2)
     return fig
 
 
@@ -709,6 +708,10 @@ layers = {
 fig = maps(layers)
 views.show(fig, "From odometry's poses the ellipses are as small, and far from the true landmarks.")
 
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# **See:** the ellipses on the right are just as small, and they miss the true landmarks by many
+# times their size. In numbers, over 50 laps:
+
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 def nees_of_map(seed, odometry):
@@ -726,9 +729,7 @@ for name, odometry in (("true poses", False), ("odometry's poses", True)):
     print(f"{name:17} mean NEES of a landmark {mean:6.1f} (2 is right)")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** the ellipses on the right are just as small, and they miss the true landmarks by many
-# times their size. The filter was told P_rr = 0 and believed it. A covariance is only as good as
-# what it was told.
+# The filter was told P_rr = 0 and believed it. A covariance is only as good as what it was told.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Neither known: each half in turn?
