@@ -1,0 +1,333 @@
+"""Task 06-slam: the whole filter over many runs, judged by truth and by least squares.
+
+All runs share one world and one way; noise is their own. What a right filter knows at the end is
+what least squares over the whole run knows: nothing is lost on the way, nothing counted twice.
+"""
+
+import numpy as np
+from scipy.linalg import block_diag
+
+from slamlab import jacobians, models, noise
+from slamlab.checks.drives.ex06 import DRIVES
+from slamlab.checks.task import Diagnosis, Law, Task
+from slamlab.checks.tasks.ex06_beliefs import either_sign
+from slamlab.evaluation import band, nees
+from slamlab.filters.mak import MAK
+from slamlab.geometry import wrap
+
+RUNS, STEPS, LANDMARKS = 20, 8, 4
+MAP = slice(3, None)
+HONEST = 1 - 5e-7  # a right filter lies inside a band in this share of gradings
+SLACK = 1.15  # the Jacobians are taken at estimates: bands are this much wider
+SURE = 0.75, 1.33  # what variances may be in units of those of least squares
+
+
+# which landmarks each scan holds: all but the last are met again, no two scans in a row alike
+SCANS = np.array([[1, -1], [1, 0], [0, -1], [2, 1], [0, 2], [-1, -1], [2, 0], [1, 3]])
+WHEELS, EYES = np.array([0.04, 0.02]), np.array([0.06, 0.02])  # σ of d, Δθ and of r, β
+START = np.array([0.04, 0.05, 0.02])  # σ of the start [m, m, rad]
+
+
+def runs(rng):
+    """One world and one way, many runs of it; the last landmark is met at the end only.
+
+    The truth is in no array. Errors have the mean 0 over all runs, so that it is their middle.
+    """
+    start = np.array([*either_sign(rng, 0.5, 3, 2), either_sign(rng, 0.3, 2.5)])
+    turns = either_sign(rng, 1, 1) * rng.uniform(0.1, 0.4, STEPS)
+    drives = np.column_stack([rng.uniform(0.5, 0.8, STEPS), turns])
+    way = driven(start, drives)
+    around = rng.uniform(-np.pi, np.pi) + np.arange(LANDMARKS) * 1.6
+    far = rng.uniform(3.5, 4.5, (LANDMARKS, 1))
+    p = way[:, :2].mean(axis=0) + far * np.column_stack([np.cos(around), np.sin(around)])
+    names = rng.permutation(np.arange(30, 90))[:LANDMARKS]
+    names[:2].sort()  # which are met in the order 1, 0: sorted ids are never right
+    z = np.array([models.h(pose, p[scan]) for pose, scan in zip(way, SCANS, strict=True)])
+    z = z + EYES * _errors_of(rng, STEPS, 2, 2)
+    z[..., 1] = wrap(z[..., 1])
+    return {
+        "x": start + START * _errors_of(rng, 3),
+        "P": np.diag(START**2),
+        "u": drives + WHEELS * _errors_of(rng, STEPS, 2),
+        "seen": np.where(SCANS < 0, -1, names[SCANS]),
+        "z": z,
+        "C": np.diag(WHEELS**2),
+        "R": np.diag(EYES**2),
+    }
+
+
+def _errors_of(rng, *shape):
+    """(RUNS, ...) errors with variance 1 whose mean over the runs is 0."""
+    errors = rng.standard_normal((RUNS, *shape))
+    return (errors - errors.mean(axis=0)) * np.sqrt(RUNS / (RUNS - 1))
+
+
+def driven(x, drives):
+    """(n, 3) the poses after each of the drives (n, 2)."""
+    poses = []
+    for u in drives:
+        x = models.f_odometry(x, u)
+        poses.append(x)
+    return np.array(poses)
+
+
+def truth(inputs):
+    """What all runs have in common.
+
+    Returns
+    -------
+    start (3,), drives (n, 2), way (n, 3), landmarks as dict, id to (2,), in the order of meeting
+    """
+    start, drives = inputs["x"].mean(axis=0), inputs["u"].mean(axis=0)
+    way, first = driven(start, drives), inputs["z"][0]
+    off = inputs["z"] - first
+    off[..., 1] = wrap(off[..., 1])
+    z, landmarks = first + off.mean(axis=0), {}
+    for pose, seen, sights in zip(way, inputs["seen"].tolist(), z, strict=True):
+        for i, sight in zip(seen, sights, strict=True):
+            if i >= 0 and i not in landmarks:
+                landmarks[i] = models.g(pose, sight)
+    return start, drives, way, landmarks
+
+
+def _whole(inputs, outputs):
+    """Whether the map holds each landmark once, so that it can be looked at."""
+    ids, met = outputs["ids"], np.unique(inputs["seen"][inputs["seen"] >= 0])
+    fits = ids.shape == (RUNS, LANDMARKS) and outputs["x"].shape == (RUNS, 3 + 2 * LANDMARKS)
+    return bool(fits and (np.sort(ids, axis=1) == met).all())
+
+
+def _in_order(inputs, x, P, ids):
+    """x (r, n), P (r, n, n) with the landmarks in the order of meeting."""
+    met = list(truth(inputs)[3])
+    x, P = x.copy(), P.copy()
+    for r, mine in enumerate(ids.tolist()):
+        first = 3 + 2 * np.array([mine.index(i) for i in met])
+        rows = np.concatenate([[0, 1, 2], np.column_stack([first, first + 1]).ravel()])
+        x[r], P[r] = x[r, rows], P[r][np.ix_(rows, rows)]
+    return x, P
+
+
+def _ends(inputs, outputs):
+    return _in_order(inputs, outputs["x"], outputs["P"], outputs["ids"])
+
+
+def _errors(inputs, x):
+    _, _, way, landmarks = truth(inputs)
+    error = x - np.concatenate([way[-1], *landmarks.values()])
+    error[:, 2] = wrap(error[:, 2])
+    return error
+
+
+def least_squares(inputs):
+    """(n, n) covariance at the end, of all that was measured, linearised at the truth.
+
+    Unknown are the start's error, those of all drives and the landmarks; a pose is a sum of them.
+    """
+    before, drives, way, landmarks = truth(inputs)
+    unknowns = 3 + 2 * STEPS + 2 * LANDMARKS
+    sure = [np.linalg.inv(inputs["P"]), *[np.linalg.inv(inputs["C"])] * STEPS]
+    information = block_diag(*sure, np.zeros((2 * LANDMARKS, 2 * LANDMARKS)))
+    weight, D = np.linalg.inv(inputs["R"]), np.eye(3, unknowns)
+    first = {i: 3 + 2 * STEPS + 2 * k for k, i in enumerate(landmarks)}
+    for k, (u, pose, seen) in enumerate(zip(drives, way, inputs["seen"].tolist(), strict=True)):
+        D = jacobians.A_odometry(before, u) @ D
+        D[:, 3 + 2 * k : 5 + 2 * k] += jacobians.W_odometry(before, u)
+        for i in seen:
+            if i >= 0:
+                H = jacobians.H_robot(pose, landmarks[i]) @ D
+                H[:, first[i] : first[i] + 2] += jacobians.H_landmark(pose, landmarks[i])
+                information += H.T @ weight @ H
+        before = pose
+    G = np.vstack([D, np.eye(2 * LANDMARKS, unknowns, 3 + 2 * STEPS)])
+    return G @ np.linalg.inv(information) @ G.T
+
+
+def _honest(part):
+    def holds(inputs, outputs):
+        if not _whole(inputs, outputs):
+            return False
+        x, P = _ends(inputs, outputs)
+        error = _errors(inputs, x)[:, part]
+        # the runs' common mean costs one of them
+        low, high = band(error.shape[1], RUNS - 1, HONEST)
+        return low / SLACK <= nees(error, P[:, part, part]).mean() <= high * SLACK
+
+    return holds
+
+
+def ratios(inputs, P):
+    """Variances of the mean of P (r, n, n) in all directions, in units of least squares'."""
+    root = np.linalg.inv(np.linalg.cholesky(least_squares(inputs)))
+    return np.linalg.eigvalsh(root @ P.mean(axis=0) @ root.T)
+
+
+def _sure(inputs, outputs):
+    if not _whole(inputs, outputs):
+        return False
+    of_all = ratios(inputs, _ends(inputs, outputs)[1])
+    return SURE[0] <= of_all.min() and of_all.max() <= SURE[1]
+
+
+# ---- mistakes: the same calls in a wrong order ------------------------------------------------
+
+
+def _filtered(inputs, run, order):
+    """A run of the filter with the calls of each step in some order.
+
+    p predict; u update what is known; a augment what is new; m both, in the scan's order; d the
+    same, and what was augmented is updated as well; e the same as m, a predict before each update.
+    """
+    mak = MAK(inputs["x"][run], inputs["P"])
+    for u, seen, z in zip(inputs["u"][run], inputs["seen"], inputs["z"][run], strict=True):
+        known = mak.ids
+        for what in order:
+            if what == "p":
+                _predict(mak, u, inputs["C"])
+                continue
+            for i, one in zip(seen.tolist(), z, strict=True):
+                if i in known and what in "umde":
+                    if what == "e":
+                        _predict(mak, u, inputs["C"])
+                    mak.update([i], [one], inputs["R"])
+                elif i >= 0 and i not in known and what in "amde":
+                    mak.add([i], [one], inputs["R"])
+                    if what == "d":
+                        mak.update([i], [one], inputs["R"])
+    return mak
+
+
+def _predict(mak, u, C):
+    pose = mak.pose
+    mak.predict(models.f_odometry(pose, u), noise.Q(jacobians.W_odometry(pose, u), C))
+
+
+def _ordered(*orders):
+    """Whether the end of a run is that of the same calls in one of these orders."""
+
+    def matches(inputs, outputs):
+        return _whole(inputs, outputs) and any(_like(inputs, outputs, order) for order in orders)
+
+    return matches
+
+
+def _like(inputs, outputs, order):
+    for run in (0, 1):
+        mak = _filtered(inputs, run, order)
+        (x,), (P,) = _in_order(inputs, mak.x[None], mak.P[None], np.array([mak.ids]))
+        (got,), (claimed,) = (part[run, None] for part in _ends(inputs, outputs))
+        sigma, off = np.sqrt(np.diag(P)), got - x
+        off[2] = wrap(off[2])
+        if max((abs(off) / sigma).max(), (abs(claimed - P) / np.outer(sigma, sigma)).max()) > 0.1:
+            return False
+    return True
+
+
+def _too_many(inputs, outputs):
+    return outputs["x"].shape[1] > 3 + 2 * LANDMARKS
+
+
+def _too_few(inputs, outputs):
+    return outputs["x"].shape[1] < 3 + 2 * LANDMARKS
+
+
+def _ids_behind(inputs, outputs):
+    return outputs["x"].shape[1] != 3 + 2 * outputs["ids"].shape[1]
+
+
+def _far_off(inputs, outputs):
+    """Whether the map is off by far more than any wrong covariance can explain."""
+    if not _whole(inputs, outputs):
+        return False
+    return np.hypot(*_errors(inputs, _ends(inputs, outputs)[0])[:, MAP].reshape(-1, 2).T).max() > 1
+
+
+SLAM = Task(
+    id="06-slam",
+    title="The whole filter",
+    drive=DRIVES["06-slam"],
+    inputs=runs,
+    shapes={"x": (RUNS, None), "P": (RUNS, None, None), "ids": (RUNS, None)},
+    laws=(
+        Law("ids", 1, "the map holds every landmark that was seen, each once", _whole),
+        Law(
+            "pose",
+            1,
+            "over all runs, the pose errs as much as P says (NEES within its band)",
+            _honest(np.s_[:3]),
+        ),
+        Law(
+            "map",
+            1,
+            "over all runs, the landmarks err as much as P says (NEES within its band)",
+            _honest(MAP),
+        ),
+        Law(
+            "sure",
+            2,
+            "P is neither more nor less sure, of robot, map and what lies between them, than least "
+            "squares over the whole run",
+            _sure,
+        ),
+    ),
+    diagnoses=(
+        Diagnosis(
+            "ids-behind",
+            "x has landmarks that ids does not name, or the other way round. Whenever you append "
+            "to x, append to ids.",
+            _ids_behind,
+        ),
+        Diagnosis(
+            "re-augmented",
+            "The map holds a landmark more than once. One whose id is in ids already was seen "
+            "before: update it.",
+            _too_many,
+        ),
+        Diagnosis(
+            "too-few",
+            "Some landmarks that were seen are not in the map: every id that is new is to be "
+            "augmented, each with its own row of z.",
+            _too_few,
+        ),
+        Diagnosis(
+            "placed-too-early",
+            "New landmarks are placed before the pose is predicted: z was measured after the "
+            "drive, so everything new stands a step behind.",
+            _ordered("apu"),
+        ),
+        Diagnosis(
+            "predicted-last",
+            "What is seen is used before the drive is predicted: z was measured after it. Predict "
+            "first.",
+            _ordered("mp", "uap", "aup"),
+        ),
+        Diagnosis(
+            "never-updated",
+            "Landmarks seen again teach the filter nothing: known ids are to be updated.",
+            _ordered("pa"),
+        ),
+        Diagnosis(
+            "never-predicted",
+            "The drive u is not used: predict comes first in every step.",
+            _ordered("m", "ua"),
+        ),
+        Diagnosis(
+            "counted-twice",
+            "A new landmark is augmented and then updated with the same z. That sight has been "
+            "used already: counted twice, it makes the filter surer than it may be.",
+            _ordered("pd"),
+        ),
+        Diagnosis(
+            "predicted-for-each",
+            "The drive is predicted once for each landmark seen. It happened once in a step.",
+            _ordered("pe", "e"),
+        ),
+        Diagnosis(
+            "mispaired",
+            "The map is more than a metre off: some sights seem to go to the wrong landmark. "
+            "ids[j] names landmark j of x, new ones come last in both, and z[k] belongs to seen[k].",
+            _far_off,
+        ),
+    ),
+    needs=("06-predict", "06-augment", "06-update"),
+)
