@@ -825,8 +825,9 @@ PHt.blocks[2, 0]
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # With neither known it is not zero: who sees i learns about j. The N filters have become one.
 #
-# (The thesis prints this row before its (4.10) as P_jr H_rᵀ + P_ij H_pᵀ: P_ji is meant; it also
-# prints S_rr⁻¹ in the gain where S_vv⁻¹ is meant. Sections 4.1 and 4.2 hold against the machine.)
+# (Before its (4.10) the thesis prints this row as P_jr H_rᵀ + P_ij H_pᵀ, where P_ji is meant, if our
+# copy has the subscripts right, and S_rr⁻¹ in the gain, where S_vv⁻¹ is meant. Sections 4.1 and 4.2,
+# the two halves, hold.)
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## What you can do now

@@ -96,7 +96,7 @@ def _landmarks(beliefs, ids):
 
 def _pair(value, function, names, shapes):
     if not isinstance(value, tuple | list) or len(value) != 2:
-        raise StudentError("malformed", f"{function} must be a pair: {', '.join(names)}")
+        raise StudentError("malformed", f"{function}: expected a pair, {' and '.join(names)}")
     parts = []
     for part, name, shape in zip(value, names, shapes, strict=True):
         array = numbers(part, f"{function}'s {name}")
