@@ -322,15 +322,16 @@ def localise(x, P, drives, ids, zs, landmarks, C, R):
         localise(
             look="x, _ = locate(x, P, zs[k], landmarks[ids[k]], R) if ids[k] >= 0 else (x, P)"
         ),
-        {CLOSE, FITS},
+        {FITS},
         "sighting-keeps-P",
         may_lose={CLOSE},
     ),
     Wrong(
         "P of the drive thrown away",
         localise(drive="x, _ = predict(x, P, drives[k], C)"),
-        {CLOSE, FITS},
+        {FITS},
         "drive-keeps-P",
+        may_lose={CLOSE},
     ),
     Wrong(
         "landmark by step instead of id",
@@ -365,8 +366,9 @@ def localise(x, P, drives, ids, zs, landmarks, C, R):
     Wrong(
         "all seen from the first pose",
         build_map(seen="xs[0], zs[k]"),
-        {FIRST, AGAIN, APART},
+        {FIRST, AGAIN},
         "pose-of-start",
+        may_lose={APART},
     ),
     Wrong(
         "list instead of dict",
