@@ -9,8 +9,8 @@
 # Replace each `raise NotImplementedError(...)` by your code, run the cell, then run the check below
 # it, as often as you like. A check tries random inputs and tells you which law is broken.
 #
-# Metres and radians throughout. The state is $x = [x_r,\ p_0,\ p_1,\ \dots]$: three rows for the
-# robot, two for each landmark; `P` is its covariance. Landmarks count from 0.
+# Metres and radians throughout. The state is the robot's pose, three rows, and then two rows for
+# each landmark; `P` is its covariance.
 
 # %%
 import numpy as np
@@ -79,11 +79,11 @@ def _():
 # ## 2 · Two observations
 #
 # The example of the MAK thesis. Robot and two landmarks, P block-diagonal: nobody shares anything
-# yet. The robot sees p0, then p1; it does not move in between. H_1 and H_2 are the whole (2, 7)
+# yet. The robot sees p1, then p2; it does not move in between. H_1 and H_2 are the whole (2, 7)
 # Jacobians $[H_r\ \ H_p\ \ 0]$ and $[H_r\ \ 0\ \ H_p]$.
 #
 # **Predict first.** Which blocks of P are non-zero after the first sight? Which after the second?
-# The robot learns something when it sees p1: does p0 get any surer?
+# The robot learns something when it sees p2: does p1 get any surer?
 #
 # **Your task.** P after the first sight and after both. The thesis prints its formulas with several
 # slips: derive, do not copy. The check also tries covariances that are full from the start.
@@ -124,18 +124,18 @@ def _():
     none = np.zeros((2, 2))
     H_1, H_2 = np.hstack([H_a, -H_a[:, :2], none]), np.hstack([H_b, none, -H_b[:, :2]])
     P_first, P_both = two_updates(P, H_1, H_2, np.diag([0.05, 0.03]) ** 2)
-    fig, axes = views.panels(["before", "p0 seen", "p1 seen, too"], (10, 3.4), shared=False)
+    fig, axes = views.panels(["before", "p1 seen", "p2 seen, too"], (10, 3.4), shared=False)
     for ax, covariance in zip(axes, [P, P_first, P_both], strict=True):
-        views.correlation(correlation(covariance), ["r", "p0", "p1"], ax=ax)
+        views.correlation(correlation(covariance), ["r", "p1", "p2"], ax=ax)
         ax.set(xlabel="", ylabel="", aspect="equal", adjustable="box")
-    views.show(fig, alt="Three correlation matrices: diagonal, then r and p0 linked, then all.")
+    views.show(fig, alt="Three correlation matrices: diagonal, then r and p1 linked, then all.")
     sigmas = [np.sqrt(C[3, 3]) for C in (P, P_first, P_both)]
-    print("σ of p0's x [m], before and after each sight:", np.round(sigmas, 3))
+    print("σ of p1's x [m], before and after each sight:", np.round(sigmas, 3))
 
 
 # %% [markdown]
-# **See:** the last matrix has no white block left. Nobody ever measured from p0 to p1, and still they
-# share an error: the robot's. And p0 got a little surer by the sight of p1.
+# **See:** the last matrix has no white block left. Nobody ever measured from p1 to p2, and still they
+# share an error: the robot's. And p1 got a little surer by the sight of p2.
 #
 # ## 3 · From one landmark to another
 #
@@ -145,7 +145,8 @@ def _():
 # **Predict first.** Two landmarks are each known to ± 1 m, and share all of their error. How well
 # is Δp known?
 #
-# **Your task.** Δp and its covariance, from the state.
+# **Your task.** Δp and its covariance, from the state. Python counts from 0, so does `i`: landmark
+# `i` stands in the rows 3 + 2i and 4 + 2i.
 
 
 # %%
@@ -201,9 +202,9 @@ def _():
 # bit both times. Their errors $\tilde a, \tilde b$ have covariances `P_a`, `P_b`, and share
 # $P_{ab} = E[\tilde a\,\tilde b^T]$. We look for $x = a + K\,(b - a)$.
 #
-# Take $b - a$ for the innovation. From lesson 03 you know the best gain: K is the covariance of
-# the error of a with the innovation, times the inverse of the innovation's own, S. And then
-# $P = P_a - K S K^T$.
+# Take $b - a$ for the innovation. From lesson 03 you know the best gain, $K = S_{xv} S^{-1}$: the
+# covariance of the error of a with that of the innovation, $\tilde a - \tilde b$, times the inverse
+# of the innovation's own. Then $P = P_a - K S K^T$. But what are $S_{xv}$ and $S$ here?
 #
 # **Predict first.** `P_a = P_b = I`. How sure is the best x if the two share nothing? And if they
 # share nearly everything?
@@ -404,8 +405,8 @@ def _():
 
 # %% [markdown]
 # **See:** nothing in this world tells which way the map is turned. The usual EKF believes to learn
-# it, a little with each update; this is how its NEES leaves the band on long runs. Yours learns
-# nothing, as is right.
+# it, a little with each update, and the noisier the wheels, the more: this is how its NEES leaves
+# the band. Yours learns nothing, as is right.
 #
 # ## Done?
 #

@@ -674,6 +674,7 @@ RIGHT = [
     Right("rho by loops, as lists", _RHO_LOOPS),
     Right("rho in place, 1 on all of the diagonal", _RHO_DIAGONAL),
     Right("rho divided, then zeroed", rho()),
+    Right("rho with a small number below", rho(rho="P / (np.outer(s, s) + 1e-7)", then="pass")),
     Right("rho by diagonal matrices", rho(rho="np.diag(1 / s) @ P @ np.diag(1 / s)")),
     Right("updates in information form", _INFORMATION),
     Right("updates one number after the other, in place", _SEQUENTIAL),

@@ -75,7 +75,17 @@ def _nees(inputs, outputs):
 # ---- mistakes: a wrong filter, run on the same walks ----------------------------------------
 
 
-def filtered(inputs, q=None, r=None, v=1, keep=None, shares=1, moved=(1, 0, 0, 0), noisy=None):
+ROBOT = np.array([1, 0, 0, 0])
+_ONE_ENTRY = np.diag(ROBOT)
+
+
+def same(variance):
+    return variance
+
+
+def filtered(
+    inputs, q=same, r=same, v=1, keep=1, shares=1, moved=ROBOT, noisy=_ONE_ENTRY, stays=""
+):
     """A filter that can be made wrong, all runs at once.
 
     Parameters
@@ -86,42 +96,26 @@ def filtered(inputs, q=None, r=None, v=1, keep=None, shares=1, moved=(1, 0, 0, 0
     shares : float, share of P_ri in S
     moved : (4,) what a drive moves
     noisy : (4, 4) where a drive makes less certain
+    stays : "x" or "xP", what of the doors out of sight a sight does not change
 
     Returns
     -------
     x (runs, 4), P (runs, 4, 4)
     """
     x, P, each = inputs["x"].copy(), inputs["P"].copy(), np.arange(RUNS)
-    same, noisy = (lambda s: s), np.diag([1, 0, 0, 0]) if noisy is None else noisy
     for k in range(STEPS):
         i = inputs["i"][:, k].astype(int)
-        x += np.array(moved) * inputs["d"][:, k, None]
-        P += (q or same)(inputs["q"][:, k])[:, None, None] * noisy
+        x += moved * inputs["d"][:, k, None]
+        P += q(inputs["q"][:, k])[:, None, None] * noisy
         PH = P[each, :, i] - P[:, :, 0]
-        S = P[each, i, i] + P[:, 0, 0] - 2 * shares * P[each, 0, i] + (r or same)(inputs["r"][:, k])
+        S = P[each, i, i] + P[:, 0, 0] - 2 * shares * P[each, 0, i] + r(inputs["r"][:, k])
         K = PH / S[:, None]
-        x += v * K * (inputs["z"][:, k] - x[each, i] + x[:, 0])[:, None]
-        P -= K[:, :, None] * PH[:, None, :]
-        if keep is not None:
-            P *= keep
-    return x, P
-
-
-def touched_only(inputs, covariance):
-    """Only the robot and the door in sight learn; the other doors' estimates stay."""
-    x, P, each = inputs["x"].copy(), inputs["P"].copy(), np.arange(RUNS)
-    for k in range(STEPS):
-        i = inputs["i"][:, k].astype(int)
-        seen = np.zeros((RUNS, 4))
-        seen[:, 0] = seen[each, i] = 1
-        x[:, 0] += inputs["d"][:, k]
-        P[:, 0, 0] += inputs["q"][:, k]
-        PH = P[each, :, i] - P[:, :, 0]
-        S = P[each, i, i] + P[:, 0, 0] - 2 * P[each, 0, i] + inputs["r"][:, k]
-        K = PH / S[:, None]
-        x += seen * K * (inputs["z"][:, k] - x[each, i] + x[:, 0])[:, None]
-        both = seen[:, :, None] * seen[:, None, :] if covariance else 1
-        P -= both * K[:, :, None] * PH[:, None, :]
+        seen = np.eye(4)[i] + ROBOT
+        correction = v * K * (inputs["z"][:, k] - x[each, i] + x[:, 0])[:, None]
+        x += seen * correction if "x" in stays else correction
+        lost = K[:, :, None] * PH[:, None, :]
+        P -= seen[:, :, None] * seen[:, None, :] * lost if "P" in stays else lost
+        P *= keep
     return x, P
 
 
@@ -129,10 +123,10 @@ def _runs_as(*filters):
     """Whether the answer is what one of these filters makes of the walks."""
 
     def matches(inputs, outputs):
-        for x, P in (one(inputs) for one in filters):
-            if close(outputs["x"], x).all() and close(outputs["P"], P).all():
-                return True
-        return False
+        found = (one(inputs) for one in filters)
+        alike = (close(outputs["x"], x) & close(outputs["P"], P) for x, P in found)
+        # what is no covariance any more may blow rounding up, in a run or two
+        return any(runs.mean() > 0.9 for runs in alike)
 
     return matches
 
@@ -168,7 +162,7 @@ CORRIDOR = Task(
             "others-not-moved",
             "Only the robot and the door in sight learn from a sight. The other doors err together "
             "with the robot: K has an entry for each of them.",
-            _runs_as(lambda i: touched_only(i, True), lambda i: touched_only(i, False)),
+            _runs_as(_as(stays="xP"), _as(stays="x")),
         ),
         Diagnosis(
             "innovation-sign",
@@ -179,7 +173,7 @@ CORRIDOR = Task(
         Diagnosis(
             "not-moved",
             "A drive moves the robot by d and leaves the doors where they are.",
-            _runs_as(_as(moved=np.zeros(4)), _as(moved=np.ones(4)), _as(moved=(-1, 0, 0, 0))),
+            _runs_as(_as(moved=np.zeros(4)), _as(moved=np.ones(4)), _as(moved=-ROBOT)),
         ),
         Diagnosis(
             "drive-noise-missing",
