@@ -2,9 +2,10 @@
 
 from slamlab.checks.task import Exercise
 from slamlab.checks.tasks.ex06_augment import AUGMENT
-from slamlab.checks.tasks.ex06_observe import H_FULL, UPDATE
+from slamlab.checks.tasks.ex06_h import H_FULL
 from slamlab.checks.tasks.ex06_predict import PREDICT
 from slamlab.checks.tasks.ex06_slam import SLAM
+from slamlab.checks.tasks.ex06_update import UPDATE
 
 EXERCISE = Exercise(
     id="06",
