@@ -92,9 +92,10 @@ for name, S in [("without P_ri", apart), ("with P_ri", together), ("1000 robots"
     print(f"{name:13} σ of range {np.sqrt(S[0, 0]):.2f} m, of bearing {np.sqrt(S[1, 1]):.3f} rad")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# As small as the sensor's noise: the landmark errs *with* the robot, and the innovation sees only
-# the difference. Without P_ri a filter expects an innovation many times larger, and when a small
-# one comes it believes to have learned how right its pose is. It has learned nothing of the kind.
+# As small as the sensor's noise (twice its variance: two looks). The landmark errs *with* the robot,
+# and the innovation sees only the difference. Without P_ri a filter expects a bearing off by four
+# times as much, and when a small innovation comes it believes to have learned how right its pose
+# is. It has learned nothing of the kind.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* Say it with a boat: you are lost at sea, throw a buoy overboard and measure
@@ -629,9 +630,9 @@ views.show(fig, "Before, the ellipses grow along the round; six scans later all 
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # **See:** six scans, and every ellipse has shrunk: those on the far side too, which the robot has
-# not seen for forty steps. The first landmarks are the surest of the map; the robot meets them, learns
-# its own error, and with it the error of all that it placed on the way. By how much, told in the
-# order in which they were found:
+# not seen for forty steps. The first landmarks are the surest of the map; the robot meets them,
+# learns its own error, and with it the error of all that it placed on the way. By how much, told in
+# the order in which they were found:
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 (x0, P0, ids0), (x1, P1, _) = kept[before], kept[after]
