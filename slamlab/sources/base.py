@@ -35,6 +35,11 @@ class Source:
         """How many readings will come, 0 where that is not known."""
         return 0
 
+    @property
+    def drivable(self):
+        """bool, whether there is a robot to command."""
+        return type(self).drive is not Source.drive
+
     def drive(self, command):
         """Command the robot; most sources are recordings and refuse.
 

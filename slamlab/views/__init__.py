@@ -9,6 +9,7 @@ from slamlab.views.figures import COLOURS, axes, chart, panels, png, show
 from slamlab.views.growth import growth
 from slamlab.views.layers import draw, legend, side_by_side
 from slamlab.views.linked import linked
+from slamlab.views.live import live
 from slamlab.views.overlay import overlay
 from slamlab.views.sketches import frames
 from slamlab.views.widgets import explore
@@ -26,6 +27,7 @@ __all__ = [
     "growth",
     "legend",
     "linked",
+    "live",
     "overlay",
     "panels",
     "png",

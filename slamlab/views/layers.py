@@ -33,13 +33,32 @@ def draw(ax, layer, **style):
     ------
     TypeError : when it is no layer
     """
-    if type(layer) not in _KINDS:
-        raise TypeError(f"cannot draw {type(layer).__name__}: expected a layer of slamlab.layers")
-    function, default = _KINDS[type(layer)]
-    colour = COLOURS.get(layer.name, COLOURS[default])
-    artists = function(ax, layer, {"color": colour, "label": layer.name} | style)
+    usual = colour(layer)
+    function, _ = _KINDS[type(layer)]
+    artists = function(ax, layer, {"color": usual, "label": layer.name} | style)
     ax.autoscale_view()
     return artists
+
+
+def colour(layer):
+    """The colour a layer usually has: that of its name, else that of its kind.
+
+    Parameters
+    ----------
+    layer : a layer of :mod:`slamlab.layers`
+
+    Returns
+    -------
+    str, #RRGGBB
+
+    Raises
+    ------
+    TypeError : when it is no layer
+    """
+    if type(layer) not in _KINDS:
+        raise TypeError(f"cannot draw {type(layer).__name__}: expected a layer of slamlab.layers")
+    _, default = _KINDS[type(layer)]
+    return COLOURS.get(layer.name, COLOURS[default])
 
 
 def side_by_side(layers_by_title, size=(11, 5), shared=True):

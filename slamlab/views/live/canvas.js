@@ -1,0 +1,121 @@
+// The browser's side of the live view: keeps the rows that frames bring, draws them on a canvas in
+// equal scale, answers each frame with its number when it is drawn. Nothing is asked of a network.
+
+const KEYS = {
+  ArrowUp: "forward", ArrowDown: "back", ArrowLeft: "left", ArrowRight: "right", " ": "stop",
+};
+
+function element(tag, style, more = {}) {
+  const made = Object.assign(document.createElement(tag), more);
+  Object.assign(made.style, style);
+  return made;
+}
+
+export default () => {
+  const layers = new Layers();
+  const views = new Set();
+  let opened = false, drawn = 0, driving = false;
+
+  return {
+    initialize({ model }) {
+      model.on("msg:custom", (header, buffers) => {
+        if (header?.kind != "frame") return;
+        layers.take(header, buffers[0]);
+        for (const view of views) view();
+      });
+    },
+
+    render({ model, el }) {
+      const text = { font: "13px system-ui, sans-serif", color: "var(--jp-ui-font-color1, #333)" };
+      const head = element("div", { ...text, fontWeight: "600", padding: "2px 0" });
+      const bar = element("div", { ...text, display: "flex", gap: "8px", minHeight: "22px" });
+      const status = element("div", { flex: "1", padding: "3px 0" }, { className: "slamlab-status" });
+      const fit = element("button", { font: "inherit" }, { textContent: "fit", title: "show all" });
+      const canvas = element("canvas", {
+        display: "block", width: "100%", touchAction: "none", borderRadius: "3px", cursor: "grab",
+      }, { tabIndex: 0 });
+      const root = element("div", { maxWidth: `${model.get("width")}px` }, { className: "slamlab-live" });
+      // the notebook would take the arrow keys for itself
+      root.dataset.lmSuppressShortcuts = "true";
+      head.textContent = model.get("title");
+      canvas.setAttribute("role", "img");
+      canvas.setAttribute("aria-label", model.get("alt"));
+      bar.append(status, fit);
+      root.append(head, canvas, bar);
+      el.append(root);
+
+      const camera = new Camera(model.get("width"), model.get("height"));
+      let due = false;
+      const paint = () => {
+        due = false;
+        if (!layers.header) return;
+        const wide = canvas.clientWidth || model.get("width");
+        camera.width = wide;
+        camera.height = Math.round(wide * model.get("height") / model.get("width"));
+        camera.follow(layers.bounds(), layers.header.run);
+        draw(canvas, camera, layers);
+        status.textContent = layers.header.status;
+        const { number, behind } = layers.header;
+        root.dataset.frame = number;
+        root.dataset.behind = Math.max(behind, root.dataset.behind ?? 0);
+        driving = false;
+        if (number > drawn) {
+          drawn = number;
+          model.send({ kind: "drawn", number });
+        }
+      };
+      const repaint = () => {
+        if (!due) requestAnimationFrame(paint);
+        due = true;
+      };
+
+      views.add(repaint);
+      const resized = new ResizeObserver(repaint);
+      resized.observe(canvas);
+      const place = (event) => {
+        const box = canvas.getBoundingClientRect();
+        return [event.clientX - box.left, event.clientY - box.top];
+      };
+      canvas.addEventListener("wheel", (event) => {
+        event.preventDefault();
+        camera.zoom(Math.exp(-0.0015 * event.deltaY), ...place(event));
+        repaint();
+      }, { passive: false });
+      canvas.addEventListener("pointerdown", (event) => {
+        canvas.focus({ preventScroll: true });
+        canvas.setPointerCapture(event.pointerId);
+        canvas.style.cursor = "grabbing";
+      });
+      canvas.addEventListener("pointerup", () => { canvas.style.cursor = "grab"; });
+      canvas.addEventListener("pointermove", (event) => {
+        if (!event.buttons) return;
+        camera.pan(event.movementX, event.movementY);
+        repaint();
+      });
+      const all = () => {
+        camera.fitted = true;
+        camera.fit(layers.bounds());
+        repaint();
+      };
+      canvas.addEventListener("dblclick", all);
+      fit.addEventListener("click", all);
+      canvas.addEventListener("keydown", (event) => {
+        if (!(event.key in KEYS) || event.ctrlKey || event.altKey || event.metaKey) return;
+        event.preventDefault();
+        event.stopPropagation();
+        // a key that is held repeats faster than a robot drives: one command a picture
+        if (driving) return;
+        driving = event.key != " ";
+        model.send({ kind: "key", name: KEYS[event.key] });
+      });
+
+      if (layers.header) repaint();
+      if (!opened) model.send({ kind: "ready" });
+      opened = true;
+      return () => {
+        views.delete(repaint);
+        resized.disconnect();
+      };
+    },
+  };
+};

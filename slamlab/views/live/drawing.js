@@ -1,0 +1,210 @@
+// Drawing layers on a canvas, in the colours that frames bring.
+
+const PAPER = "#ffffff", INK = "#333333", GRID = "#e4e4e4", AXIS = "#9a9a9a";
+const FONT = "12px system-ui, sans-serif";
+
+function grid(g, camera) {
+  const [w, h] = camera.inner();
+  const raw = 70 / camera.scale, power = 10 ** Math.floor(Math.log10(raw));
+  const step = [1, 2, 5, 10].map((n) => n * power).find((s) => s >= raw);
+  const digits = Math.max(0, -Math.floor(Math.log10(step)));
+  g.font = FONT;
+  g.lineWidth = 1;
+  const line = (at, horizontal) => {
+    g.strokeStyle = Math.abs(at) < step / 2 ? AXIS : GRID;
+    g.beginPath();
+    if (horizontal) {
+      const y = Math.round(camera.py(at)) + 0.5;
+      g.moveTo(MARGIN.left, y);
+      g.lineTo(MARGIN.left + w, y);
+    } else {
+      const x = Math.round(camera.px(at)) + 0.5;
+      g.moveTo(x, MARGIN.top);
+      g.lineTo(x, MARGIN.top + h);
+    }
+    g.stroke();
+  };
+  const ticks = (low, high) => {
+    const found = [];
+    for (let n = Math.ceil(low / step); n * step <= high; n++) found.push(n * step);
+    return found;
+  };
+  g.fillStyle = INK;
+  g.textBaseline = "top";
+  g.textAlign = "center";
+  for (const x of ticks(camera.wx(MARGIN.left), camera.wx(MARGIN.left + w))) {
+    line(x, false);
+    g.fillText(x.toFixed(digits), camera.px(x), MARGIN.top + h + 4);
+  }
+  g.fillText("x [m]", MARGIN.left + w / 2, MARGIN.top + h + 19);
+  g.textBaseline = "middle";
+  g.textAlign = "right";
+  for (const y of ticks(camera.wy(MARGIN.top + h), camera.wy(MARGIN.top))) {
+    line(y, true);
+    g.fillText(y.toFixed(digits), MARGIN.left - 5, camera.py(y));
+  }
+  g.save();
+  g.translate(9, MARGIN.top + h / 2);
+  g.rotate(-Math.PI / 2);
+  g.textAlign = "center";
+  g.fillText("y [m]", 0, 0);
+  g.restore();
+}
+
+// many points: written as pixels, which takes a few ms for 100 000
+function cloud(image, camera, ratio, layer) {
+  const pixels = new Uint32Array(image.data.buffer), { width, height } = image;
+  const rgb = parseInt(layer.colour.slice(1), 16);
+  const value = ((255 << 24) | ((rgb & 255) << 16) | (rgb & 0xff00) | (rgb >> 16)) >>> 0;
+  const size = Math.max(1, Math.round(ratio * (layer.rows.length > 4000 ? 1.5 : 2.5)));
+  const scale = camera.scale * ratio, half = size / 2 - 0.5;
+  const [mx, my] = camera.middle(), rows = layer.rows;
+  const ox = mx * ratio - camera.x * scale - half, oy = my * ratio + camera.y * scale - half;
+  for (let i = 0; i < rows.length; i += 2) {
+    const x = Math.round(ox + rows[i] * scale), y = Math.round(oy - rows[i + 1] * scale);
+    if (!(x >= 0 && y >= 0 && x + size <= width && y + size <= height)) continue;
+    for (let v = y; v < y + size; v++) pixels.fill(value, v * width + x, v * width + x + size);
+  }
+}
+
+const FEW = 300; // points up to so many are drawn as discs that can be told apart
+
+const DRAW = {
+  points(g, camera, { rows, colour }) {
+    g.fillStyle = colour;
+    for (let i = 0; i < rows.length; i += 2) disc(g, camera.px(rows[i]), camera.py(rows[i + 1]), 3);
+  },
+  segments(g, camera, { rows, colour }) {
+    g.strokeStyle = colour;
+    g.lineWidth = 2;
+    g.beginPath();
+    for (let i = 0; i < rows.length; i += 4) {
+      g.moveTo(camera.px(rows[i]), camera.py(rows[i + 1]));
+      g.lineTo(camera.px(rows[i + 2]), camera.py(rows[i + 3]));
+    }
+    g.stroke();
+  },
+  poses(g, camera, { rows, colour }, radius) {
+    g.strokeStyle = colour;
+    g.lineWidth = 1.5;
+    g.lineJoin = "round";
+    g.beginPath();
+    for (let i = 0; i < rows.length; i += 3) g.lineTo(camera.px(rows[i]), camera.py(rows[i + 1]));
+    g.stroke();
+    if (rows.length < 3) return;
+    const [x, y, theta] = rows.subarray(rows.length - 3);
+    const px = camera.px(x), py = camera.py(y), r = Math.max(radius * camera.scale, 8);
+    g.lineWidth = 2.5;
+    g.fillStyle = colour + "30";
+    g.beginPath();
+    g.arc(px, py, r, 0, 2 * Math.PI);
+    g.fill();
+    g.stroke();
+    g.beginPath();
+    g.moveTo(px, py);
+    g.lineTo(px + 1.5 * r * Math.cos(theta), py - 1.5 * r * Math.sin(theta));
+    g.stroke();
+  },
+  ellipses(g, camera, { rows, colour }) {
+    g.strokeStyle = colour;
+    g.lineWidth = 1.5;
+    for (let i = 0; i < rows.length; i += 5) {
+      const [x, y, a, b, angle] = rows.subarray(i, i + 5);
+      g.beginPath();
+      g.ellipse(camera.px(x), camera.py(y), a * camera.scale, b * camera.scale, -angle, 0, 2 * Math.PI);
+      g.stroke();
+    }
+  },
+  boxes(g, camera, { rows, colour }) {
+    g.strokeStyle = colour;
+    g.lineWidth = 1.5;
+    for (let i = 0; i < rows.length; i += 4) {
+      const [x0, x1, y0, y1] = rows.subarray(i, i + 4);
+      g.strokeRect(camera.px(x0), camera.py(y1), (x1 - x0) * camera.scale, (y1 - y0) * camera.scale);
+    }
+  },
+  samples(g, camera, { rows, colour }) {
+    g.fillStyle = colour + "99";
+    for (let i = 0; i < rows.length; i += 3) {
+      const area = 2 + 6 * rows[i + 2];
+      disc(g, camera.px(rows[i]), camera.py(rows[i + 1]), Math.sqrt(area / 2));
+    }
+  },
+};
+
+function disc(g, x, y, r) {
+  g.beginPath();
+  g.arc(x, y, r, 0, 2 * Math.PI);
+  g.fill();
+}
+
+// one entry a name and colour, with the marks of all its kinds
+function legend(g, camera, list) {
+  const entries = new Map();
+  for (const { name, colour, kind } of list) {
+    const key = name + colour;
+    if (!entries.has(key)) entries.set(key, { name, colour, kinds: new Set() });
+    entries.get(key).kinds.add(kind);
+  }
+  if (!entries.size) return;
+  g.font = FONT;
+  const shown = [...entries.values()];
+  const wide = Math.max(...shown.map(({ name }) => g.measureText(name).width)) + 44;
+  const left = camera.width - MARGIN.right - wide - 6, top = MARGIN.top + 6;
+  g.fillStyle = "#ffffffd9";
+  g.strokeStyle = GRID;
+  g.lineWidth = 1;
+  g.fillRect(left, top, wide, 18 * shown.length + 6);
+  g.strokeRect(left + 0.5, top + 0.5, wide - 1, 18 * shown.length + 5);
+  shown.forEach(({ name, colour, kinds }, n) => {
+    const y = top + 12 + 18 * n, x = left + 20;
+    g.strokeStyle = g.fillStyle = colour;
+    g.lineWidth = 2;
+    g.beginPath();
+    if (kinds.has("poses") || kinds.has("segments")) {
+      g.moveTo(x - 13, y);
+      g.lineTo(x + 13, y);
+    }
+    if (kinds.has("ellipses")) g.ellipse(x, y, 11, 6, 0, 0, 2 * Math.PI);
+    if (kinds.has("boxes")) g.rect(x - 10, y - 5, 20, 10);
+    g.stroke();
+    if (kinds.has("points") || kinds.has("samples")) disc(g, x, y, 3.5);
+    g.fillStyle = INK;
+    g.textAlign = "left";
+    g.textBaseline = "middle";
+    g.fillText(name, left + 38, y);
+  });
+}
+
+function draw(canvas, camera, layers) {
+  const ratio = window.devicePixelRatio || 1;
+  const wide = Math.round(camera.width * ratio), high = Math.round(camera.height * ratio);
+  if (canvas.width != wide || canvas.height != high) Object.assign(canvas, { width: wide, height: high });
+  const g = canvas.getContext("2d");
+  g.setTransform(ratio, 0, 0, ratio, 0, 0);
+  g.fillStyle = PAPER;
+  g.fillRect(0, 0, camera.width, camera.height);
+  grid(g, camera);
+  const [w, h] = camera.inner();
+  const many = ({ kind, rows }) => kind == "points" && rows.length > 2 * FEW;
+  const clouds = layers.list.filter(many);
+  g.save();
+  g.beginPath();
+  g.rect(MARGIN.left, MARGIN.top, w, h);
+  g.clip();
+  if (clouds.length) {
+    const image = new ImageData(wide, high);
+    for (const layer of clouds) cloud(image, camera, ratio, layer);
+    const sheet = new OffscreenCanvas(wide, high);
+    sheet.getContext("2d").putImageData(image, 0, 0);
+    g.drawImage(sheet, 0, 0, camera.width, camera.height);
+  }
+  for (const layer of layers.list) {
+    if (!many(layer)) DRAW[layer.kind](g, camera, layer, layers.header.radius);
+  }
+  g.restore();
+  g.strokeStyle = AXIS;
+  g.lineWidth = 1;
+  g.strokeRect(MARGIN.left + 0.5, MARGIN.top + 0.5, w - 1, h - 1);
+  legend(g, camera, layers.list);
+}

@@ -1,0 +1,199 @@
+"""The loop behind a live view: steps a pair, shows each step, waits until it is drawn."""
+
+import asyncio
+from dataclasses import replace
+from time import monotonic
+
+from slamlab.views.live.packing import Scene
+
+PICTURES = 20  # a second, at most; more steps than these share a picture
+BREATH = 0.005  # [s] left to the kernel between two pictures, to hear of a press
+BUSY = 0.1  # [s] of steps in a row, then a picture
+STANDING = 0.1  # [s] between looks whether a robot that stands has got a command
+
+COMMANDS = {"forward": (1, 0), "back": (-1, 0), "left": (0, 1), "right": (0, -1), "stop": None}
+"""What can be commanded: shares of top speed and top turn rate."""
+
+_running = None  # the one loop that runs: a cell that is run again leaves none behind
+
+
+class Loop:
+    """Runs, pauses, steps, resets and drives a pair, on a screen.
+
+    Parameters
+    ----------
+    pair : Pair, reset already
+    screen : Screen
+    seed : int, of the pair as it stands
+    speed : float, steps a second
+    tops : (speed, turn rate) of commands [m/s, rad/s]
+    play : bool, whether it runs as soon as a browser shows it
+
+    ``on_change()`` is called when it begins or ceases to run or gets another source.
+    """
+
+    def __init__(self, pair, screen, seed=0, speed=5.0, tops=(0.4, 0.6), play=False):
+        self.pair, self.screen, self.seed, self.speed = pair, screen, seed, speed
+        self.tops, self.play, self.trouble = tops, play, ""
+        self.on_change = lambda: None
+        self._task, self._scene = None, Scene([])
+        screen.on_ready, screen.on_closed, screen.on_key = self._ready, self.pause, self.drive
+
+    @property
+    def running(self):
+        """bool"""
+        return self._task is not None
+
+    def run(self):
+        """Step after step; from the start where the end was reached."""
+        global _running
+        stop()
+        if self.pair.played and not self.pair.drivable and not self._do(self._renew):
+            return
+        _running = self
+        self._task = asyncio.get_running_loop().create_task(self._run())
+        self.on_change()
+
+    def pause(self):
+        """Stop after the step that is being made."""
+        global _running
+        self._task = None
+        if _running is self:
+            _running = None
+        self.on_change()
+
+    def step(self):
+        """One step, then pause."""
+        self.pause()
+        self._do(self.pair.step)
+        self.show()
+
+    def reset(self, seed=None, pair=None):
+        """Begin anew and pause.
+
+        Parameters
+        ----------
+        seed : int, or None for the same
+        pair : Pair to go on with, or None for the same
+        """
+        self.pause()
+        self.seed = self.seed if seed is None else seed
+        self.pair = self.pair if pair is None else pair
+        self._do(self._renew)
+        self.on_change()
+        self.show()
+
+    def drive(self, name):
+        """While it runs, steer; else drive one step.
+
+        Parameters
+        ----------
+        name : str, one of COMMANDS; others, which a browser may send, are ignored
+        """
+        if name not in COMMANDS:
+            return
+        command = self.command(name)
+        if self.running and self.pair.drivable and self.pair.played:
+            self.pair.command = command
+        elif command is not None:
+            self._do(lambda: self.pair.drive(command))
+            self.show()
+
+    def command(self, name):
+        """The speed and turn rate that a command stands for.
+
+        Parameters
+        ----------
+        name : str, one of COMMANDS
+
+        Returns
+        -------
+        (2,) [m/s, rad/s], or None for stop
+        """
+        if COMMANDS[name] is None:
+            return None
+        (v, omega), (v_top, omega_top) = COMMANDS[name], self.tops
+        return v * v_top, omega * omega_top
+
+    def show(self):
+        """Offer the screen what there is to see; a mistake in it is told as any other."""
+        trouble = self.trouble
+        self.trouble = (self._do(self._look) and trouble) or self.trouble
+        scene = self._scene
+        if self.trouble:
+            scene = replace(scene, status=f"stopped: {self.trouble}")
+        self.screen.offer(scene)
+
+    def _look(self):
+        scene = self.pair.scene()
+        _ = scene.drawables  # what cannot be drawn is found here, not on the way to the browser
+        self._scene = scene
+
+    def _renew(self):
+        self.pair.reset(self.seed)
+
+    def _do(self, function):
+        """Do it; a mistake has no cell to fail in, so it stops the loop and is told."""
+        self.trouble = ""
+        try:
+            function()
+        except Exception as error:
+            self.trouble = sentence(error)
+            self.pause()
+        return not self.trouble
+
+    def _ready(self):
+        self.show()
+        if self.play and not self.running:
+            self.play = False
+            self.run()
+
+    async def _run(self):
+        # JupyterLab may run messages and cells in two threads, and a task is cancelled safely only
+        # from its own: so it asks whether it is still the one that runs
+        mine = asyncio.current_task()
+        while self._task is mine:
+            began = monotonic()
+            made = self._steps(mine)
+            if made or self.trouble:
+                self.show()
+            elif not self.pair.drivable:
+                self.pause()
+            pace = max(1 / self.speed, 1 / PICTURES) if made else STANDING
+            await asyncio.sleep(max(pace - (monotonic() - began), BREATH))
+            while self._task is mine and not self.screen.free:
+                await self.screen.until_drawn()
+
+    def _steps(self, mine):
+        """Make the steps of one picture; False where there was none to make."""
+        began, made = monotonic(), 0
+        while self._task is mine and made < max(self.speed / PICTURES, 1):
+            before = self.pair.count
+            if not self._do(self.pair.step) or self.pair.count == before:
+                break
+            made += 1
+            if monotonic() - began > BUSY:
+                break
+        return bool(made)
+
+
+def stop():
+    """Stop whatever runs; harmless when nothing does."""
+    if _running is not None:
+        _running.pause()
+
+
+def sentence(error):
+    """A mistake in one line, without a traceback.
+
+    Parameters
+    ----------
+    error : Exception
+
+    Returns
+    -------
+    str
+    """
+    text = " ".join(str(error).split()) or "no more is known"
+    # what the course raises on purpose says all there is to say
+    return text if isinstance(error, ValueError) else f"{type(error).__name__}: {text}"

@@ -1,0 +1,164 @@
+"""Layers as a frame: a header of words and numbers, and all rows as one piece of float32 bytes."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from matplotlib.colors import to_hex
+
+from slamlab.layers import Boxes, Ellipses, Layer, Points, Poses, Samples, Segments
+from slamlab.views.layers import SIGMAS_95, colour
+
+
+@dataclass(frozen=True)
+class Drawable:
+    """A layer as rows of numbers for the screen.
+
+    Parameters
+    ----------
+    kind : str, name of the layer's class in small letters
+    name : str, for the legend
+    colour : str, #rrggbb
+    rows : (n, width) float32 [m, rad]: points x y; segments x1 y1 x2 y2; poses x y θ; ellipses
+        x y, half axes a b, direction of a; boxes x_min x_max y_min y_max; samples x y weight·n
+    """
+
+    kind: str
+    name: str
+    colour: str
+    rows: np.ndarray
+
+
+@dataclass(frozen=True)
+class Scene:
+    """What is to be seen at one moment.
+
+    Parameters
+    ----------
+    layers : list of Layer
+    status : str, one line
+    radius : float, of the robot [m]
+    run : int, another number for another run: the view is fitted anew
+    colours : dict or None, layer's name to colour where it is not the usual one
+    """
+
+    layers: list[Layer]
+    status: str = ""
+    radius: float = 0.15
+    run: int = 0
+    colours: dict | None = None
+
+    @cached_property
+    def drawables(self):
+        """List of Drawable, every layer as rows; a TypeError where something is no layer."""
+        own = self.colours or {}
+        return [
+            Drawable(
+                type(layer).__name__.lower(),
+                layer.name,
+                to_hex(own.get(layer.name) or colour(layer)),
+                rows(layer),
+            )
+            for layer in self.layers
+        ]
+
+
+def rows(layer):
+    """A layer's numbers, see :class:`Drawable`.
+
+    Parameters
+    ----------
+    layer : Layer
+
+    Returns
+    -------
+    (n, width) float32
+
+    Raises
+    ------
+    TypeError : when it is no layer
+    """
+    match layer:
+        case Points():
+            return _table(layer.xy, 2)
+        case Segments() | Boxes():
+            return _table(layer.rows, 4)
+        case Poses():
+            return _table(layer.rows, 3)
+        case Ellipses():
+            return _ellipses(_table(layer.centres, 2), np.asarray(layer.covariances, dtype=float))
+        case Samples():
+            weights = np.asarray(layer.weights, dtype=float)
+            xy = np.asarray(layer.rows, dtype=float)[:, :2]
+            return _table(np.column_stack([xy, weights * len(weights)]), 3)
+    raise TypeError(f"cannot pack {type(layer).__name__}: expected a layer of slamlab.layers")
+
+
+def _table(values, width):
+    return np.asarray(values, dtype=np.float32).reshape(-1, width)
+
+
+def _ellipses(centres, covariances):
+    """Centres, half axes of the 95 % ellipses, direction of the first axis."""
+    if not len(centres):
+        return np.empty((0, 5), np.float32)
+    variances, directions = np.linalg.eigh(covariances)
+    # rounding may leave a variance a hair below zero
+    half = SIGMAS_95 * np.sqrt(np.maximum(variances, 0.0))
+    angle = np.arctan2(directions[:, 1, 0], directions[:, 0, 0])
+    return _table(np.column_stack([centres, half, angle]), 5)
+
+
+class Packer:
+    """Packs for one screen and remembers what it has: rows that only grew are not sent again.
+
+    Frames must arrive in order and all of them, which a comm of Jupyter guarantees.
+    """
+
+    def __init__(self):
+        self._there = {}
+
+    def forget(self):
+        """The screen is a new one and has nothing."""
+        self._there = {}
+
+    def pack(self, drawables):
+        """What the screen needs, to have these layers and no others.
+
+        Parameters
+        ----------
+        drawables : list of Drawable
+
+        Returns
+        -------
+        (list of dict, bytes) : per layer its key, kind, name, colour, width of a row, how many
+            rows to keep of those that the screen has under this key and how many follow; the
+            following rows of all layers, float32 little-endian, in the same order
+        """
+        there, entries, pieces = {}, [], []
+        for drawable in drawables:
+            key = f"{drawable.kind} {drawable.name}"
+            while key in there:
+                key += "'"
+            keep = self._kept(key, drawable.rows)
+            pieces.append(drawable.rows[keep:].astype("<f4", order="C").tobytes())
+            entries.append(
+                {
+                    "key": key,
+                    "kind": drawable.kind,
+                    "name": drawable.name,
+                    "colour": drawable.colour,
+                    "width": drawable.rows.shape[1],
+                    "keep": keep,
+                    "follow": len(drawable.rows) - keep,
+                }
+            )
+            there[key] = drawable.rows
+        self._there = there
+        return entries, b"".join(pieces)
+
+    def _kept(self, key, new):
+        old = self._there.get(key)
+        if old is None or len(old) > len(new) or not np.array_equal(old, new[: len(old)]):
+            return 0
+        return len(old)

@@ -1,0 +1,134 @@
+"""A source and an estimator, one step at a time, and what there is to see of them."""
+
+import numpy as np
+
+from slamlab.layers import Poses
+from slamlab.views.live.packing import Scene
+
+
+class Pair:
+    """Steps an estimator over a source; makes both anew from a seed.
+
+    Nothing is imported that estimates: estimators are handed in, those drawn beside, too.
+
+    Parameters
+    ----------
+    make_source : callable(rng) -> Source, or a Source
+    make_estimator : callable(source) -> Estimator, or an Estimator
+    beside : dict or None, name to callable(source) -> Estimator that takes in the same readings;
+        its track is drawn under that name
+    extra : callable(source, estimator) -> layers, drawn beneath the estimator's, or None
+    note : callable(source, estimator) -> str, more for the status line, or None
+    truth : bool, whether the true track is drawn where it is known
+    colours : dict or None, layer's name to colour where it is not the usual one
+    """
+
+    def __init__(
+        self, make_source, make_estimator, beside=None, extra=None, note=None, truth=True,
+        colours=None,
+    ):  # fmt: skip
+        self._make_source, self._make_estimator = make_source, make_estimator
+        self._beside, self._extra, self._note = dict(beside or {}), extra, note
+        self._truth, self._colours = truth, colours
+        self.runs, self.source, self._used = 0, None, False
+
+    def reset(self, seed):
+        """Make source and estimators anew and take the first reading in.
+
+        Parameters
+        ----------
+        seed : int
+
+        Raises
+        ------
+        ValueError : the estimator was handed in ready-made and has been used
+        """
+        if not callable(self._make_estimator) and self._used:
+            raise ValueError("a ready-made estimator cannot start again: hand in what makes one")
+        if self.source is not None and callable(self._make_source):
+            self.source.close()
+        self.runs, self.count, self.time, self.command = self.runs + 1, 0, 0.0, None
+        self.source = _made(self._make_source, np.random.default_rng(seed))
+        self.estimator = _made(self._make_estimator, self.source)
+        self.others = {name: make(self.source) for name, make in self._beside.items()}
+        self._readings, self._used = iter(self.source), True
+        self.step()
+
+    @property
+    def drivable(self):
+        """bool, whether the robot can be driven, now or when its recorded part is over."""
+        return getattr(self.source, "drivable", False)
+
+    @property
+    def played(self):
+        """bool, whether every reading that the source has was taken in."""
+        return self.count >= len(self.source)
+
+    def step(self):
+        """Take in the next reading: a recorded one, else drive on by the last command.
+
+        Returns
+        -------
+        bool, whether there was one
+        """
+        reading = next(self._readings, None)
+        if reading is None and self.drivable and self.command is not None:
+            reading = self.source.drive(self.command)
+        if reading is not None:
+            self._take(reading)
+        return reading is not None
+
+    def drive(self, command):
+        """Drive for one step.
+
+        Parameters
+        ----------
+        command : (2,) speed, turn rate [m/s, rad/s]
+
+        Raises
+        ------
+        ValueError : a recording, or one that is not over yet
+        """
+        if not self.drivable:
+            raise ValueError(f"{self.source.name} is a recording: it cannot be driven")
+        if not self.played:
+            raise ValueError(f"drive when all {len(self.source)} recorded readings are played")
+        reading = self.source.drive(command)
+        if reading is not None:  # a real robot's readings come in their own time
+            self._take(reading)
+
+    def _take(self, reading):
+        self.count, self.time = self.count + 1, reading.time
+        for estimator in (self.estimator, *self.others.values()):
+            estimator.step(reading)
+
+    def scene(self):
+        """What there is to see now.
+
+        Returns
+        -------
+        Scene
+        """
+        layers = [] if self._extra is None else list(self._extra(self.source, self.estimator))
+        if self._truth and self.source.truth is not None:
+            layers.append(Poses("truth", self.source.truth.poses[: self.count]))
+        layers += [Poses(name, each.trajectory().poses) for name, each in self.others.items()]
+        layers += self.estimator.layers()
+        return Scene(layers, self.status(), self.source.robot.radius, self.runs, self._colours)
+
+    def status(self):
+        """One line: how far it went, what the estimator says, the note.
+
+        Returns
+        -------
+        str
+        """
+        whole = len(self.source)
+        step = f"step {self.count}" + (f" of {whole}" if whole > self.count else "")
+        note = self._note(self.source, self.estimator) if self._note is not None else ""
+        parts = [step, f"t = {self.time:.1f} s", self.estimator.status, note]
+        return " · ".join(part for part in parts if part)
+
+
+def _made(maker, material):
+    return maker(material) if callable(maker) else maker

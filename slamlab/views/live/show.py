@@ -1,0 +1,130 @@
+"""A live view in a notebook: the widgets, and the still picture that a notebook stores."""
+
+import ipywidgets
+from IPython.display import display
+
+from slamlab.layers import Points
+from slamlab.views.figures import axes, bundle
+from slamlab.views.layers import draw, legend
+from slamlab.views.live.controls import Controls
+from slamlab.views.live.loop import Loop, stop
+from slamlab.views.live.pair import Pair
+from slamlab.views.live.raster import RasterScreen
+
+
+def live(
+    source,
+    estimator,
+    alt,
+    *,
+    steps=20,
+    script=(),
+    beside=None,
+    extra=None,
+    note=None,
+    truth=True,
+    colours=None,
+    title="",
+    seed=0,
+    speed=5,
+    tops=(0.4, 0.6),
+    play=False,
+    size=(720, 480),
+    raster=False,
+):
+    """Run an estimator on a source, live, and store a still picture of its first steps.
+
+    The first steps are made at once, so that a mistake surfaces as any other; what a notebook
+    stores is the picture after them, and where a browser shows the live view, it goes on from
+    there. Calling this stops whatever runs, so that a cell can be run again.
+
+    Parameters
+    ----------
+    source : callable(rng) -> Source, such as ``partial(sources.simulation, "room")``; or a Source;
+        or a dict of them by title, for a button each, the first one first
+    estimator : callable(source) -> Estimator, such as ``partial(estimators.make, "icp")``; or an
+        Estimator, which then cannot be reset
+    alt : str, what the still picture shows
+    steps : int, readings taken in for the still picture
+    script : sequence of names of commands that follow them, such as ``["forward", "left"]``
+    beside : dict or None, name to callable(source) -> Estimator, whose track is drawn, too
+    extra : callable(source, estimator) -> layers to draw beneath, or None
+    note : callable(source, estimator) -> str, more for the status line, or None
+    truth : bool, whether the true track is drawn where it is known
+    colours : dict or None, layer's name to colour where it is not the usual one
+    title : str
+    seed : int, what source and estimator are made anew from
+    speed : float, steps a second
+    tops : (speed, turn rate) that the buttons command [m/s, rad/s]
+    play : bool, whether it runs as soon as a browser shows it
+    size : (width, height) [pixels]
+    raster : bool, a picture of plain ipywidgets, for where anywidget is missing or not let in
+
+    Returns
+    -------
+    Loop, to look at or drive from another cell
+
+    Raises
+    ------
+    ValueError : without a text; a script for what cannot be driven
+    """
+    stop()
+    given = source if isinstance(source, dict) else {title: source}
+    pairs = {
+        name: Pair(each, estimator, beside, extra, note, truth, colours)
+        for name, each in given.items()
+    }
+    pair = next(iter(pairs.values()))
+    pair.reset(seed)
+    while pair.count < steps and pair.step():
+        pass
+    shown = _screen(raster)(alt=alt, title=title, size=size)
+    loop = Loop(pair, shown, seed, speed, tops, play)
+    for name in script:
+        pair.drive(loop.command(name))
+    data, metadata = bundle(still(pair.scene(), title, size), alt)
+    box = ipywidgets.VBox([Controls(loop, pairs).widget, shown.widget])
+    # an image has no browser's side that could ask for the first picture
+    if isinstance(shown, RasterScreen):
+        loop.show()
+    display((box._repr_mimebundle_() or {}) | data, metadata=metadata, raw=True)
+    return loop
+
+
+def still(scene, title, size):
+    """A scene as a figure.
+
+    Parameters
+    ----------
+    scene : Scene
+    title : str
+    size : (width, height) [pixels]
+
+    Returns
+    -------
+    Figure
+    """
+    fig, ax = axes(title or None, (size[0] / 100, size[1] / 100))
+    named = set()
+    for layer, drawable in zip(scene.layers, scene.drawables, strict=True):
+        # one entry in the legend for all that has a name
+        label = f"_{layer.name}" if layer.name in named else layer.name
+        named.add(layer.name)
+        few = isinstance(layer, Points) and len(layer.xy) <= 300
+        style = {"markersize": 7} if few else {}
+        draw(ax, layer, color=drawable.colour, label=label, **style)
+    if named:
+        legend(ax, loc="upper right", fontsize="small")
+    fig.supxlabel(scene.status, fontsize="small")
+    return fig
+
+
+def _screen(raster):
+    """The class of screen to show on; anywidget is imported late: most notebooks need none."""
+    if raster:
+        return RasterScreen
+    try:
+        from slamlab.views.live.canvas import LiveCanvas
+    except ImportError:
+        return RasterScreen
+    return LiveCanvas
