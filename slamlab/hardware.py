@@ -14,12 +14,17 @@ class RobotModel:
     distance_error : float, standard deviation as a share of the distance [1]
     turn_error : float, standard deviation as a share of the turn [1]
     turn_per_metre : float, standard deviation of the turn picked up per metre [rad/m]
+    slip : float, of each of two wheels, standard deviation after 1 m, growing with the root of the
+        way [m/√m]
+    base : float, distance of these wheels [m]
     radius : float, for drawing [m]
     """
 
     distance_error: float = 0.05
     turn_error: float = 0.05
     turn_per_metre: float = 0.05
+    slip: float = 0.0
+    base: float = 0.3
     radius: float = 0.15
 
 

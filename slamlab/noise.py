@@ -25,6 +25,27 @@ def C_odometry(u, distance_error, turn_error, turn_per_metre=0.0):
     )
 
 
+def C_wheels(u, slip, base):
+    """Covariance of distance and turn of two wheels that slip at random.
+
+    d = (l + r)/2 and Δθ = (r − l)/b, l and r having the variances s² |l| and s² |r|
+
+    Parameters
+    ----------
+    u : (2,) distance d [m], turn Δθ [rad]
+    slip : float s, standard deviation of a wheel's way after 1 m [m/√m]
+    base : float b, distance of the wheels [m]
+
+    Returns
+    -------
+    (2, 2) [m², rad²]
+    """
+    d, turn = u
+    left, right = slip**2 * abs(d - turn * base / 2), slip**2 * abs(d + turn * base / 2)
+    both, apart = left + right, right - left
+    return np.array([[both / 4, apart / (2 * base)], [apart / (2 * base), both / base**2]])
+
+
 def Q(W, C):
     """Covariance of the pose after a motion with noisy controls: Q = W C Wᵀ (Smolec (8), mended).
 

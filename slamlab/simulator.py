@@ -38,22 +38,20 @@ class DifferentialDrive:
         if not self.slip >= 0:
             raise ValueError(f"slip is a standard deviation, not negative: {self.slip}")
 
-    def model(self, step=0.2):
-        """What an estimator is told of this odometry, for steps of about ``step`` [m].
+    @property
+    def model(self):
+        """What an estimator is told of this odometry, a RobotModel.
 
-        Random slip and constant scale errors together, as standard deviations.
-
-        Returns
-        -------
-        RobotModel
+        Slip as it is; the constant errors of the scales as standard deviations.
         """
-        slip = self.slip / np.sqrt(step)  # of one wheel, as a share of the way
         mean = (self.left_scale + self.right_scale) / 2 - 1
         difference = self.right_scale - self.left_scale
         return RobotModel(
-            distance_error=float(np.hypot(slip / np.sqrt(2), mean)),
+            distance_error=abs(mean),
             turn_error=float(np.hypot(mean, self.base_scale - 1)),
-            turn_per_metre=float(np.hypot(slip * np.sqrt(2), difference) / self.base),
+            turn_per_metre=abs(difference) / self.base,
+            slip=self.slip,
+            base=self.base,
             radius=self.radius,
         )
 

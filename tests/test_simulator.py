@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from slamlab.estimators.mak import Q_arc
 from slamlab.geometry import between, compose, inverse
 from slamlab.simulator import DifferentialDrive, Simulator, arc, follow
 from tests.laws import assert_same_pose
@@ -110,18 +111,30 @@ def test_slip_is_not_felt_by_the_encoders_and_standing_still_does_not_slip():
     np.testing.assert_array_equal(driven(robot, [(0.0, 0.0, 5.0)])[0], np.zeros(3))
 
 
-def test_the_model_tells_the_spread_that_the_robot_shows():
-    robot, step = replace(FINE, slip=0.01), 0.2
-    told = robot.model(step)
-    simulator = Simulator(robot, rng(5))
-    ways_and_turns = []
+@pytest.mark.parametrize(("way", "turn"), [(0.2, 0.0), (0.0, 0.4), (0.15, -0.3)])
+def test_the_model_tells_the_spread_that_the_robot_shows(way, turn):
+    robot = replace(FINE, slip=0.01)
+    told = robot.model
+    simulator, ends = Simulator(robot, rng(5)), []
     for _ in range(4000):
         simulator.pose = np.zeros(3)
-        simulator.step(step, 0.0, 1.0)
-        ways_and_turns.append(simulator.pose[[0, 2]])
-    way, turn = np.std(ways_and_turns, axis=0)
-    assert way == pytest.approx(told.distance_error * step, rel=0.08)
-    assert turn == pytest.approx(told.turn_per_metre * step, rel=0.08)
+        simulator.step(way, turn, 1.0)
+        ends.append(
+            simulator.pose
+            - arc(way - turn * robot.base / 2, way + turn * robot.base / 2, robot.base)
+        )
+    Q = Q_arc(
+        np.zeros(3), arc(way - turn * robot.base / 2, way + turn * robot.base / 2, robot.base), told
+    )
+    found, unit = np.cov(np.array(ends).T), np.sqrt(np.diag(Q)) + 1e-3
+    np.testing.assert_allclose(found / np.outer(unit, unit), Q / np.outer(unit, unit), atol=0.09)
+
+
+def test_constant_errors_of_the_scales_are_told_as_deviations():
+    told = replace(FINE, left_scale=0.98, right_scale=1.0, base_scale=1.03).model
+    assert told.distance_error == pytest.approx(0.01)
+    assert told.turn_error == pytest.approx(np.hypot(0.01, 0.03))
+    assert told.turn_per_metre == pytest.approx(0.02 / FINE.base)
 
 
 def test_the_same_generator_drives_the_same_way():

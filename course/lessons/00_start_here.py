@@ -195,6 +195,7 @@ for theta in (25, 115):
 # | J_xr | `jacobians.J_xr_line(x, z)` | (2, 3) | | ∂g/∂x of a line |
 # | J_z | `jacobians.J_z_line(x, z)` | (2, 2) | | ∂g/∂z of a line |
 # | C | `noise.C_odometry(u, distance_error, turn_error)` | (2, 2) | m², rad² | covariance of the control |
+# | C | `noise.C_wheels(u, slip, base)` | (2, 2) | m², rad² | the same of two wheels that slip at random |
 # | Q | `noise.Q(W, C)` | (3, 3) | m², rad² | covariance a motion adds to the pose: W C Wᵀ |
 # | R | `noise.R(r, range_error, bearing_sigma)` | (2, 2) | m², rad² | covariance of one observation |
 # | | `geometry.wrap(angle)` | () | rad | the same angle in (−π, π] |

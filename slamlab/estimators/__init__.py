@@ -4,8 +4,9 @@ from slamlab.estimators.base import Estimator
 from slamlab.estimators.icp import IcpSlam
 from slamlab.estimators.mak import MakSlam, mak
 from slamlab.estimators.odometry import Odometry
+from slamlab.estimators.walls import WallSlam, walls
 
-__all__ = ["NAMES", "Estimator", "IcpSlam", "MakSlam", "Odometry", "make"]
+__all__ = ["NAMES", "Estimator", "IcpSlam", "MakSlam", "Odometry", "WallSlam", "make"]
 
 MAKERS = {
     "odometry": lambda source: Odometry(),
@@ -13,6 +14,7 @@ MAKERS = {
     "icp-plain": lambda source: IcpSlam(plain=True),
     "mak": mak,
     "mak-first-estimates": lambda source: mak(source, first_estimates=True),
+    "walls": walls,
 }
 NAMES = tuple(MAKERS)
 

@@ -100,11 +100,12 @@ def Q_arc(pose, odometry, robot):
     (3, 3) [m², m², rad²]
     """
     d, turn = np.hypot(odometry[0], odometry[1]), odometry[2]
-    direction = pose[2] + np.arctan2(odometry[1], odometry[0])
+    # who turns on the spot and slips goes where the arc would have led
+    direction = pose[2] + (np.arctan2(odometry[1], odometry[0]) if d > 0 else turn / 2)
     c, s = np.cos(direction), np.sin(direction)
     W = np.array([[c, -d / 2 * s], [s, d / 2 * c], [0, 1]])
     C = noise.C_odometry((d, turn), robot.distance_error, robot.turn_error, robot.turn_per_metre)
-    return noise.Q(W, C)
+    return noise.Q(W, C + noise.C_wheels((d, turn), robot.slip, robot.base))
 
 
 def mak(source, first_estimates=False):

@@ -1,5 +1,7 @@
 """Simulated robots as a source of readings: the ready worlds, toured or driven by hand."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from slamlab import worlds
@@ -19,7 +21,19 @@ ROBOT = DifferentialDrive(left_scale=0.9985, right_scale=1.0015, base_scale=0.99
 TOURS = {
     "room": [(3.1, -0.6), (4.9, -0.9), (4.9, 1.2), (3.6, 2.6), (1.6, 2.3), (0.3, 1.6), (0.0, 0.0)],
     "corridor": [(12.0, 0.0), (12.0, 8.0), (-1.0, 8.0), (-1.0, 0.0), (0.0, 0.0)],
+    "situation-1": [
+        *[(0.0, 0.8), (0.0, 2.75), (0.0, 5.0), (1.8, 6.2), (-0.8, 6.2), (0.0, 4.5), (0.0, 2.75)],
+        *[(5.0, 2.75), (5.0, 4.5), (6.5, 6.2), (5.0, 4.5), (5.0, 1.0), (6.5, -0.8), (5.0, 0.5)],
+        *[(5.0, 2.75), (0.0, 2.75), (0.0, 0.0)],
+    ],
+    "situation-2": [
+        *[(0.9, -0.6), (-0.6, -2.0), (-3.0, -1.4), (-4.4, -1.4), (-4.4, -3.8), (-3.2, -3.6)],
+        *[(-3.2, -2.2), (-1.2, -1.2), (-1.8, 0.6), (0.8, 0.8), (0.0, 0.0)],
+    ],
 }
+THESIS_LIDAR = replace(RPLIDAR_A2, range_error=0.01)
+THESIS_ROBOT = DifferentialDrive(slip=0.01)
+"""For Smolec's situations: ranges 1 % off, exact wheels with Gaussian noise (§3.1, §3.2)."""
 
 POLYGON_TRUE_STEPS = np.array(
     [[np.radians(-45), 0.273], [np.radians(-45), 0.325], [0.0, 0.188]],
@@ -143,15 +157,17 @@ def _command(command):
     return v, omega
 
 
-def simulation(world_name, rng, lidar=RPLIDAR_A2, robot=ROBOT, tour=True):
+def simulation(world_name, rng, lidar=None, robot=None, tour=True):
     """A simulated run by its name.
 
     Parameters
     ----------
     world_name : str, one of NAMES
     rng : numpy.random.Generator
-    lidar : Scanner; among landmarks there is nothing to scan
-    robot : DifferentialDrive; only the tours use it, the other runs have odometry of their own
+    lidar : Scanner, by default an RPLIDAR_A2, for the situations THESIS_LIDAR; among landmarks
+        there is nothing to scan
+    robot : DifferentialDrive, by default ROBOT, for the situations THESIS_ROBOT; only the tours
+        use it, the other runs have odometry of their own
     tour : bool; False starts with one reading and waits for ``drive``
 
     Returns
@@ -166,6 +182,9 @@ def simulation(world_name, rng, lidar=RPLIDAR_A2, robot=ROBOT, tour=True):
         raise SourceError(f"no simulation {world_name!r}; there are: {', '.join(NAMES)}")
     if world_name == LANDMARKS:
         return LandmarkRun(Loop(), rng)
+    thesis = world_name.startswith("situation")
+    lidar = lidar or (THESIS_LIDAR if thesis else RPLIDAR_A2)
+    robot = robot or (THESIS_ROBOT if thesis else ROBOT)
     if world_name in POLYGON_RUNS:
         return _polygon(world_name, rng, lidar)
     return _toured(world_name, rng, lidar, robot, tour)
@@ -187,7 +206,7 @@ def _toured(name, rng, lidar, robot, tour):
         poses.append(simulator.pose)
         odometry.append(motion)
         controls.append(command)
-    world, model = worlds.by_name(name), robot.model()
+    world, model = worlds.by_name(name), robot.model
     return Simulation(f"sim:{name}", world, lidar, rng, poses, odometry, controls, model, simulator)
 
 

@@ -1,0 +1,156 @@
+"""EKF-SLAM with walls: lines of a scan, observed as (ρ, α) from the robot, in the MAK filter.
+
+Smolec's system with its landmark mended: a wall's distance and direction as seen from the robot are
+a measurement of their own, whereas the foot of the perpendicular is computed through the pose.
+"""
+
+import numpy as np
+
+from slamlab.estimators.base import Estimator
+from slamlab.estimators.mak import Q_arc
+from slamlab.filters.association import squared_distances
+from slamlab.filters.kinds import LINES
+from slamlab.filters.mak import MAK
+from slamlab.geometry import compose, transform
+from slamlab.landmarks.candidates import Candidates, overlap, stretch
+from slamlab.landmarks.ransac import lines
+from slamlab.landmarks.thinned import Thinned
+from slamlab.layers import Ellipses, Points, Poses, Segments
+from slamlab.models import g_line
+
+GATE = 13.8  # χ² of 2 degrees: a true pairing fails it once in a thousand
+DOUBT = 4 * GATE  # beyond the gate and below this it may be the wall: neither used nor new
+
+
+class WallSlam(Estimator):
+    """The MAK filter on the walls that RANSAC finds in each scan.
+
+    Parameters
+    ----------
+    robot : RobotModel
+    sensor : SensorModel
+    rng : numpy.random.Generator, for RANSAC
+    ransac : Ransac, its defaults when None
+    sightings : int, how often a wall is seen before it is used, but for those of the first scan
+    lives : int, how many scans a wall on trial survives unseen
+    """
+
+    def __init__(self, robot, sensor, rng, ransac=None, sightings=3, lives=3):
+        super().__init__()
+        self.robot, self.sensor, self.rng, self.ransac = robot, sensor, rng, ransac
+        self.filter = MAK(np.zeros(3), np.zeros((3, 3)), kind=LINES, first_estimates=True)
+        self.candidates = Candidates(sightings, lives)
+        self.stretches: dict[int, np.ndarray] = {}
+        self.points = Thinned()
+        self.doubtful = 0
+        self._begun = False
+
+    def step(self, reading):
+        """Take a reading in: predict by odometry, correct by known walls, put new ones on trial.
+
+        Parameters
+        ----------
+        reading : Reading
+        """
+        pose, odometry = self.filter.pose, np.asarray(reading.odometry, dtype=float)
+        if odometry.any():
+            self.filter.predict(compose(pose, odometry), Q_arc(pose, odometry, self.robot))
+        if reading.scan is None or not reading.scan.valid.any():
+            self.skipped += 1
+        else:
+            found = lines(reading.scan, self.sensor, self.rng, self.ransac)
+            self._update(*self._associated(found))
+            self.points.add(transform(self.filter.pose, reading.scan.points()))
+        self.pose = self.filter.pose
+        self.record(reading.time)
+        self.status = (
+            f"{len(self.filter.ids)} walls, {len(self.candidates.waiting)} on trial, "
+            f"{self.doubtful} doubtful sightings left out"
+        )
+
+    def layers(self):
+        """Points, walls as far as they were seen, the track, the robot's 95 % ellipse."""
+        P_rr, _, _ = self.filter.blocks()
+        return [
+            Points("scan", self.points.xy),
+            Segments("landmark", self.walls()),
+            Poses("corrected", self.trajectory().poses),
+            Ellipses("robot", self.pose[None, :2], P_rr[None, :2, :2]),
+        ]
+
+    def walls(self):
+        """(N, 4) the walls in the filter, as far as they were seen: rows x1 y1 x2 y2 [m]."""
+        rho, alpha = self.filter.landmarks().T
+        t = np.array([self.stretches[i] for i in self.filter.ids]).reshape(-1, 2)
+        c, s = np.cos(alpha), np.sin(alpha)
+        foot = np.column_stack([rho * c, rho * s])
+        way = np.column_stack([-s, c])
+        return np.hstack([foot + t[:, :1] * way, foot + t[:, 1:] * way])
+
+    def _associated(self, found):
+        """Sightings of walls in the filter, as id to Line, and those of none."""
+        if not found or not self.filter.ids:
+            return {}, found
+        z, R = (np.array([getattr(line, name) for line in found]) for name in "zR")
+        d2 = squared_distances(self.filter, z, R)
+        ids, lines_of = (
+            self.filter.ids,
+            dict(zip(self.filter.ids, self.filter.landmarks(), strict=True)),
+        )
+        known, new = {}, []
+        for line, row in sorted(zip(found, d2, strict=True), key=lambda pair: pair[1].min()):
+            ends = transform(self.filter.pose, line.ends)
+            near = [
+                (distance, i)
+                for distance, i in zip(row, ids, strict=True)
+                if distance < DOUBT and overlap(self.stretches[i], stretch(lines_of[i], ends))
+            ]
+            distance, i = min(near, default=(np.inf, None))
+            if i is None:
+                new.append(line)
+            elif distance <= GATE and i not in known:
+                known[i] = line
+            else:  # a second piece of the wall, or one that fits it badly
+                self.doubtful += 1
+        return known, new
+
+    def _update(self, known, new):
+        if known:
+            z, R = (np.array([getattr(line, name) for line in known.values()]) for name in "zR")
+            self.filter.update(list(known), z, R)
+        pose = self.filter.pose
+        placed = [(g_line(pose, line.z), transform(pose, line.ends)) for line in new]
+        # the first scan lays the map's frame: what it shows is surest there, without any drift
+        first, self._begun = not self._begun, True
+        for line, due in zip(new, self.candidates.sight(placed), strict=True):
+            if due or first:
+                i = len(self.stretches)
+                self.filter.add([i], line.z[None], line.R)
+                known[i] = line
+                self.stretches[i] = np.array([np.inf, -np.inf])
+        lines_of = dict(zip(self.filter.ids, self.filter.landmarks(), strict=True))
+        for i, line in known.items():
+            low, high = stretch(lines_of[i], transform(pose, line.ends))
+            before = self.stretches[i]
+            self.stretches[i] = np.array([min(before[0], low), max(before[1], high)])
+
+
+def walls(source, rng=None):
+    """The wall estimator for a source, or an error where it has nothing to see.
+
+    Parameters
+    ----------
+    source : Source
+    rng : numpy.random.Generator, seed 0 when None
+
+    Returns
+    -------
+    WallSlam
+
+    Raises
+    ------
+    ValueError : no reading holds a scan
+    """
+    if len(source) and all(reading.scan is None for reading in source):
+        raise ValueError(f"{source.name} holds no scans, which walls needs; sim:situation-1 does")
+    return WallSlam(source.robot, source.sensor, rng or np.random.default_rng(0))

@@ -1,0 +1,68 @@
+"""Corners: where two walls of one scan meet (MAK thesis, chapter 8)."""
+
+from dataclasses import dataclass
+from itertools import combinations
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class Corner:
+    """A corner as a scan shows it.
+
+    Parameters
+    ----------
+    z : (2,) range [m] and bearing [rad]
+    R : (2, 2) covariance of z
+    """
+
+    z: np.ndarray
+    R: np.ndarray
+
+
+def corners(lines, reach=0.4, sharpest=0.5):
+    """The corners between the lines of one scan.
+
+    n_1·p = ρ_1, n_2·p = ρ_2; the slope of p by (ρ, α) of each line carries their covariances.
+
+    Parameters
+    ----------
+    lines : list of Line
+    reach : float, how far beyond a wall's seen end its corner may lie [m]
+    sharpest : float, least angle between the walls: a point between nearly parallel ones is
+        hardly known [rad]
+
+    Returns
+    -------
+    list of Corner
+    """
+    found = []
+    for first, second in combinations(lines, 2):
+        if abs(np.sin(first.z[1] - second.z[1])) < np.sin(sharpest):
+            continue
+        p, P = _meeting(first, second)
+        if all(np.hypot(*(line.ends - p).T).min() <= reach for line in (first, second)):
+            found.append(_seen(p, P))
+    return found
+
+
+def _meeting(first, second):
+    """Where two lines meet (2,) [m], and its covariance (2, 2) [m²]."""
+    (rho1, a1), (rho2, a2) = first.z, second.z
+    N = np.array([[np.cos(a1), np.sin(a1)], [np.cos(a2), np.sin(a2)]])
+    p = np.linalg.solve(N, [rho1, rho2])
+    # n·p = ρ, so n·dp = dρ − (t·p) dα with t = dn/dα
+    back = np.linalg.inv(N)
+    P = np.zeros((2, 2))
+    for k, line in enumerate((first, second)):
+        t = np.array([-N[k, 1], N[k, 0]])
+        slope = np.outer(back[:, k], [1.0, -(t @ p)])
+        P += slope @ line.R @ slope.T
+    return p, P
+
+
+def _seen(p, P):
+    """A place in the robot's frame as range and bearing."""
+    r2, r = p @ p, np.hypot(*p)
+    J = np.array([[p[0] / r, p[1] / r], [-p[1] / r2, p[0] / r2]])
+    return Corner(np.array([r, np.arctan2(p[1], p[0])]), J @ P @ J.T)

@@ -1,0 +1,148 @@
+"""A line through the points of a scan, each weighed by its own noise.
+
+What is minimised is Σ e² / σ², e = a cos α + b sin α − ρ, over distance ρ and direction α of the
+normal. Unlike y = a x + b it has no walls it cannot fit.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from slamlab.geometry import wrap
+from slamlab.hardware import SensorModel
+
+ROUNDS = 3  # of Gauss and Newton
+
+
+@dataclass(frozen=True)
+class Line:
+    """A wall's line as a scan shows it, in the robot's frame.
+
+    Parameters
+    ----------
+    z : (2,) distance ρ' > 0 [m] and direction α' of the normal [rad], as ``models.h_line`` gives
+    R : (2, 2) covariance of z
+    ends : (2, 2) where the wall was seen to begin and to end, counter-clockwise [m]
+    beams : (n,) int, which beams of the scan lie on it
+    """
+
+    z: np.ndarray
+    R: np.ndarray
+    ends: np.ndarray
+    beams: np.ndarray
+
+    @property
+    def length(self):
+        """How much of the wall was seen [m]."""
+        return float(np.hypot(*(self.ends[1] - self.ends[0])))
+
+
+@dataclass(frozen=True)
+class Cloud:
+    """The points of a scan with what is known of their noise.
+
+    Parameters
+    ----------
+    points : (n, 2) in the robot's frame, in the order of the beams [m]
+    angles, ranges : (n,) [rad], [m]
+    beams : (n,) int, each point's beam in the scan
+    total : int, beams of the scan
+    sensor : SensorModel
+    floor : float, least standard deviation of a point: walls are not that flat [m]
+    """
+
+    points: np.ndarray
+    angles: np.ndarray
+    ranges: np.ndarray
+    beams: np.ndarray
+    total: int
+    sensor: SensorModel
+    floor: float
+
+    def __len__(self):
+        return len(self.ranges)
+
+    def variance(self, rows, rho, alpha):
+        """(k,) variance of some points across a line on which they are thought to lie [m²].
+
+        Noise grows with the range, so it is taken at the range where the beam meets the line: at
+        the measured one, what happens to be too short would count for more.
+        """
+        s, turn = self.sensor, self.angles[rows] - alpha
+        c2 = np.cos(turn) ** 2
+        # a beam along the line, or from behind it, meets it nowhere near
+        r = np.clip(rho / np.maximum(np.cos(turn), 1e-3), 0, 1.2 * self.ranges[rows])
+        along = (s.range_error * r) ** 2 + s.range_sigma**2
+        return along * c2 + (s.bearing_sigma * r) ** 2 * (1 - c2) + self.floor**2
+
+
+def cloud(scan, sensor, floor=0.002):
+    """The valid points of a scan with what is known of their noise.
+
+    Parameters
+    ----------
+    scan : Scan
+    sensor : SensorModel
+    floor : float, least standard deviation of a point [m]
+
+    Returns
+    -------
+    Cloud
+    """
+    beams = np.flatnonzero(scan.valid)
+    angles, ranges = scan.angles[beams], scan.ranges[beams]
+    return Cloud(scan.points(), angles, ranges, beams, len(scan.ranges), sensor, floor)
+
+
+def total_least_squares(points):
+    """The line through points, all alike: the direction in which they scatter least.
+
+    Parameters
+    ----------
+    points : (n, 2) [m], at least two
+
+    Returns
+    -------
+    rho, alpha : floats, rho ≥ 0 [m], [rad]
+    """
+    centre = points.mean(axis=0)
+    x, y = (points - centre).T
+    alpha = 0.5 * np.arctan2(-2 * (x @ y), y @ y - x @ x)
+    return _outward(centre[0] * np.cos(alpha) + centre[1] * np.sin(alpha), alpha)
+
+
+def fit(cloud, rows):
+    """The likeliest line through some points of a scan, each weighed by its own noise.
+
+    From total least squares by Gauss and Newton. A point errs along its beam, so it slides along a
+    slanting wall as it leaves it; where on the wall it belongs its beam tells, not its range.
+
+    Parameters
+    ----------
+    cloud : Cloud
+    rows : (n,) int, at least two
+
+    Returns
+    -------
+    z : (2,) ρ ≥ 0 [m], α [rad]
+    R : (2, 2) its covariance, the inverse of Σ J Jᵀ / σ² with J = [1, −t]
+    """
+    points, angles = cloud.points[rows], cloud.angles[rows]
+    rho, alpha = total_least_squares(points)
+    for _ in range(ROUNDS):
+        c, s = np.cos(alpha), np.sin(alpha)
+        weights = 1 / cloud.variance(rows, rho, alpha)
+        off, t = points @ [c, s] - rho, points @ [-s, c]
+        total, first, second = weights.sum(), weights @ t, weights @ (t * t)
+        R = np.array([[second, first], [first, total]]) / (total * second - first * first)
+        expected = np.clip(rho * np.tan(angles - alpha), t.min(), t.max())
+        step = R @ [weights @ off, -weights @ (expected * off)]
+        rho, alpha = rho + step[0], alpha + step[1]
+    return np.array(_outward(rho, alpha)), R
+
+
+def _outward(rho, alpha):
+    """The same line with its normal pointing away from the robot."""
+    if rho < 0:
+        rho, alpha = -rho, alpha + np.pi
+    return float(rho), float(wrap(alpha))

@@ -1,0 +1,63 @@
+"""Spikes: something narrow before the background, such as a table's leg (Smolec §2.4)."""
+
+import numpy as np
+
+from slamlab.readings import Observations
+
+
+def spikes(scan, jump=0.5, widest=0.25):
+    """Narrow objects: the range jumps down, and soon up again.
+
+    Their place is the middle of the readings in between: the side that faces the sensor. Good for
+    legs of tables; between smooth walls there are none.
+
+    Parameters
+    ----------
+    scan : Scan
+    jump : float, least step of the range on both sides [m]
+    widest : float, of an object [m]
+
+    Returns
+    -------
+    Observations without ids: range [m] and bearing [rad] of each
+    """
+    valid = scan.valid
+    far = np.where(valid, scan.ranges, np.inf)  # nothing came back: as far as one can tell, free
+    before = np.roll(far, 1)
+    falls = valid & (before - far > jump)
+    whole_turn = np.isclose(np.diff(scan.angles).mean() * len(far), 2 * np.pi, rtol=1e-3)
+    found = []
+    for start in np.flatnonzero(falls):
+        rows = _object(far, start, jump, whole_turn)
+        if rows is None or (start == 0 and not whole_turn):
+            continue
+        r = far[rows].mean()
+        # as many steps apart as beams: safe where the object lies across the seam of a turn
+        width = r * abs(np.diff(scan.angles).mean()) * len(rows)
+        if width <= widest:
+            middle = scan.angles[rows[len(rows) // 2]] if len(rows) % 2 else _between(scan, rows)
+            found.append((r, middle))
+    z = np.array(found).reshape(-1, 2)
+    return Observations(z, np.full(len(z), -1))
+
+
+def _object(far, start, jump, whole_turn):
+    """Rows from a fall of the range until it rises again, or None: a wall's edge."""
+    rows, n = [start], len(far)
+    for step in range(1, n):
+        here = start + step
+        if here >= n and not whole_turn:
+            return None
+        change = far[here % n] - far[rows[-1]]
+        if change > jump:
+            return np.array(rows)
+        if change < -jump:
+            return None  # something stands before it: its own spike, perhaps
+        rows.append(here % n)
+    return None
+
+
+def _between(scan, rows):
+    """The bearing between the two middle beams."""
+    first, second = scan.angles[rows[len(rows) // 2 - 1]], scan.angles[rows[len(rows) // 2]]
+    return np.angle(np.exp(1j * first) + np.exp(1j * second))

@@ -1,0 +1,162 @@
+"""Walls in scans: the fit has no direction it cannot fit, RANSAC finds the walls and few others."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from slamlab import worlds
+from slamlab.evaluation import band, nees
+from slamlab.geometry import transform, wrap
+from slamlab.hardware import SensorModel
+from slamlab.landmarks.fit import cloud, fit, total_least_squares
+from slamlab.landmarks.ransac import THESIS, Ransac, lines
+from slamlab.readings import Scan
+from slamlab.sensors import Scanner
+from slamlab.world import World
+
+LIDAR = Scanner(range_error=0.01)
+RNG = np.random.default_rng
+EXACT = SensorModel(range_error=0.0, range_sigma=0.0, bearing_sigma=0.0)
+
+
+def wall_scan(rho, alpha, half=0.6, beams=41):
+    """A scan of one wall without noise."""
+    angles = alpha + np.linspace(-half, half, beams)
+    return Scan(angles, rho / np.cos(angles - alpha))
+
+
+@given(st.floats(0.1, 10), st.floats(-3.1, 3.1))
+def test_a_wall_without_noise_is_fitted_whatever_its_direction(rho, alpha):
+    points = cloud(wall_scan(rho, alpha), EXACT)
+    (found_rho, found_alpha), _ = fit(points, np.arange(len(points)))
+    assert found_rho == pytest.approx(rho, abs=1e-9)
+    assert abs(wrap(found_alpha - alpha)) < 1e-9
+    np.testing.assert_allclose(total_least_squares(points.points)[0], rho, atol=1e-9)
+
+
+def test_over_many_noisy_scans_the_fit_errs_as_it_says_and_to_no_side():
+    sensor, rng = SensorModel(range_error=0.01, bearing_sigma=0.002), np.random.default_rng(0)
+    # far more of the wall to one side than to the other, where a biased fit turns
+    angles, errors, P = 0.4 + np.linspace(-0.3, 1.1, 90), [], []
+    for _ in range(2000):
+        noise = rng.standard_normal((2, len(angles)))
+        r = 3.0 / np.cos(angles + 0.002 * noise[0] - 0.4) * (1 + 0.01 * noise[1])
+        points = cloud(Scan(angles, r), sensor, floor=1e-6)
+        z, R = fit(points, np.arange(len(points)))
+        errors.append(z - [3.0, 0.4])
+        P.append(R)
+    low, high = band(2, 2000, 0.9999)
+    assert low < nees(np.array(errors), np.array(P)).mean() < high
+    bias = np.mean(errors, axis=0) / np.sqrt(np.mean(P, axis=0)[[0, 1], [0, 1]] / 2000)
+    assert np.abs(bias).max() < 4
+
+
+def test_points_that_a_second_wall_wants_are_left_to_neither():
+    """At a corner the lines found have errors no larger than they say."""
+    world, rng, errors, P = World([(2.0, -1.5, 2.0, 1.0), (2.0, 1.0, -1.0, 1.0)]), RNG(7), [], []
+    for _ in range(150):
+        scan = LIDAR.scan(world, np.zeros(3), rng)
+        for line in lines(scan, LIDAR.model, rng):
+            truth = np.array([2.0, 0.0]) if abs(line.z[1]) < 0.7 else np.array([1.0, np.pi / 2])
+            errors.append(line.z - truth)
+            P.append(line.R)
+    low, high = band(2, len(errors), 0.9999)
+    assert 0.8 * low < nees(np.array(errors), np.array(P)).mean() < 1.2 * high
+
+
+def scans(name, count, seed=1):
+    """Scans of a world from free places, with the poses they were taken from."""
+    world, rng = worlds.by_name(name), np.random.default_rng(seed)
+    corners = world.walls.reshape(-1, 2)
+    while count:
+        place = rng.uniform(corners.min(axis=0), corners.max(axis=0))
+        around = world.cast(place, np.linspace(0, 2 * np.pi, 90))
+        if np.isfinite(around).all() and around.min() > 0.3:
+            pose = np.array([*place, rng.uniform(-3, 3)])
+            count -= 1
+            yield world, pose, LIDAR.scan(world, pose, rng), rng
+
+
+def metres(world, found, pose, within=0.1, slant=0.14, step=0.02):
+    """How many metres of the found lines lie on a wall, and how many do not."""
+    start, end = world.walls[:, :2], world.walls[:, 2:]
+    length = np.hypot(*(end - start).T)
+    way = (end - start) / length[:, None]
+    on = off = 0
+    for line in found:
+        a, b = transform(pose, line.ends)
+        samples = a + np.linspace(0, 1, max(2, int(line.length / step)))[:, None] * (b - a)
+        parallel = np.abs(way @ (b - a)) / line.length > np.cos(slant)
+        offset = samples[:, None] - start
+        along = np.sum(offset * way, axis=2)
+        across = np.abs(offset[..., 0] * way[:, 1] - offset[..., 1] * way[:, 0])
+        right = (across < within) & (along > -within) & (along < length + within) & parallel
+        on += right.any(axis=1).sum() * step
+        off += (~right.any(axis=1)).sum() * step
+    return on, off
+
+
+def hit_metres(world, pose, scan):
+    """Metres of the walls of which a stretch of at least 0.4 m and 13 beams was seen."""
+    directions, total = pose[2] + scan.angles, 0
+    reach = world.cast(pose[:2], directions)
+    hits = pose[:2] + reach[:, None] * np.column_stack([np.cos(directions), np.sin(directions)])
+    for x1, y1, x2, y2 in world.walls:
+        length = np.hypot(x2 - x1, y2 - y1)
+        way = np.array([x2 - x1, y2 - y1]) / length
+        offset = hits - (x1, y1)
+        along, across = offset @ way, offset @ [way[1], -way[0]]
+        mine = (np.abs(across) < 1e-6) & (along > -1e-6) & (along < length + 1e-6) & scan.valid
+        seen = np.sort(along[mine])
+        if len(seen) >= 13 and seen[-1] - seen[0] >= 0.4:
+            total += np.minimum(np.diff(seen), 0.4).sum()
+    return total
+
+
+@pytest.mark.parametrize("name", ["situation-1", "situation-2", "corridor"])
+def test_at_one_percent_noise_nearly_all_walls_are_found_and_nearly_nothing_else(name):
+    seen = found = false = 0
+    for world, pose, scan, rng in scans(name, 25):
+        walls = lines(scan, LIDAR.model, rng)
+        on, off = metres(world, walls, pose)
+        seen, found, false = seen + hit_metres(world, pose, scan), found + on, false + off
+    assert found > 0.93 * seen
+    assert false < 0.02 * (found + false)
+
+
+def test_the_thesis_band_fails_with_range():
+    """A window of wall readings passes where the wall is near, hardly ever where it is far."""
+    share = {}
+    for size in ((3.0, 2.5), (8.0, 6.0)):
+        room = World(worlds.box((0, 0), size))
+        found = [
+            len(lines(LIDAR.scan(room, np.zeros(3), rng), LIDAR.model, rng, THESIS))
+            for rng in map(np.random.default_rng, range(10))
+        ]
+        share[size] = np.mean(found)
+    assert share[3.0, 2.5] > 3
+    assert share[8.0, 6.0] < 1
+
+
+def test_the_same_seed_finds_the_same_walls_and_each_beam_belongs_to_one():
+    ((_, _, scan, _),) = scans("situation-1", 1)
+    first, second = (lines(scan, LIDAR.model, np.random.default_rng(3)) for _ in range(2))
+    assert [line.z.tolist() for line in first] == [line.z.tolist() for line in second]
+    beams = np.concatenate([line.beams for line in first])
+    assert len(np.unique(beams)) == len(beams)
+
+
+def test_a_scan_with_hardly_a_point_holds_no_wall():
+    rng = np.random.default_rng(0)
+    empty = Scan(np.linspace(-3, 3, 50), np.full(50, np.nan))
+    few = Scan(np.linspace(-3, 3, 50), np.where(np.arange(50) < 4, 1.0, np.nan))
+    assert lines(empty, LIDAR.model, rng) == lines(few, LIDAR.model, rng) == []
+
+
+@pytest.mark.parametrize("wrong", [{"needed": 2}, {"needed": 12}, {"band": 0.0}, {"sigmas": -1.0}])
+def test_parameters_that_make_no_sense_are_refused(wrong):
+    with pytest.raises(ValueError, match=r"needed|above zero"):
+        replace(Ransac(), **wrong)

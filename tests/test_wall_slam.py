@@ -1,0 +1,155 @@
+"""EKF-SLAM with walls drives through Smolec's situations; its parts on their own."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.spatial.distance import pdist
+
+from slamlab import estimators, worlds
+from slamlab.estimators.walls import WallSlam
+from slamlab.evaluation import absolute_error, nees
+from slamlab.geometry import wrap
+from slamlab.hardware import RobotModel, SensorModel
+from slamlab.landmarks.candidates import Candidates, overlap, stretch
+from slamlab.landmarks.corners import corners
+from slamlab.landmarks.ransac import lines
+from slamlab.landmarks.spikes import spikes
+from slamlab.landmarks.thinned import Thinned
+from slamlab.models import g
+from slamlab.readings import Reading, Scan
+from slamlab.runner import run
+from slamlab.sensors import Scanner
+from slamlab.sources import simulation
+
+LIDAR = Scanner(range_error=0.005)
+
+
+@pytest.fixture(scope="module", params=["situation-1", "situation-2"])
+def driven(request):
+    """A situation driven through, with what the filter believed of its pose after each step."""
+    source, P = simulation(request.param, np.random.default_rng(2)), []
+    slam = estimators.make("walls", source)
+    result = run(source, slam, lambda _, after: P.append(after.filter.block([0, 1, 2])))
+    return source, result, np.array(P)
+
+
+def test_it_ends_much_nearer_to_the_truth_than_odometry(driven):
+    source, result, _ = driven
+    off, naive = (
+        absolute_error(t, source.truth).translation for t in (result.trajectory, result.naive)
+    )
+    assert off < naive / 5
+    assert off < 0.05
+
+
+def test_it_believes_no_more_than_it_knows(driven):
+    source, result, P = driven
+    errors = result.trajectory.poses - source.truth.poses
+    errors[:, 2] = wrap(errors[:, 2])
+    assert np.median(nees(errors[10:], P[10:])) < 9
+
+
+def test_its_walls_lie_on_walls_and_none_is_drawn_twice_over_nothing(driven):
+    source, result, _ = driven
+    found, true = result.estimator.walls(), source.world.walls
+    assert 5 <= len(found) <= 3 * len(true)
+    end_to_end = true[:, 2:] - true[:, :2]
+    normals = np.column_stack([-end_to_end[:, 1], end_to_end[:, 0]])
+    normals /= np.hypot(*normals.T)[:, None]
+    middles = (found[:, :2] + found[:, 2:]) / 2
+    off = np.abs(np.sum((middles[:, None] - true[:, :2]) * normals, axis=2)).min(axis=1)
+    assert off.max() < 0.3
+
+
+def test_a_source_without_scans_is_refused_in_one_line():
+    with pytest.raises(ValueError, match="sim:landmarks holds no scans"):
+        estimators.make("walls", simulation("landmarks", np.random.default_rng(0)))
+
+
+def test_a_scan_with_nothing_in_it_is_counted_and_the_robot_goes_on():
+    slam = WallSlam(RobotModel(), SensorModel(), np.random.default_rng(0))
+    empty = Scan(np.linspace(-3, 3, 40), np.full(40, np.nan))
+    slam.step(Reading(0.0, np.array([0.1, 0, 0]), scan=empty))
+    slam.step(Reading(1.0, np.array([0.1, 0, 0])))
+    assert slam.skipped == 2
+    np.testing.assert_allclose(slam.pose, [0.2, 0, 0])
+
+
+# ---- its parts --------------------------------------------------------------------------------
+
+
+def test_every_leg_that_stands_free_is_a_spike_and_a_bare_room_has_none():
+    world = worlds.table_legs()
+    scan = LIDAR.scan(world, np.zeros(3), np.random.default_rng(1))
+    found = g(np.zeros(3), spikes(scan).z)
+    off = np.hypot(*(found[:, None] - world.circles[None, :, :2]).transpose(2, 0, 1)).min(axis=1)
+    assert len(found) >= 14 and off.max() < 0.06
+    bare = LIDAR.scan(worlds.situation_2(), np.zeros(3), np.random.default_rng(1))
+    assert len(spikes(bare).z) == 0
+
+
+def test_a_leg_across_the_seam_of_a_turn_is_one_spike():
+    angles = np.linspace(-np.pi, np.pi, 100, endpoint=False)
+    ranges = np.full(100, 4.0)
+    ranges[[-1, 0, 1]] = 1.0
+    (z,) = spikes(Scan(angles, ranges)).z
+    assert z[0] == pytest.approx(1.0)
+    assert abs(wrap(z[1] - angles[0])) < 1e-9
+
+
+def test_corners_stand_where_walls_meet_and_err_as_they_say():
+    world, errors, P = worlds.situation_2(), [], []
+    rng = np.random.default_rng(3)
+    for _ in range(60):
+        for corner in corners(lines(LIDAR.scan(world, np.zeros(3), rng), LIDAR.model, rng)):
+            off = g(np.zeros(3), corner.z) - world.walls[:, :2]
+            nearest = world.walls[np.hypot(*off.T).argmin(), :2]
+            r, beta = np.hypot(*nearest), np.arctan2(nearest[1], nearest[0])
+            errors.append(corner.z - [r, beta])
+            P.append(corner.R)
+    assert len(errors) > 150
+    assert 1.5 < np.mean(nees(np.array(errors), np.array(P))) < 3.5
+
+
+def wall(rho, alpha, low, high):
+    """A sighting placed in the world: line and ends."""
+    foot, way = (
+        rho * np.array([np.cos(alpha), np.sin(alpha)]),
+        np.array([-np.sin(alpha), np.cos(alpha)]),
+    )
+    return np.array([rho, alpha]), foot + np.outer([low, high], way)
+
+
+def test_a_wall_is_due_at_its_third_sighting_and_forgotten_when_unseen_for_long():
+    trial = Candidates(sightings=3, lives=2)
+    one, other = wall(2.0, 0.5, -1, 1), wall(2.0, 0.5, 4, 5)
+    assert [trial.sight([one]) for _ in range(3)] == [[False], [False], [True]]
+    assert trial.waiting == []
+    trial.sight([one])
+    trial.sight([])
+    assert trial.sight([one]) == [False] and trial.waiting[0].sightings == 2
+    for _ in range(2):
+        trial.sight([])
+    assert trial.waiting == []
+    trial.sight([one, other])
+    assert len(trial.waiting) == 2  # collinear, but far apart: two walls
+
+
+def test_a_stretch_lies_along_its_line_and_stretches_that_nearly_touch_overlap():
+    line, ends = wall(3.0, 1.0, -0.7, 1.2)
+    np.testing.assert_allclose(stretch(line, ends), [-0.7, 1.2], atol=1e-12)
+    assert overlap((0, 1), (1.4, 2)) and not overlap((0, 1), (1.6, 2))
+
+
+@given(st.lists(st.tuples(st.floats(-1, 1), st.floats(-1, 1)), max_size=60))
+def test_kept_points_keep_their_distance_and_every_other_one_is_near_a_kept_one(points):
+    points = np.array(points).reshape(-1, 2)
+    thinned = Thinned(0.1)
+    kept = sum(thinned.add(part) for part in np.array_split(points, 3))
+    assert kept == len(thinned.xy)
+    if kept > 1:
+        assert pdist(thinned.xy).min() > 0.1
+    if len(points):
+        off = np.hypot(*(points[:, None] - thinned.xy[None]).transpose(2, 0, 1))
+        assert off.min(axis=1).max() <= 0.1 + 1e-9
