@@ -1,12 +1,13 @@
 """Estimators: every SLAM of the course, made by its name."""
 
 from slamlab.estimators.base import Estimator
+from slamlab.estimators.feet import FootSlam, walls_foot
 from slamlab.estimators.icp import IcpSlam
 from slamlab.estimators.mak import MakSlam, mak
 from slamlab.estimators.odometry import Odometry
 from slamlab.estimators.walls import WallSlam, walls
 
-__all__ = ["NAMES", "Estimator", "IcpSlam", "MakSlam", "Odometry", "WallSlam", "make"]
+__all__ = ["NAMES", "Estimator", "FootSlam", "IcpSlam", "MakSlam", "Odometry", "WallSlam", "make"]
 
 MAKERS = {
     "odometry": lambda source: Odometry(),
@@ -15,6 +16,7 @@ MAKERS = {
     "mak": mak,
     "mak-first-estimates": lambda source: mak(source, first_estimates=True),
     "walls": walls,
+    "walls-foot": walls_foot,
 }
 NAMES = tuple(MAKERS)
 

@@ -33,12 +33,15 @@ class WallSlam(Estimator):
     ransac : Ransac, its defaults when None
     sightings : int, how often a wall is seen before it is used, but for those of the first scan
     lives : int, how many scans a wall on trial survives unseen
+    first_estimates : bool, see :class:`MAK`; without, a map of lines soon believes it knows north
     """
 
-    def __init__(self, robot, sensor, rng, ransac=None, sightings=3, lives=3):
+    def __init__(self, robot, sensor, rng, ransac=None, sightings=3, lives=3, first_estimates=True):
         super().__init__()
         self.robot, self.sensor, self.rng, self.ransac = robot, sensor, rng, ransac
-        self.filter = MAK(np.zeros(3), np.zeros((3, 3)), kind=LINES, first_estimates=True)
+        self.filter = MAK(
+            np.zeros(3), np.zeros((3, 3)), kind=LINES, first_estimates=first_estimates
+        )
         self.candidates = Candidates(sightings, lives)
         self.stretches: dict[int, np.ndarray] = {}
         self.points = Thinned()
