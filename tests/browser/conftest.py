@@ -7,9 +7,11 @@ import subprocess
 import sys
 import time
 
+import nbformat
 import pytest
 
 from course.source import ROOT
+from tests.browser import live
 
 CHROMIUMS = ("chromium", "chromium-browser", "google-chrome", "chrome")
 NEWS = "@jupyterlab/apputils-extension:announcements"
@@ -35,6 +37,7 @@ def lab(tmp_path_factory):
     """The address of a JupyterLab as ``lab.py`` sets it up, with a home of its own."""
     home = tmp_path_factory.mktemp("lab")
     shutil.copytree(ROOT / "notebooks", home / "course" / "notebooks")
+    nbformat.write(live.notebook(), home / "course" / "notebooks" / live.NAME)
     settings = home / "config" / "labconfig" / "page_config.json"
     settings.parent.mkdir(parents=True)
     settings.write_text(json.dumps({"disabledExtensions": {NEWS: True}}))

@@ -1,6 +1,11 @@
-"""A notebook with live views, for the tests and the benchmark to open."""
+"""A notebook with live views, for a test to open, and what can be seen of them in the browser."""
+
+import time
 
 import nbformat
+
+NAME = "live_views.ipynb"
+PATIENCE = 30  # [s] for a picture
 
 SETUP = """\
 from functools import partial
@@ -30,17 +35,63 @@ loop = views.live(
 )"""
 
 
-def notebook(*cells):
-    """A notebook that was never run.
-
-    Parameters
-    ----------
-    cells : str each
+def notebook():
+    """A notebook that was never run: an import, a robot to drive, a recording to play.
 
     Returns
     -------
     NotebookNode
     """
-    made = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(cell) for cell in cells])
+    cells = [nbformat.v4.new_code_cell(cell) for cell in (SETUP, DRIVEN, PLAYED)]
+    made = nbformat.v4.new_notebook(cells=cells)
     made.metadata["kernelspec"] = {"name": "python3", "display_name": "Python 3"}
     return made
+
+
+class View:
+    """The live view of one cell.
+
+    Parameters
+    ----------
+    page : Page of Playwright
+    cell : int, position in the notebook
+    """
+
+    def __init__(self, page, cell):
+        self.page, self.cell = page, page.locator(".jp-Cell").nth(cell)
+        self.root = self.cell.locator(".slamlab-live")
+        self.canvas = self.root.locator("canvas")
+
+    def press(self, text):
+        """Press a button by its text."""
+        self.cell.get_by_role("button", name=text, exact=True).click()
+
+    def frame(self):
+        """Number of the frame that is drawn."""
+        return int(self.root.get_attribute("data-frame"))
+
+    def behind(self):
+        """How many frames were on their way at most."""
+        return int(self.root.get_attribute("data-behind"))
+
+    def status(self):
+        """The line below the picture."""
+        return self.root.locator(".slamlab-status").text_content()
+
+    def picture(self):
+        """The picture, as text."""
+        return self.canvas.evaluate("canvas => canvas.toDataURL()")
+
+    def until(self, said):
+        """Wait until something about the picture is true, given as a function of its text."""
+        end = time.monotonic() + PATIENCE
+        while not said(self.picture()):
+            assert time.monotonic() < end, "the picture stays as it is"
+            self.page.wait_for_timeout(20)
+
+    def wait(self, frame):
+        """Wait until a frame or a later one is drawn."""
+        self.page.wait_for_function(
+            "([root, frame]) => Number(root.dataset.frame) >= frame",
+            arg=[self.root.element_handle(), frame],
+        )

@@ -28,9 +28,12 @@ export default () => {
     render({ model, el }) {
       const text = { font: "13px system-ui, sans-serif", color: "var(--jp-ui-font-color1, #333)" };
       const head = element("div", { ...text, fontWeight: "600", padding: "2px 0" });
-      const bar = element("div", { ...text, display: "flex", gap: "8px", minHeight: "22px" });
-      const status = element("div", { flex: "1", padding: "3px 0" }, { className: "slamlab-status" });
-      const fit = element("button", { font: "inherit" }, { textContent: "fit", title: "show all" });
+      const bar = element("div", { ...text, display: "flex", gap: "8px", marginTop: "4px" });
+      const status = element("div", { flex: "1", padding: "4px 0" }, { className: "slamlab-status" });
+      const fit = element("button", {
+        font: "inherit", color: "inherit", background: "none", padding: "2px 10px", cursor: "pointer",
+        border: "1px solid var(--jp-border-color1, #bbb)", borderRadius: "2px",
+      }, { textContent: "fit", title: "show all (wheel and drag move the picture)" });
       const canvas = element("canvas", {
         display: "block", width: "100%", touchAction: "none", borderRadius: "3px", cursor: "grab",
       }, { tabIndex: 0 });

@@ -78,5 +78,5 @@ class LiveCanvas(Screen):
                 self._begun()
             case "drawn" if isinstance(content.get("number"), int):
                 self._acknowledge(content["number"])
-            case "key":
-                self.on_key(content.get("name"))
+            case "key" if isinstance(content.get("name"), str):
+                self.on_key(content["name"])

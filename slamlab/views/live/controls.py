@@ -4,7 +4,7 @@ import ipywidgets
 
 SPEEDS = [1, 2, 5, 10, 20, 50, 100]  # steps a second
 ARROWS = {"left": "◀ left", "forward": "▲ forward", "back": "▼ back", "right": "right ▶"}
-HINT = "or click the picture and press the arrow keys; space stops"
+HINT = "or click the picture, then arrow keys; space stops"
 
 
 class Controls:
@@ -26,7 +26,7 @@ class Controls:
             options=SPEEDS,
             value=min(SPEEDS, key=lambda each: abs(each - loop.speed)),
             description="steps/s",
-            layout={"width": "17em"},
+            layout={"width": "17em", "margin": "2px 2px 2px 12px"},
             style={"description_width": "initial"},
         )
         self.seed = ipywidgets.BoundedIntText(
@@ -38,10 +38,10 @@ class Controls:
             style={"description_width": "initial"},
         )
         self.drive = [
-            _button(text, "one step, or where to while it runs", self._driven(name), "7em")
+            _button(text, "one step, or where to while it runs", self._driven(name))
             for name, text in ARROWS.items()
         ]
-        self.drive.append(_button("■ stop", "stand still", self._driven("stop"), "7em"))
+        self.drive.append(_button("■ stop", "stand still", self._driven("stop")))
         self.speed.observe(self._faster, "value")
         loop.on_change = self._changed
         self._wheel = ipywidgets.HBox([*self.drive, ipywidgets.Label(HINT)], layout=_WRAPPED)

@@ -1,11 +1,11 @@
 // Drawing layers on a canvas, in the colours that frames bring.
 
 const PAPER = "#ffffff", INK = "#333333", GRID = "#e4e4e4", AXIS = "#9a9a9a";
-const FONT = "12px system-ui, sans-serif";
+const FONT = "12px system-ui, sans-serif", LINE = 18; // [px]
 
 function grid(g, camera) {
   const [w, h] = camera.inner();
-  const raw = 70 / camera.scale, power = 10 ** Math.floor(Math.log10(raw));
+  const raw = 50 / camera.scale, power = 10 ** Math.floor(Math.log10(raw));
   const step = [1, 2, 5, 10].map((n) => n * power).find((s) => s >= raw);
   const digits = Math.max(0, -Math.floor(Math.log10(step)));
   g.font = FONT;
@@ -19,8 +19,8 @@ function grid(g, camera) {
       g.lineTo(MARGIN.left + w, y);
     } else {
       const x = Math.round(camera.px(at)) + 0.5;
-      g.moveTo(x, MARGIN.top);
-      g.lineTo(x, MARGIN.top + h);
+      g.moveTo(x, camera.top);
+      g.lineTo(x, camera.top + h);
     }
     g.stroke();
   };
@@ -34,17 +34,17 @@ function grid(g, camera) {
   g.textAlign = "center";
   for (const x of ticks(camera.wx(MARGIN.left), camera.wx(MARGIN.left + w))) {
     line(x, false);
-    g.fillText(x.toFixed(digits), camera.px(x), MARGIN.top + h + 4);
+    g.fillText(x.toFixed(digits), camera.px(x), camera.top + h + 4);
   }
-  g.fillText("x [m]", MARGIN.left + w / 2, MARGIN.top + h + 19);
+  g.fillText("x [m]", MARGIN.left + w / 2, camera.top + h + 19);
   g.textBaseline = "middle";
   g.textAlign = "right";
-  for (const y of ticks(camera.wy(MARGIN.top + h), camera.wy(MARGIN.top))) {
+  for (const y of ticks(camera.wy(camera.top + h), camera.wy(camera.top))) {
     line(y, true);
     g.fillText(y.toFixed(digits), MARGIN.left - 5, camera.py(y));
   }
   g.save();
-  g.translate(9, MARGIN.top + h / 2);
+  g.translate(9, camera.top + h / 2);
   g.rotate(-Math.PI / 2);
   g.textAlign = "center";
   g.fillText("y [m]", 0, 0);
@@ -138,7 +138,7 @@ function disc(g, x, y, r) {
   g.fill();
 }
 
-// one entry a name and colour, with the marks of all its kinds
+// one entry a name and colour, with the marks of all its kinds; in rows above the picture
 function legend(g, camera, list) {
   const entries = new Map();
   for (const { name, colour, kind } of list) {
@@ -146,34 +146,37 @@ function legend(g, camera, list) {
     if (!entries.has(key)) entries.set(key, { name, colour, kinds: new Set() });
     entries.get(key).kinds.add(kind);
   }
-  if (!entries.size) return;
   g.font = FONT;
-  const shown = [...entries.values()];
-  const wide = Math.max(...shown.map(({ name }) => g.measureText(name).width)) + 44;
-  const left = camera.width - MARGIN.right - wide - 6, top = MARGIN.top + 6;
-  g.fillStyle = "#ffffffd9";
-  g.strokeStyle = GRID;
-  g.lineWidth = 1;
-  g.fillRect(left, top, wide, 18 * shown.length + 6);
-  g.strokeRect(left + 0.5, top + 0.5, wide - 1, 18 * shown.length + 5);
-  shown.forEach(({ name, colour, kinds }, n) => {
-    const y = top + 12 + 18 * n, x = left + 20;
-    g.strokeStyle = g.fillStyle = colour;
-    g.lineWidth = 2;
-    g.beginPath();
-    if (kinds.has("poses") || kinds.has("segments")) {
-      g.moveTo(x - 13, y);
-      g.lineTo(x + 13, y);
-    }
-    if (kinds.has("ellipses")) g.ellipse(x, y, 11, 6, 0, 0, 2 * Math.PI);
-    if (kinds.has("boxes")) g.rect(x - 10, y - 5, 20, 10);
-    g.stroke();
-    if (kinds.has("points") || kinds.has("samples")) disc(g, x, y, 3.5);
-    g.fillStyle = INK;
-    g.textAlign = "left";
-    g.textBaseline = "middle";
-    g.fillText(name, left + 38, y);
-  });
+  let x = MARGIN.left, y = 13;
+  for (const entry of entries.values()) {
+    const wide = 36 + g.measureText(entry.name).width + 16;
+    if (x > MARGIN.left && x + wide > camera.width) [x, y] = [MARGIN.left, y + LINE];
+    Object.assign(entry, { x, y });
+    x += wide;
+  }
+  camera.top = y + 12;
+  return [...entries.values()];
+}
+
+function mark(g, { name, colour, kinds, x, y }) {
+  g.strokeStyle = g.fillStyle = colour;
+  g.lineWidth = 2;
+  g.beginPath();
+  if (kinds.has("poses") || kinds.has("segments")) {
+    g.moveTo(x + 2, y);
+    g.lineTo(x + 28, y);
+  }
+  if (kinds.has("ellipses")) {
+    g.moveTo(x + 26, y);
+    g.ellipse(x + 15, y, 11, 6, 0, 0, 2 * Math.PI);
+  }
+  if (kinds.has("boxes")) g.rect(x + 5, y - 5, 20, 10);
+  g.stroke();
+  if (kinds.has("points") || kinds.has("samples")) disc(g, x + 15, y, 3.5);
+  g.fillStyle = INK;
+  g.textAlign = "left";
+  g.textBaseline = "middle";
+  g.fillText(name, x + 34, y);
 }
 
 function draw(canvas, camera, layers) {
@@ -184,27 +187,31 @@ function draw(canvas, camera, layers) {
   g.setTransform(ratio, 0, 0, ratio, 0, 0);
   g.fillStyle = PAPER;
   g.fillRect(0, 0, camera.width, camera.height);
+  const entries = legend(g, camera, layers.list);
   grid(g, camera);
   const [w, h] = camera.inner();
   const many = ({ kind, rows }) => kind == "points" && rows.length > 2 * FEW;
   const clouds = layers.list.filter(many);
   g.save();
   g.beginPath();
-  g.rect(MARGIN.left, MARGIN.top, w, h);
+  g.rect(MARGIN.left, camera.top, w, h);
   g.clip();
-  if (clouds.length) {
+  let painted = false;
+  const paint = () => {
+    painted = true;
     const image = new ImageData(wide, high);
     for (const layer of clouds) cloud(image, camera, ratio, layer);
     const sheet = new OffscreenCanvas(wide, high);
     sheet.getContext("2d").putImageData(image, 0, 0);
     g.drawImage(sheet, 0, 0, camera.width, camera.height);
-  }
+  };
   for (const layer of layers.list) {
     if (!many(layer)) DRAW[layer.kind](g, camera, layer, layers.header.radius);
+    else if (!painted) paint(); // all clouds at once, where the first one stands
   }
   g.restore();
   g.strokeStyle = AXIS;
   g.lineWidth = 1;
-  g.strokeRect(MARGIN.left + 0.5, MARGIN.top + 0.5, w - 1, h - 1);
-  legend(g, camera, layers.list);
+  g.strokeRect(MARGIN.left + 0.5, camera.top + 0.5, w - 1, h - 1);
+  for (const entry of entries) mark(g, entry);
 }

@@ -121,7 +121,7 @@ class Loop:
         self.trouble = (self._do(self._look) and trouble) or self.trouble
         scene = self._scene
         if self.trouble:
-            scene = replace(scene, status=f"stopped: {self.trouble}")
+            scene = replace(scene, status=f"⚠ {self.trouble}")
         self.screen.offer(scene)
 
     def _look(self):

@@ -51,16 +51,12 @@ class Scene:
     @cached_property
     def drawables(self):
         """List of Drawable, every layer as rows; a TypeError where something is no layer."""
-        own = self.colours or {}
-        return [
-            Drawable(
-                type(layer).__name__.lower(),
-                layer.name,
-                to_hex(own.get(layer.name) or colour(layer)),
-                rows(layer),
-            )
-            for layer in self.layers
-        ]
+        return [self._drawable(layer) for layer in self.layers]
+
+    def _drawable(self, layer):
+        usual = colour(layer)
+        shown = to_hex((self.colours or {}).get(layer.name, usual))
+        return Drawable(type(layer).__name__.lower(), layer.name, shown, rows(layer))
 
 
 def rows(layer):

@@ -1,6 +1,6 @@
 // What frames bring, and which part of the plane is seen.
 
-const MARGIN = { left: 46, right: 10, top: 10, bottom: 34 };
+const MARGIN = { left: 46, right: 10, bottom: 34 }; // [px]; above stands the legend
 
 class Layers {
   constructor() {
@@ -60,16 +60,16 @@ function widen(box, x, y) {
 
 class Camera {
   constructor(width, height) {
-    Object.assign(this, { width, height, x: 0, y: 0, scale: 50, fitted: true, run: null });
+    Object.assign(this, { width, height, top: 25, x: 0, y: 0, scale: 50, fitted: true, run: null });
   }
 
   inner() {
-    return [this.width - MARGIN.left - MARGIN.right, this.height - MARGIN.top - MARGIN.bottom];
+    return [this.width - MARGIN.left - MARGIN.right, this.height - this.top - MARGIN.bottom];
   }
 
   middle() {
     const [w, h] = this.inner();
-    return [MARGIN.left + w / 2, MARGIN.top + h / 2];
+    return [MARGIN.left + w / 2, this.top + h / 2];
   }
 
   px(x) { return this.middle()[0] + (x - this.x) * this.scale; }

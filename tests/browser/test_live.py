@@ -1,0 +1,87 @@
+"""The live view in JupyterLab: pressed, driven, played; drawn and acknowledged frame by frame."""
+
+import pytest
+
+from tests.browser.live import NAME, View
+
+
+@pytest.fixture
+def views(visit):
+    """Both views of the notebook, just run."""
+    visit.open(NAME)
+    visit.page.locator(".jp-Cell").first.locator(".cm-content").click()
+    for _ in range(3):
+        visit.page.keyboard.press("Shift+Enter")
+    shown = View(visit.page, 1), View(visit.page, 2)
+    for view in shown:
+        view.root.and_(visit.page.locator("[data-frame]")).wait_for()
+    yield shown
+    assert visit.errors == []
+    assert visit.abroad == []
+    assert [view.behind() for view in shown] == [1, 1], "more than one frame was on its way"
+
+
+def changes(view, act):
+    """Do something and wait for the picture; whether it is another one."""
+    before, frame = view.picture(), view.frame()
+    act()
+    view.wait(frame + 1)
+    return view.picture() != before
+
+
+def test_a_robot_is_chosen_run_and_driven_and_a_recording_is_played(views, visit):
+    driven, played = views
+    assert changes(driven, lambda: driven.press("Corridor"))
+    driven.press("▶ run")
+    assert changes(driven, lambda: driven.press("▲ forward"))
+    driven.wait(driven.frame() + 3)
+    driven.press("❚❚ pause")
+    for way in ["▲ forward"] * 5 + ["◀ left", "▼ back", "right ▶", "▲ forward", "▼ back"]:
+        assert changes(driven, lambda way=way: driven.press(way)), way
+
+    # the arrow keys drive when the picture was clicked, and do not move the notebook
+    driven.canvas.click()
+    assert changes(driven, lambda: visit.page.keyboard.press("ArrowUp"))
+    assert driven.canvas.evaluate("canvas => document.activeElement === canvas")
+    assert changes(driven, lambda: driven.press("reset"))
+    assert driven.status().startswith("step 1 ")
+
+    assert changes(played, lambda: played.press("step"))
+    played.press("▶ run")
+    played.wait(played.frame() + 10)
+    played.press("❚❚ pause")
+    visit.page.wait_for_timeout(300)
+    resting = played.frame()
+    visit.page.wait_for_timeout(300)
+    assert played.frame() == resting
+
+
+def test_wheel_and_drag_move_the_picture_and_fit_shows_all_again(views, visit):
+    view = views[1]
+    whole = view.picture()
+    view.canvas.hover()
+    visit.page.mouse.wheel(0, -300)
+    view.until(lambda picture: picture != whole)
+    near = view.picture()
+    visit.page.mouse.down()
+    visit.page.mouse.move(600, 300)
+    visit.page.mouse.up()
+    view.until(lambda picture: picture not in (whole, near))
+    view.press("fit")
+    view.until(lambda picture: picture == whole)
+
+
+def test_a_cell_that_is_run_again_ends_its_loop_and_shows_a_new_one(views, visit):
+    view = views[1]
+    view.press("▶ run")
+    view.wait(5)
+    view.cell.locator(".cm-content").click()
+    visit.page.keyboard.press("Shift+Enter")
+    visit.page.wait_for_function(
+        "cell => cell.querySelector('.slamlab-live')?.dataset.frame === '1'",
+        arg=view.cell.element_handle(),
+    )
+    visit.page.wait_for_timeout(300)
+    assert view.frame() == 1
+    view.press("step")
+    view.wait(2)

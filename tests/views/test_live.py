@@ -1,0 +1,211 @@
+"""A live view in a notebook: what is stored, and what its buttons do."""
+
+import asyncio
+import sys
+from functools import partial
+
+import ipywidgets
+import pytest
+
+from slamlab import estimators, sources, views
+from slamlab.views.live import loop as loops
+from slamlab.views.live import show
+from slamlab.views.live.canvas import LiveCanvas
+from slamlab.views.live.controls import Controls
+from slamlab.views.live.loop import Loop
+from slamlab.views.live.pair import Pair
+from slamlab.views.live.raster import RasterScreen
+from tests.views.live_fakes import Car, Shown, Sum, Walk
+
+ALT = "a robot walks"
+WIDGET = "application/vnd.jupyter.widget-view+json"
+
+
+@pytest.fixture
+def stored(monkeypatch):
+    """What the cells of a notebook store."""
+    shown = []
+    monkeypatch.setattr(show, "display", lambda data, **rest: shown.append((data, rest)))
+    yield shown
+    loops.stop()
+
+
+def walk(**more):
+    return views.live(Walk, lambda source: Sum(), ALT, **more)
+
+
+def test_one_bundle_holds_the_live_view_and_a_still_with_its_text(stored):
+    walk()
+    ((data, rest),) = stored
+    assert set(data) == {WIDGET, "image/png", "text/plain"}
+    assert data["text/plain"] == rest["metadata"]["image/png"]["alt"] == ALT
+    assert rest["raw"]
+
+
+def test_without_a_browser_nothing_runs(stored):
+    loop = walk(play=True, steps=2)
+    assert not loop.running
+    assert loop.pair.count == 2
+    assert loop.screen.sent == 0
+
+
+def test_the_still_is_the_same_bytes_each_time(stored):
+    for _ in range(2):
+        walk(steps=3)
+    (first, _), (second, _) = stored
+    assert first["image/png"] == second["image/png"]
+
+
+def test_a_script_drives_before_the_still_is_made(stored):
+    loop = views.live(Car, lambda source: Sum(), ALT, script=["forward", "forward", "left"])
+    assert loop.pair.source.commands == [(0.4, 0.0), (0.4, 0.0), (0.0, 0.6)]
+
+
+def test_a_mistake_in_the_first_steps_surfaces_as_any_other(stored):
+    with pytest.raises(ZeroDivisionError):
+        views.live(Walk, lambda source: Sum(fails_at=1), ALT)
+
+
+def test_a_view_without_text_is_refused(stored):
+    with pytest.raises(ValueError, match="alt text"):
+        views.live(Walk, lambda source: Sum(), "")
+
+
+def test_without_anywidget_there_is_a_picture_all_the_same(stored, monkeypatch):
+    assert isinstance(walk().screen, LiveCanvas)
+    monkeypatch.setitem(sys.modules, "slamlab.views.live.canvas", None)
+    loop = walk()
+    assert isinstance(loop.screen, RasterScreen)
+    assert loop.screen.sent == 1
+
+
+def test_views_load_anywidget_only_for_a_live_view():
+    import subprocess
+
+    code = "import slamlab.views, sys; sys.exit('anywidget' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", code]).returncode == 0
+
+
+@pytest.mark.parametrize(("world", "name"), [("room", "icp"), ("landmarks", "mak")])
+def test_it_runs_what_the_course_has(stored, world, name):
+    loop = views.live(
+        partial(sources.simulation, world), partial(estimators.make, name), ALT, steps=3
+    )
+    assert loop.pair.drivable == (world == "room")
+    assert loop.pair.count == 3
+
+
+def test_a_cell_that_is_run_again_ends_the_loop_before(stored):
+    async def watch():
+        loop = walk()
+        loop.pair.reset(0)
+        loop.run()
+        assert loop.running
+        walk()
+        assert not loop.running
+
+    asyncio.run(watch())
+
+
+class Heard(LiveCanvas):
+    """A canvas whose browser is this test."""
+
+    def __init__(self, **rest):
+        super().__init__(**rest)
+        self.messages = []
+        self.widget.send = lambda content, buffers: self.messages.append((content, buffers))
+
+    def say(self, **content):
+        self._hear(None, content, [])
+
+
+def test_the_canvas_speaks_only_when_the_browser_is_ready_and_waits_for_its_word(stored):
+    pair = Pair(Walk, lambda source: Sum())
+    pair.reset(0)
+    loop = Loop(pair, Heard())
+    canvas = loop.screen
+    loop.step()
+    assert canvas.messages == []
+    canvas.say(kind="ready")
+    loop.step()
+    loop.step()
+    assert [header["number"] for header, _ in canvas.messages] == [1]
+    canvas.say(kind="drawn", number=1)
+    assert [header["behind"] for header, _ in canvas.messages] == [1, 1]
+    canvas.say(kind="drawn", number=99)  # of another kernel
+    loop.step()
+    assert len(canvas.messages) == 2
+    # the page is opened anew and has nothing
+    canvas.say(kind="ready")
+    header, (rows,) = canvas.messages[-1]
+    assert all(layer["keep"] == 0 for layer in header["layers"])
+    assert len(rows) == 4 * sum(layer["follow"] * layer["width"] for layer in header["layers"])
+
+
+@pytest.mark.parametrize("message", [None, [], {}, {"kind": "drawn"}, {"kind": "key", "name": {}}])
+def test_what_no_browser_of_ours_says_is_ignored(message):
+    canvas = LiveCanvas()
+    pair = Pair(Walk, lambda source: Sum())
+    pair.reset(0)
+    Loop(pair, canvas)
+    canvas._hear(None, message, [])
+    assert pair.count == 1
+
+
+def test_a_closed_widget_ends_the_loop():
+    async def watch():
+        pair = Pair(Walk, lambda source: Sum())
+        pair.reset(0)
+        loop = Loop(pair, LiveCanvas())
+        loop.run()
+        loop.screen.widget.comm.handle_close({})
+        assert not loop.running
+
+    asyncio.run(watch())
+
+
+@pytest.fixture
+def controls():
+    pairs = {"Walk": Pair(Walk, lambda source: Sum()), "Car": Pair(Car, lambda source: Sum())}
+    pairs["Walk"].reset(0)
+    return Controls(Loop(pairs["Walk"], Shown()), pairs)
+
+
+def visible(controls):
+    return controls.widget.children[2].layout.display != "none"
+
+
+def test_buttons_for_driving_are_there_when_there_is_something_to_drive(controls):
+    async def watch():
+        assert not visible(controls)
+        controls.which[1].click()
+        assert visible(controls)
+        assert [b.button_style for b in controls.which] == ["", "info"]
+        controls.drive[1].click()
+        assert controls.loop.pair.source.commands == [(0.4, 0.0)]
+
+    asyncio.run(watch())
+
+
+def test_the_run_button_says_what_it_would_do(controls):
+    async def watch():
+        assert controls.run.description == "▶ run"
+        controls.run.click()
+        assert controls.run.description == "❚❚ pause"
+        controls.run.click()
+        assert controls.run.description == "▶ run"
+        assert not controls.loop.running
+
+    asyncio.run(watch())
+
+
+def test_speed_and_seed_reach_the_loop(controls):
+    async def watch():
+        controls.speed.value = 50
+        controls.seed.value = 7
+        controls.reset.click()
+        controls.step.click()
+
+    asyncio.run(watch())
+    assert (controls.loop.speed, controls.loop.seed, controls.loop.pair.count) == (50, 7, 2)
+    assert isinstance(controls.seed, ipywidgets.BoundedIntText)
