@@ -666,8 +666,10 @@ views.show(fig, "The measured spread is below 0.4 % at 3 m and above it at 11 m:
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # **See:** the marks cross the line of the preset at about 7 m: the real device is more than twice
-# as good at 2.4 m (4 mm) and more than half as bad again at 11.5 m (7 cm). One share for all ranges fits
-# nowhere but in the middle. The fit adds a part that grows with r². Where have we seen that?
+# as good at 2.4 m (4 mm), and worse by more than half at 11.5 m (7 cm). One share for all ranges
+# fits nowhere but in the middle. The data sheet's 0.75 % lies between the two lines and holds, just
+# about, everywhere: it is a promise, not a description. The fit adds a part that grows with r².
+# Where have we seen that?
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## The fingerprint
