@@ -9,7 +9,10 @@ import pytest
 from slamlab.evaluation import band
 from slamlab.filters.mak import MAK
 from slamlab.geometry import compose
+from slamlab.simulator import DifferentialDrive
+from slamlab.sources import simulation
 from slamlab.sources.landmarks import LandmarkRun, Loop
+from slamlab.studies import walls
 from slamlab.studies.consistency import FILTERS, TABLE, main, study
 from slamlab.studies.ideal import IdealFilter
 
@@ -86,3 +89,22 @@ def test_a_stored_table_is_of_many_runs_and_first_estimates_come_near_the_ideal(
 
 def test_the_table_is_stored():
     assert TABLE in STORED
+
+
+def test_the_wall_study_drives_every_variant_through_both_situations(monkeypatch):
+    monkeypatch.setattr(walls, "simulation", _brief)
+    table = walls.study(3, jobs=1)
+    assert list(table["situations"]) == list(walls.SITUATIONS)
+    for rows in table["situations"].values():
+        assert list(rows) == list(walls.VARIANTS)
+        assert rows["true poses"]["final_m"] == 0 and "nees" not in rows["true poses"]
+        assert rows["(ρ, α), first estimates"]["final_m"] < rows["odometry"]["final_m"]
+        assert rows["true poses"]["map_m"] < 0.2
+
+
+def _brief(name, rng):
+    """The first metres of a situation: driven by hand, so that it is short."""
+    source = simulation(name, rng, robot=DifferentialDrive(slip=0.05), tour=False)
+    for _ in range(14):
+        source.drive((0.2, 0.5))
+    return source

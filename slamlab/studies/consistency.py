@@ -4,28 +4,24 @@ Standard Jacobians, first estimates and the ideal filter (Jacobians at the truth
 readings. Written as JSON: command, seeds, versions, scenario, and a row a filter.
 """
 
-import argparse
-import json
-import platform
 import sys
-from dataclasses import asdict, fields, replace
+from dataclasses import asdict, fields
 from functools import partial
-from importlib.metadata import version
-from pathlib import Path
 
 import numpy as np
 
 from slamlab.estimators.mak import MakSlam, Q_arc
 from slamlab.evaluation import band, consistency, nees
 from slamlab.geometry import compose, wrap
-from slamlab.parallel import RunError, map_runs
+from slamlab.parallel import map_runs
 from slamlab.sources.landmarks import LandmarkRun, Loop
+from slamlab.studies.command import TABLES, made_with, parser, rounded, write
 from slamlab.studies.ideal import IdealFilter
 
 FILTERS = ("ideal", "first estimates", "standard")
 SETTLED = 10  # steps until the pose's covariance, zero at first, can be inverted safely
 LAST = 100  # steps that show where it ends
-TABLE = Path(__file__).parent.parent / "data" / "studies" / "consistency.json"
+TABLE = TABLES / "consistency.json"
 
 
 def errors_of(seed, loop):
@@ -121,54 +117,39 @@ def study(loop, runs, jobs=None, scheduler=None):
     Returns
     -------
     dict
+
+    Raises
+    ------
+    ValueError : too few runs or steps
     """
+    if runs < 3:
+        raise ValueError(f"--runs is at least 3, not {runs}")
+    if loop.steps < SETTLED:
+        raise ValueError(f"--steps is at least {SETTLED}, not {loop.steps}")
     results = map_runs(partial(errors_of, loop=loop), range(runs), jobs, scheduler)
-    table = {name: row([result[name] for result in results]) for name in FILTERS}
     return {
-        "versions": {"python": platform.python_version()}
-        | {name: version(name) for name in ("slamlab", "numpy", "scipy")},
+        "versions": made_with(),
         "seeds": [0, runs - 1],
         "scenario": asdict(loop),
         "band_95": band(3, runs),
-        "filters": {
-            name: {key: round(float(value), 4) for key, value in numbers.items()}
-            for name, numbers in table.items()
-        },
+        "filters": rounded({name: row([result[name] for result in results]) for name in FILTERS}),
     }
 
 
 def main(argv=None):
     """The command; 0 when written, 2 when something is wrong with what was asked."""
     words = sys.argv[1:] if argv is None else argv
-    parser = argparse.ArgumentParser(prog="python -m slamlab.studies.consistency")
-    parser.add_argument("--runs", type=int, default=100, help="how many loops are driven (100)")
-    parser.add_argument("--jobs", type=int, help="processes, every core by default")
-    parser.add_argument("--scheduler", help="a Dask scheduler in their place, tcp://host:port")
-    parser.add_argument("--out", type=Path, default=TABLE, help="the file to write")
+    command = parser("consistency", runs=100)
     for field in fields(Loop):
         kind = type(field.default)
-        parser.add_argument("--" + field.name.replace("_", "-"), type=kind, default=field.default)
-    arguments = parser.parse_args(words)
-    try:
-        if arguments.runs < 3:
-            raise ValueError(f"--runs is at least 3, not {arguments.runs}")
-        if arguments.steps < SETTLED:
-            raise ValueError(f"--steps is at least {SETTLED}, not {arguments.steps}")
-        loop = replace(
-            Loop(), **{field.name: getattr(arguments, field.name) for field in fields(Loop)}
-        )
-        table = study(loop, arguments.runs, arguments.jobs, arguments.scheduler)
-        command = " ".join(["python -m slamlab.studies.consistency", *words])
-        arguments.out.parent.mkdir(parents=True, exist_ok=True)
-        text = json.dumps({"command": command} | table, indent=1)
-        arguments.out.write_text(text + "\n", encoding="utf-8")
-    except (ValueError, RunError, OSError) as error:
-        print(f"{parser.prog}: {error}", file=sys.stderr)
-        return 2
-    except KeyboardInterrupt:
-        return 130
-    print(text)
-    return 0
+        command.add_argument("--" + field.name.replace("_", "-"), type=kind, default=field.default)
+    asked = command.parse_args(words)
+
+    def make():
+        loop = Loop(**{field.name: getattr(asked, field.name) for field in fields(Loop)})
+        return study(loop, asked.runs, asked.jobs, asked.scheduler)
+
+    return write(command.prog, words, asked.out, make)
 
 
 if __name__ == "__main__":
