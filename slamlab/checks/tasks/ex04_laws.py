@@ -3,6 +3,7 @@
 import numpy as np
 
 from slamlab import models
+from slamlab.geometry import wrap
 
 TOLERANCE = 1e-4
 """Share of a matrix's largest entry: one-sided differences pass, no classic mistake does."""
@@ -31,36 +32,39 @@ def close(got, want):
     return error <= TOLERANCE * size
 
 
-def differences(f, x):
+def differences(f, x, angle=None):
     """∂f/∂x at one point by central differences.
 
     Parameters
     ----------
     f : (k,) -> (m,)
     x : (k,)
+    angle : int or None, the component of f that is one: it may jump by a turn between the two
 
     Returns
     -------
     (m, k)
     """
-    steps = STEP * np.eye(len(x))
-    return np.column_stack([(f(x + e) - f(x - e)) / (2 * STEP) for e in steps])
+    found = np.column_stack([f(x + e) - f(x - e) for e in STEP * np.eye(len(x))])
+    if angle is not None:
+        found[angle] = wrap(found[angle])
+    return found / (2 * STEP)
 
 
 def by_robot(inputs):
     """∂h/∂x by differences, (n, 2, 3)."""
-    return _each(lambda x, p: differences(lambda v: models.h(v, p), x), inputs["x"], inputs["p"])
+    return _each(lambda x, p: differences(lambda v: models.h(v, p), x, 1), inputs["x"], inputs["p"])
 
 
 def by_landmark(inputs):
     """∂h/∂p by differences, (n, 2, 2)."""
-    return _each(lambda x, p: differences(lambda v: models.h(x, v), p), inputs["x"], inputs["p"])
+    return _each(lambda x, p: differences(lambda v: models.h(x, v), p, 1), inputs["x"], inputs["p"])
 
 
 def by_pose(inputs):
     """∂f/∂x of the odometry model by differences, (n, 3, 3)."""
     return _each(
-        lambda x, u: differences(lambda v: models.f_odometry(v, u), x), inputs["x"], inputs["u"]
+        lambda x, u: differences(lambda v: models.f_odometry(v, u), x, 2), inputs["x"], inputs["u"]
     )
 
 

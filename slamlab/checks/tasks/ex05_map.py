@@ -58,7 +58,7 @@ def batch(xs, zs, R):
     """
     p, weight = models.g(xs[0], zs[0]), np.linalg.inv(R)
     for _ in range(4):
-        H = each(lambda x, p=p: differences(lambda q: models.h(x, q), p), xs)
+        H = each(lambda x, p=p: differences(lambda q: models.h(x, q), p, 1), xs)
         v = zs - each(lambda x, p=p: models.h(x, p), xs)
         v[:, 1] = wrap(v[:, 1])
         P = np.linalg.inv(np.einsum("nki,kl,nlj->ij", H, weight, H))
