@@ -87,10 +87,10 @@ four = {
     "beside": (2.8, -1.5, 2.6, 0.3),
     "parallel": (0.0, 0.8, 2 * np.cos(beam), 0.8 + 2 * np.sin(beam)),
 }
-fig, ax = views.axes("Four walls and one beam", size=(6, 4))
-views.draw(ax, Segments("walls", list(four.values())), linewidth=3)
-ax.plot([0, 3.6 * np.cos(beam)], [0, 3.6 * np.sin(beam)], "--", color=views.COLOURS["scan"])
-views.draw(ax, Poses("robot", [[0, 0, beam]]))
+layers = [Segments("walls", list(four.values())), Poses("robot", [[0, 0, beam]])]
+fig, (ax,) = views.side_by_side({"Four walls and one beam": layers}, size=(6, 4))
+flight = [[0, 0, 3.6 * np.cos(beam), 3.6 * np.sin(beam)]]
+views.draw(ax, Segments("scan", flight), linestyle="--")
 for name, wall in four.items():
     ax.annotate(name, wall[2:], xytext=(6, 4), textcoords="offset points")
 ax.margins(0.15)
@@ -333,22 +333,24 @@ sp.simplify(sp.diff(r_wall, iota) / r_wall)
 # two errors are independent, their variances add: σ² = (e r)² + (r tan ι σ_β)².
 #
 # **Predict** from that the spread at ι = 80° (tan 80° ≈ 5.7), as a share of r. Then let the sensor
-# look at the room 400 times without moving.
+# look down a corridor 400 times without moving.
 
 # %% slideshow={"slide_type": "fragment"}
-rng = np.random.default_rng(2)
-at_rest = np.array([RPLIDAR_A2.scan(room, np.zeros(3), rng).ranges for _ in range(400)])
-r_true = room.cast((0, 0), RPLIDAR_A2.angles)
-beside = room.cast((0, 0), RPLIDAR_A2.angles + 1e-6)
+rng, hall = np.random.default_rng(2), worlds.corridor()
+far = replace(RPLIDAR_A2, range_max=20.0)
+at_rest = np.array([far.scan(hall, np.zeros(3), rng).ranges for _ in range(400)])
+r_true = hall.cast((0, 0), far.angles)
+beside = hall.cast((0, 0), far.angles + 1e-6)
 slant = np.arctan(abs(beside - r_true) / 1e-6 / r_true)
 shares = np.nanstd(at_rest, axis=0) / r_true
 grid = np.radians(np.linspace(0, 84, 100))
 law = np.hypot(RPLIDAR_A2.range_error, np.tan(grid) * RPLIDAR_A2.bearing_sigma)
 
 # %% slideshow={"slide_type": "fragment"}
-fig, ax = views.chart("angle of incidence ι [degrees]", "σ / r [%]", "400 readings of each beam")
+predicted = {"predicted": 100 * law}
+labels = "angle of incidence ι [degrees]", "σ / r [%]", "400 readings of each beam"
+fig, ax = views.curves(np.degrees(grid), predicted, *labels)
 ax.plot(np.degrees(slant), 100 * shares, ".", color=views.COLOURS["scan"], label="simulated")
-ax.plot(np.degrees(grid), 100 * law, color=views.COLOURS["corrected"], label="predicted")
 ax.set(ylim=(0, 2), xlim=(0, 85))
 ax.legend()
 views.show(fig, "The spread of each beam lies on the predicted curve, which rises at a slant.")
@@ -459,24 +461,30 @@ views.show(fig, "The lidar sees most walls sharply, infrared only the near ones,
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## The door that sound does not see
 #
-# Situation 1 again, an ultrasonic sensor in front of a door 1 m wide.
+# A room as in situation 1, an ultrasonic sensor in front of its door, which is 1 m wide.
 #
 # **Predict:** how wide may the cone be, for the door to be seen from 2 m away? (The cone of 25° is
 # 2 · 2 m · tan 12.5° ≈ 0.9 m wide there.) Then move the slider.
 
 
 # %% slideshow={"slide_type": "fragment"}
+ROOM_WITH_DOOR = World(
+    [
+        *[(-2, -1, 3, -1), (3, -1, 3, 2), (-2, 2, -2, -1), (-2, 3.5, 3, 3.5)],
+        *[(3, 2, 0.5, 2), (-0.5, 2, -2, 2)],  # between these two: the door
+    ]
+)
+
+
 def by_sound(cone_in_degrees):
     """What an ultrasonic scanner with that cone draws in front of a door."""
     device = replace(ULTRASONIC, cone=np.radians(cone_in_degrees), beams=91)
     before_door = np.array([0.2, 0.0, np.pi / 2])
-    echoes = device.scan(worlds.situation_1(), before_door, np.random.default_rng(0)).points()
-    fig, ax = views.axes(f"cone {cone_in_degrees:.0f}°", size=(6, 4))
-    views.draw(ax, Segments("walls", worlds.situation_1().outline()))
-    views.draw(ax, Points("scan", transform(before_door, echoes)), markersize=7)
-    views.draw(ax, Poses("robot", [before_door]))
-    ax.set_aspect("equal", adjustable="box")
-    ax.set(xlim=(-2.2, 3.2), ylim=(-0.3, 3.7))
+    echoes = device.scan(ROOM_WITH_DOOR, before_door, np.random.default_rng(0)).points()
+    heard = Points("scan", transform(before_door, echoes))
+    layers = [Segments("walls", ROOM_WITH_DOOR.walls), heard, Poses("robot", [before_door])]
+    fig, (ax,) = views.side_by_side({f"cone {cone_in_degrees:.0f}°": layers}, size=(6, 4.2))
+    ax.lines[0].set_markersize(7)
     return fig
 
 
@@ -697,8 +705,8 @@ for low, high in [(3.0, 3.2), (4.5, 4.7), (6.8, 7.2), (11.0, 11.4)]:
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* The one moment of detective work; give it time. At 3 m and below, the
-# whole millimetres of the log are coarser than the device's own steps: nothing can be told there. With
-# the simulated log there are no steps at all, and the cell shows it: a millimetre everywhere.
+# whole millimetres of the log are coarser than the device's own steps: nothing can be told there.
+# With the simulated log there are no steps at all, and the cell shows it: a millimetre everywhere.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Empty returns
@@ -708,7 +716,8 @@ for low, high in [(3.0, 3.2), (4.5, 4.7), (6.8, 7.2), (11.0, 11.4)]:
 # **Predict:** are the real ones spread by chance, too?
 
 # %% slideshow={"slide_type": "fragment"}
-fig, ax = views.chart("bearing [degrees]", "turn", "Each empty return of one recording", (8, 3.2))
+title = "Each empty return of one recording; in the lowest row, one simulated turn"
+fig, ax = views.chart("bearing [degrees]", "turn", title, (8, 3.2))
 whole = max(logs, key=len)
 for number, scan in enumerate(whole):
     empty = np.degrees(scan.angles[np.isnan(scan.ranges)]) % 360
@@ -716,8 +725,7 @@ for number, scan in enumerate(whole):
 chance = RPLIDAR_A2.scan(worlds.corridor(), np.zeros(3), np.random.default_rng(7))
 lost = np.degrees(chance.angles[np.isnan(chance.ranges)]) % 360
 ax.plot(lost, np.full(len(lost), -3), "|", color=views.COLOURS["corrected"])
-ax.annotate("one simulated turn", (0, -3), xytext=(0, 6), textcoords="offset points", fontsize=8)
-ax.set(xlim=(0, 360))
+ax.set(xlim=(0, 360), yticks=(0, 5, 10, 15, 20))
 views.show(fig, "Empty returns stand above each other in a few directions, turn after turn.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
@@ -757,11 +765,12 @@ def on_the_bench(device, distance):
 
 
 fitted = replace(RPLIDAR_A2, range_error=error, range_curvature=curvature, dropouts=0.005)
-fig, ax = views.chart("range r [m]", "σ / r [%]", "σ at rest, by the median")
+benches = {
+    name: [100 * on_the_bench(device, distance) for distance in r_bin]
+    for name, device in {"fitted": fitted, "preset": RPLIDAR_A2}.items()
+}
+fig, ax = views.curves(r_bin, benches, "range r [m]", "σ / r [%]", "σ at rest, by the median")
 ax.plot(r_bin, 100 * sigma_bin / r_bin, "o", color=views.COLOURS["truth"], label=device_name)
-for name, device, line in [("preset", RPLIDAR_A2, "--"), ("fitted", fitted, "-")]:
-    shares = [100 * on_the_bench(device, distance) for distance in r_bin]
-    ax.plot(r_bin, shares, line, color=views.COLOURS["map"], label=name)
 ax.set_ylim(0, 1)
 ax.legend()
 views.show(fig, "The fitted sensor follows the real one's rise with range; the preset stays level.")
@@ -783,8 +792,8 @@ views.show(fig, "The fitted sensor follows the real one's rise with range; the p
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* Ask which of the rows would matter for a filter (σ with range: yes, it
-# says how much a near reading is worth against a far one; steps: hardly) and which for a grid map (empties: a
-# direction that is always empty is not free space).
+# says how much a near reading is worth against a far one; steps: hardly) and which for a grid map
+# (empties: a direction that is always empty is not free space).
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Odometry is a sensor, too
