@@ -25,7 +25,7 @@ def add_parser(subparsers):
         "--estimator",
         metavar="NAME",
         default="icp",
-        help="odometry, icp, icp-plain, mak or mak-first-estimates (icp)",
+        help="such as odometry, icp, mak or walls; a name there is none of lists them all (icp)",
     )
     parser.add_argument("--out", metavar="DIR", type=Path, help="a folder for the results")
     parser.add_argument(
@@ -180,7 +180,9 @@ def _with_progress(source, estimator):
 
     from slamlab.runner import run as feed
 
-    with Progress(console=Console(stderr=True), transient=True) as progress:
+    # in a notebook, too, a command's progress goes where its errors go
+    console = Console(stderr=True, force_jupyter=False)
+    with Progress(console=console, transient=True) as progress:
         bar = progress.add_task("running", total=len(source) or None)
         return feed(source, estimator, lambda reading, estimator: progress.advance(bar))
 
