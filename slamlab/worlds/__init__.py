@@ -1,7 +1,7 @@
 """Ready worlds, and worlds from files. In each a robot starts at the origin, heading along +x."""
 
 from slamlab.worlds.arena import arena, table_legs
-from slamlab.worlds.files import load, save
+from slamlab.worlds.files import load, parse, save, text_of
 from slamlab.worlds.rooms import corridor, polygon, room
 from slamlab.worlds.shapes import box, ring
 from slamlab.worlds.situations import situation_1, situation_2
@@ -13,6 +13,7 @@ __all__ = [
     "by_name",
     "corridor",
     "load",
+    "parse",
     "polygon",
     "ring",
     "room",
@@ -20,6 +21,7 @@ __all__ = [
     "situation_1",
     "situation_2",
     "table_legs",
+    "text_of",
 ]
 
 WORLDS = {

@@ -35,25 +35,41 @@ def load(path):
     WorldFileError : the file cannot be read, or a line is neither wall nor circle
     """
     path = Path(path)
-    rows = {4: [], 3: []}
-    for number, line in enumerate(_lines(path), 1):
-        words = line.split("#", 1)[0].replace(",", " ").split()
-        if not words:
-            continue
-        if len(words) not in rows:
-            raise WorldFileError(
-                f"{path}:{number}: {len(words)} numbers; a wall has four (x1 y1 x2 y2), "
-                "a circle three (x y radius)"
-            )
-        row = _numbers(words, path, number)
-        if len(row) == 4 and row[:2] == row[2:]:
-            raise WorldFileError(f"{path}:{number}: the wall has no length: it starts at its end")
-        if len(row) == 3 and row[2] <= 0:
-            raise WorldFileError(f"{path}:{number}: a circle needs a radius above zero")
-        rows[len(row)].append(row)
-    if not any(rows.values()):
-        raise WorldFileError(f"{path} holds no wall and no circle")
-    return World(rows[4], rows[3], path.stem)
+    return _parsed(_lines(path), str(path), path.stem)
+
+
+def parse(text, name="world"):
+    """A world from text as a file would hold it.
+
+    Parameters
+    ----------
+    text : str
+    name : str, of the world; errors call its lines by it
+
+    Returns
+    -------
+    World
+
+    Raises
+    ------
+    WorldFileError : a line is neither wall nor circle
+    """
+    return _parsed(text.splitlines(), name, name)
+
+
+def text_of(world):
+    """A world as text, so that :func:`parse` gives the same one.
+
+    Parameters
+    ----------
+    world : World
+
+    Returns
+    -------
+    str
+    """
+    rows = [*world.walls.tolist(), *world.circles.tolist()]
+    return HEAD + "".join(" ".join(f"{value!r}" for value in row) + "\n" for row in rows)
 
 
 def save(world, path):
@@ -68,9 +84,29 @@ def save(world, path):
     ------
     OSError
     """
-    rows = [*world.walls.tolist(), *world.circles.tolist()]
-    text = "".join(" ".join(f"{value!r}" for value in row) + "\n" for row in rows)
-    Path(path).write_text(HEAD + text, encoding="utf-8")
+    Path(path).write_text(text_of(world), encoding="utf-8")
+
+
+def _parsed(lines, where, name):
+    rows = {4: [], 3: []}
+    for number, line in enumerate(lines, 1):
+        words = line.split("#", 1)[0].replace(",", " ").split()
+        if not words:
+            continue
+        if len(words) not in rows:
+            raise WorldFileError(
+                f"{where}:{number}: {len(words)} numbers; a wall has four (x1 y1 x2 y2), "
+                "a circle three (x y radius)"
+            )
+        row = _numbers(words, where, number)
+        if len(row) == 4 and row[:2] == row[2:]:
+            raise WorldFileError(f"{where}:{number}: the wall has no length: it ends at its start")
+        if len(row) == 3 and row[2] <= 0:
+            raise WorldFileError(f"{where}:{number}: a circle needs a radius above zero")
+        rows[len(row)].append(row)
+    if not any(rows.values()):
+        raise WorldFileError(f"{where} holds no wall and no circle")
+    return World(rows[4], rows[3], name)
 
 
 def _lines(path):
@@ -85,14 +121,14 @@ def _lines(path):
         raise WorldFileError(f"{path} is no text file") from None
 
 
-def _numbers(words, path, number):
+def _numbers(words, where, number):
     try:
         row = [float(word) for word in words]
     except ValueError:
         bad = next(word for word in words if not _is_number(word))
-        raise WorldFileError(f"{path}:{number}: {bad!r} is no number") from None
+        raise WorldFileError(f"{where}:{number}: {bad!r} is no number") from None
     if not np.isfinite(row).all():
-        raise WorldFileError(f"{path}:{number}: a number is not finite")
+        raise WorldFileError(f"{where}:{number}: a number is not finite")
     return row
 
 
