@@ -42,8 +42,12 @@ def notebook():
     -------
     NotebookNode
     """
-    cells = [nbformat.v4.new_code_cell(cell) for cell in (SETUP, DRIVEN, PLAYED)]
-    made = nbformat.v4.new_notebook(cells=cells)
+    return fresh(SETUP, DRIVEN, PLAYED)
+
+
+def fresh(*cells):
+    """A notebook of such code cells, never run."""
+    made = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(cell) for cell in cells])
     made.metadata["kernelspec"] = {"name": "python3", "display_name": "Python 3"}
     return made
 

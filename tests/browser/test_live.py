@@ -2,6 +2,7 @@
 
 import pytest
 
+from benchmarks.live import rows
 from tests.browser.live import NAME, View
 
 
@@ -9,9 +10,7 @@ from tests.browser.live import NAME, View
 def views(visit):
     """Both views of the notebook, just run."""
     visit.open(NAME)
-    visit.page.locator(".jp-Cell").first.locator(".cm-content").click()
-    for _ in range(3):
-        visit.page.keyboard.press("Shift+Enter")
+    visit.run_all()
     shown = View(visit.page, 1), View(visit.page, 2)
     for view in shown:
         view.root.and_(visit.page.locator("[data-frame]")).wait_for()
@@ -85,3 +84,12 @@ def test_a_cell_that_is_run_again_ends_its_loop_and_shows_a_new_one(views, visit
     assert view.frame() == 1
     view.press("step")
     view.wait(2)
+
+
+def test_the_benchmark_measures_clicks_and_pictures_and_no_frame_waits_for_another(visit):
+    found = rows(visit, quick=True)
+    assert {row["unit"] for row in found} == {"ms", "1/s", "1"}
+    assert all(row["value"] > 0 and row["ratio"] > 0 for row in found)
+    assert [row["value"] for row in found if row["unit"] == "1"] == [1, 1]
+    assert visit.errors == []
+    assert visit.abroad == []

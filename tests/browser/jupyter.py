@@ -1,0 +1,129 @@
+"""A JupyterLab with a home of its own, and a browser that reaches nothing else."""
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+import time
+from contextlib import contextmanager
+
+CHROMIUMS = ("chromium", "chromium-browser", "google-chrome", "chrome")
+NEWS = "@jupyterlab/apputils-extension:announcements"
+PATIENCE = 60  # [s] for anything that is being waited for; what is there is not waited for
+
+
+class Unavailable(Exception):
+    """There is no browser, or JupyterLab does not start; the text says which."""
+
+
+@contextmanager
+def chromium():
+    """Chromium, without a window.
+
+    Yields
+    ------
+    Browser of Playwright
+
+    Raises
+    ------
+    Unavailable : no Playwright or no Chromium
+    """
+    try:
+        from playwright.sync_api import sync_playwright
+    except ImportError:
+        raise Unavailable("Playwright is not installed") from None
+    path = next(filter(None, map(shutil.which, CHROMIUMS)), None)
+    if not path:
+        raise Unavailable("no Chromium here: what is shown in a browser stays untested")
+    quiet = ["--disable-gpu", "--disable-background-networking", "--disable-component-update"]
+    with sync_playwright() as running:
+        opened = running.chromium.launch(executable_path=path, args=["--no-sandbox", *quiet])
+        yield opened
+        opened.close()
+
+
+@contextmanager
+def jupyterlab(home):
+    """A JupyterLab as ``lab.py`` sets it up.
+
+    Parameters
+    ----------
+    home : Path, a folder with ``course/notebooks/``; all it writes goes there
+
+    Yields
+    ------
+    str, the address of a notebook, with ``{}`` for its name
+
+    Raises
+    ------
+    Unavailable : it does not start
+    """
+    settings = home / "config" / "labconfig" / "page_config.json"
+    settings.parent.mkdir(parents=True)
+    settings.write_text(json.dumps({"disabledExtensions": {NEWS: True}}))
+    places = {"HOME": home, "JUPYTER_CONFIG_DIR": home / "config", "IPYTHONDIR": home / "ipython"}
+    places |= {"JUPYTER_RUNTIME_DIR": home / "runtime", "JUPYTER_DATA_DIR": home / "data"}
+    options = ["--no-browser", "--allow-root", "--ip=127.0.0.1", "--port=0"]
+    with open(home / "said.txt", "w") as said:
+        server = subprocess.Popen(
+            [sys.executable, "-m", "jupyterlab", *options],
+            cwd=home / "course",
+            env=os.environ | {name: str(place) for name, place in places.items()},
+            stdin=subprocess.DEVNULL,
+            stdout=said,
+            stderr=subprocess.STDOUT,
+        )
+    try:
+        yield _address(server, home)
+    finally:
+        server.terminate()
+        server.wait(PATIENCE)
+
+
+def _address(server, home):
+    """The address with the token, once the server has written it down."""
+    end = time.monotonic() + PATIENCE
+    while time.monotonic() < end and server.poll() is None:
+        for file in (home / "runtime").glob("jpserver-*.json"):
+            try:
+                told = json.loads(file.read_text())
+            except json.JSONDecodeError:
+                continue  # half written
+            return f"{told['url']}lab/tree/notebooks/{{}}?reset&token={told['token']}"
+        time.sleep(0.1)
+    raise Unavailable("JupyterLab did not start:\n" + (home / "said.txt").read_text()[-2000:])
+
+
+class Visit:
+    """A page of JupyterLab, with what went wrong on it and what it asked of other machines."""
+
+    def __init__(self, page, address):
+        self.page, self.address = page, address
+        self.errors, self.abroad = [], []
+        page.set_default_timeout(1000 * PATIENCE)
+        page.on("console", self._heard)
+        page.on("pageerror", lambda error: self.errors.append(str(error)))
+        page.on("request", self._asked)
+
+    def open(self, notebook):
+        """Open a notebook and wait until its kernel is ready."""
+        self.page.goto(self.address.format(notebook))
+        self.page.wait_for_selector(".jp-NotebookPanel .jp-Cell")
+        self.page.wait_for_selector(".jp-Notebook-ExecutionIndicator[data-status=idle]")
+        # the indicator is idle before there is a kernel, too
+        self.page.get_by_text("| Idle").wait_for()
+
+    def run_all(self):
+        """Run all cells of the notebook that is open, by the menu."""
+        self.page.get_by_role("menuitem", name="Run", exact=True).click()
+        self.page.get_by_text("Run All Cells", exact=True).click()
+
+    def _heard(self, message):
+        if message.type == "error":
+            self.errors.append(message.text)
+
+    def _asked(self, request):
+        local = ("http://127.0.0.1:", "http://localhost:", "data:", "blob:")
+        if not request.url.startswith(local):
+            self.abroad.append(request.url)
