@@ -35,6 +35,7 @@ from slamlab.readings import Scan
 from slamlab.sensors import GP2D120, RPLIDAR_A2, ULTRASONIC
 from slamlab.simulator import DifferentialDrive, Simulator
 from slamlab.world import World
+from slamlab.views.editor import edit_world
 from slamlab.worlds.files import WorldFileError
 
 # %% [markdown] slideshow={"slide_type": "slide"}
@@ -867,6 +868,31 @@ with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
             worlds.load("broken.txt")
         except WorldFileError as refused:
             print(refused)
+
+# %% [markdown] slideshow={"slide_type": "slide"}
+# ## Move a wall, watch the scan
+#
+# The rows below are situation 2, the scan is the lidar's at the origin. Change a number, or add a
+# row, and click outside the rows.
+#
+# **Predict:** which points vanish when a pillar of 0.2 m (`-1 -1 0.2`) is put into the room?
+
+
+# %% slideshow={"slide_type": "fragment"}
+def seen_from_the_origin(world):
+    return RPLIDAR_A2.scan(world, np.zeros(3), np.random.default_rng(2)).points()
+
+
+editor = edit_world(
+    worlds.situation_2(),
+    "An irregular room with one slanted wall, and what a lidar near its upper right sees of it.",
+    scan=seen_from_the_origin,
+)
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# **See:** the bay in the lower left is half hidden behind a corner: no point lies there. A pillar
+# hides a strip behind itself that widens with distance. `worlds.save(editor.world, "mine.txt")`
+# keeps what you drew.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## What you can do now

@@ -100,7 +100,7 @@ def _parsed(lines, where, name):
             )
         row = _numbers(words, where, number)
         if len(row) == 4 and row[:2] == row[2:]:
-            raise WorldFileError(f"{where}:{number}: the wall has no length: it ends at its start")
+            raise WorldFileError(f"{where}:{number}: the wall has no length: it starts at its end")
         if len(row) == 3 and row[2] <= 0:
             raise WorldFileError(f"{where}:{number}: a circle needs a radius above zero")
         rows[len(row)].append(row)
