@@ -8,10 +8,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from slamlab import worlds
-from slamlab.evaluation import band, nees
-from slamlab.geometry import transform, wrap
+from slamlab.evaluation import band, found_metres, nees, seen_metres
+from slamlab.geometry import inverse, transform, wrap
 from slamlab.hardware import SensorModel
-from slamlab.landmarks.fit import cloud, fit, total_least_squares
+from slamlab.landmarks.fit import Line, cloud, fit, total_least_squares
 from slamlab.landmarks.ransac import THESIS, Ransac, lines
 from slamlab.readings import Scan
 from slamlab.sensors import Scanner
@@ -80,51 +80,31 @@ def scans(name, count, seed=1):
             yield world, pose, LIDAR.scan(world, pose, rng), rng
 
 
-def metres(world, found, pose, within=0.1, slant=0.14, step=0.02):
-    """How many metres of the found lines lie on a wall, and how many do not."""
-    start, end = world.walls[:, :2], world.walls[:, 2:]
-    length = np.hypot(*(end - start).T)
-    way = (end - start) / length[:, None]
-    on = off = 0
-    for line in found:
-        a, b = transform(pose, line.ends)
-        samples = a + np.linspace(0, 1, max(2, int(line.length / step)))[:, None] * (b - a)
-        parallel = np.abs(way @ (b - a)) / line.length > np.cos(slant)
-        offset = samples[:, None] - start
-        along = np.sum(offset * way, axis=2)
-        across = np.abs(offset[..., 0] * way[:, 1] - offset[..., 1] * way[:, 0])
-        right = (across < within) & (along > -within) & (along < length + within) & parallel
-        on += right.any(axis=1).sum() * step
-        off += (~right.any(axis=1)).sum() * step
-    return on, off
-
-
-def hit_metres(world, pose, scan):
-    """Metres of the walls of which a stretch of at least 0.4 m and 13 beams was seen."""
-    directions, total = pose[2] + scan.angles, 0
-    reach = world.cast(pose[:2], directions)
-    hits = pose[:2] + reach[:, None] * np.column_stack([np.cos(directions), np.sin(directions)])
-    for x1, y1, x2, y2 in world.walls:
-        length = np.hypot(x2 - x1, y2 - y1)
-        way = np.array([x2 - x1, y2 - y1]) / length
-        offset = hits - (x1, y1)
-        along, across = offset @ way, offset @ [way[1], -way[0]]
-        mine = (np.abs(across) < 1e-6) & (along > -1e-6) & (along < length + 1e-6) & scan.valid
-        seen = np.sort(along[mine])
-        if len(seen) >= 13 and seen[-1] - seen[0] >= 0.4:
-            total += np.minimum(np.diff(seen), 0.4).sum()
-    return total
-
-
 @pytest.mark.parametrize("name", ["situation-1", "situation-2", "corridor"])
 def test_at_one_percent_noise_nearly_all_walls_are_found_and_nearly_nothing_else(name):
     seen = found = false = 0
     for world, pose, scan, rng in scans(name, 25):
         walls = lines(scan, LIDAR.model, rng)
-        on, off = metres(world, walls, pose)
-        seen, found, false = seen + hit_metres(world, pose, scan), found + on, false + off
+        on, off = found_metres(world, pose, walls)
+        seen, found, false = seen + seen_metres(world, pose, scan), found + on, false + off
     assert found > 0.93 * seen
     assert false < 0.02 * (found + false)
+
+
+def test_what_is_found_is_measured_against_what_was_seen():
+    """The walls themselves, given as lines, are found wholly; a line in mid-room not at all."""
+    world, pose = World(worlds.box((0, 0), (4.0, 3.0))), np.array([0.5, 0.2, 0.3])
+    scan = replace(LIDAR, range_error=0.0).scan(world, pose, RNG(0))
+    assert seen_metres(world, pose, scan) == pytest.approx(14, abs=0.4)
+
+    def line(x1, y1, x2, y2):
+        ends = transform(inverse(pose), np.array([[x1, y1], [x2, y2]]))
+        return Line(np.zeros(2), np.eye(2), ends, np.arange(20))
+
+    assert found_metres(world, pose, [line(*w) for w in world.walls])[0] == pytest.approx(14, abs=0.1)
+    assert found_metres(world, pose, [line(-1, 0, 1, 0)]) == (0, pytest.approx(2, abs=0.1))
+    slanted = line(-2, -1.5, 2, -0.5)
+    assert found_metres(world, pose, [slanted])[0] == 0
 
 
 def test_the_thesis_band_fails_with_range():

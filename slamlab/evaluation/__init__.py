@@ -4,6 +4,7 @@ from slamlab.evaluation.consistency import Consistency, band, consistency, nees,
 from slamlab.evaluation.correlation import correlation
 from slamlab.evaluation.relations import Relations, RelationsError, load_relations, relations_error
 from slamlab.evaluation.trajectory import TrajectoryError, absolute_error, relative_error
+from slamlab.evaluation.walls import found_metres, seen_metres
 
 __all__ = [
     "Consistency",
@@ -14,9 +15,11 @@ __all__ = [
     "band",
     "consistency",
     "correlation",
+    "found_metres",
     "load_relations",
     "nees",
     "nis",
     "relations_error",
     "relative_error",
+    "seen_metres",
 ]

@@ -1,0 +1,116 @@
+"""Walls in a scan: how many are found, how many are none, and how long it takes."""
+
+import sys
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+
+from benchmarks.common import Missing, cpu_times, main, row, speed_rows
+from slamlab import worlds
+from slamlab.evaluation import found_metres, seen_metres
+from slamlab.landmarks.fit import Line
+from slamlab.landmarks.ransac import THESIS, Ransac, lines
+from slamlab.sensors import RPLIDAR_A2
+
+TITLE = "Walls in scans of 400 beams, 1 % noise (CPU time, methods taking turns)"
+LIDAR = replace(RPLIDAR_A2, range_error=0.01)
+PLACES = ("situation-1", "situation-2", "corridor", "room")
+PERIOD = 0.1  # of a scan: the lidar turns ten times a second [s]
+OURS, SMOLEC, PEER = "slamlab", "thesis' parameters", "scikit-learn, line by line"
+
+
+def regressor():
+    """scikit-learn's RANSACRegressor, which only this benchmark needs."""
+    try:
+        from sklearn.linear_model import RANSACRegressor
+    except ImportError:
+        raise Missing(
+            "compares with scikit-learn, which is not here: python -m pip install scikit-learn"
+        ) from None
+    return RANSACRegressor
+
+
+def line_by_line(ransac, scan, rng):
+    """Walls by a general RANSAC: the best line y = a x + b, take its points away, again.
+
+    It knows nothing of neighbours or of noise that grows; its band is the noise at 3 m.
+    """
+    points, found = scan.points(), []
+    while len(points) >= 21:
+        fit = ransac(
+            residual_threshold=0.06, min_samples=2, random_state=int(rng.integers(2**31))
+        ).fit(points[:, :1], points[:, 1])
+        on = fit.inlier_mask_
+        if on.sum() < 21:
+            break
+        a, b = float(fit.estimator_.coef_[0]), float(fit.estimator_.intercept_)
+        way = np.array([1, a]) / np.hypot(1, a)
+        along = points[on] @ way
+        foot = np.array([-a, 1]) * b / (1 + a * a)
+        ends = foot + np.outer([along.min(), along.max()], way)
+        found.append(Line(np.zeros(2), np.eye(2), ends, np.flatnonzero(on)))
+        points = points[~on]
+    return found
+
+
+def scenes(name, count):
+    """Scans from free places of a world: (world, pose, scan)."""
+    world, rng, found = worlds.by_name(name), np.random.default_rng(1), []
+    corners = world.walls.reshape(-1, 2)
+    while len(found) < count:
+        place = rng.uniform(corners.min(axis=0), corners.max(axis=0))
+        around = world.cast(place, np.linspace(0, 2 * np.pi, 90))
+        if np.isfinite(around).all() and around.min() > 0.3:
+            pose = np.array([*place, rng.uniform(-np.pi, np.pi)])
+            found.append((world, pose, LIDAR.scan(world, pose, rng)))
+    return found
+
+
+def shares(method, cases):
+    """Share of the wall metres seen that are found, share of the metres found that are none."""
+    seen = on = off = 0
+    for world, pose, scan in cases:
+        right, wrong = found_metres(world, pose, method(scan, np.random.default_rng(0)))
+        seen, on, off = seen + seen_metres(world, pose, scan), on + right, off + wrong
+    # lines may overlap and reach a little beyond what was seen: more than all is not found
+    return min(on / seen, 1.0), off / max(on + off, 1e-9)
+
+
+def run(quick):
+    """Rows of what is found and of time."""
+    methods = {
+        SMOLEC: lambda scan, rng: lines(scan, LIDAR.model, rng, THESIS),
+        OURS: lambda scan, rng: lines(scan, LIDAR.model, rng, Ransac()),
+        PEER: partial(line_by_line, regressor()),
+    }
+    rows, timed = [], []
+    for name in PLACES:
+        cases = scenes(name, 10 if quick else 60)
+        timed += cases[:2]
+        results = {who: shares(method, cases) for who, method in methods.items()}
+        reference = results[SMOLEC]
+        for who, (found, false) in results.items():
+            rows.append(
+                row(f"{name}: found: {who}", 100 * found, "%", SMOLEC, found / reference[0])
+            )
+            ratio = reference[1] / false if false else np.inf
+            rows.append(row(f"{name}: false: {who}", 100 * false, "%", SMOLEC, ratio))
+    calls = {who: partial(each, method, timed) for who, method in methods.items()}
+    times = {who: t / len(timed) for who, t in cpu_times(calls, quick).items()}
+    rows += speed_rows("a scan", times, [(OURS, PEER)])
+    budget = PERIOD / 10
+    rows.append(
+        row("a scan: slamlab", 1e3 * times[OURS], "ms", "period / 10", budget / times[OURS])
+    )
+    return rows
+
+
+def each(method, cases):
+    """Find the walls of every scan once."""
+    for _, _, scan in cases:
+        method(scan, np.random.default_rng(0))
+
+
+if __name__ == "__main__":
+    sys.exit(main({TITLE: run}, "python -m benchmarks.lines"))
