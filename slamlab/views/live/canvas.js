@@ -39,7 +39,7 @@ export default () => {
       }, { tabIndex: 0 });
       const root = element("div", { maxWidth: `${model.get("width")}px` }, { className: "slamlab-live" });
       // the notebook would take the arrow keys for itself
-      root.dataset.lmSuppressShortcuts = "true";
+      root.dataset.lmSuppressShortcuts = canvas.dataset.lmSuppressShortcuts = "true";
       head.textContent = model.get("title");
       canvas.setAttribute("role", "img");
       canvas.setAttribute("aria-label", model.get("alt"));
