@@ -9,6 +9,7 @@ PATIENCE = 30  # [s] for a picture
 
 SETUP = """\
 from functools import partial
+import numpy as np
 from slamlab import estimators, sources, views
 from slamlab.layers import Segments"""
 
@@ -22,15 +23,24 @@ loop = views.live(
     "A robot and the points it has seen.",
     steps=1,
     speed=20,
-    extra=lambda source, _: [Segments("walls", source.world.outline())],
+    extra=lambda pair: [Segments("walls", pair.source.world.outline())],
 )"""
 
 PLAYED = """\
+def off(pair, estimator):
+    return np.hypot(*(estimator.pose - pair.source.truth.poses[pair.count - 1])[:2])
+
 loop = views.live(
     partial(sources.simulation, "landmarks"),
     partial(estimators.make, "mak"),
     "A robot on a loop among landmarks.",
     beside={"naive": lambda source: estimators.Odometry()},
+    curves={
+        "error [m]": {
+            "naive": lambda pair: off(pair, pair.others["naive"]),
+            "corrected": lambda pair: off(pair, pair.estimator),
+        }
+    },
     speed=20,
 )"""
 

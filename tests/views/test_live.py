@@ -56,6 +56,18 @@ def test_the_still_is_the_same_bytes_each_time(stored):
     assert first["image/png"] == second["image/png"]
 
 
+def test_the_still_has_a_panel_for_each_group_of_curves():
+    pair = Pair(
+        Walk, lambda source: Sum(), curves={"way [m]": {"corrected": lambda pair: pair.time}}
+    )
+    pair.reset(0)
+    pair.step()
+    above, below = show.still(pair.scene(), "A walk", (720, 480)).axes
+    assert (above.get_title(), below.get_ylabel()) == ("A walk", "way [m]")
+    (line,) = below.lines
+    assert line.get_xydata().tolist() == [[0, 0], [1, 1]]
+
+
 def test_a_script_drives_before_the_still_is_made(stored):
     loop = views.live(Car, lambda source: Sum(), ALT, script=["forward", "forward", "left"])
     assert loop.pair.source.commands == [(0.4, 0.0), (0.4, 0.0), (0.0, 0.6)]

@@ -188,7 +188,7 @@ def test_a_mistake_in_a_step_stops_the_loop_and_is_told_in_one_line():
 
 def test_a_mistake_in_what_is_drawn_is_told_and_the_last_picture_stays():
     broken = []
-    loop = made(extra=lambda source, estimator: broken)
+    loop = made(extra=lambda pair: broken)
 
     async def watch():
         loop.step()
@@ -204,7 +204,7 @@ def test_a_mistake_in_what_is_drawn_is_told_and_the_last_picture_stays():
 
 def test_a_step_after_a_mistake_is_mended_forgets_it():
     broken = [None]
-    loop = made(extra=lambda source, estimator: broken)
+    loop = made(extra=lambda pair: broken)
 
     async def watch():
         loop.step()
@@ -250,7 +250,7 @@ def test_it_begins_when_the_browser_is_ready_and_again_after_that_is_opened_anew
 
 
 def test_truth_those_beside_and_the_note_are_shown_as_far_as_it_went():
-    loop = made(beside={"naive": lambda source: Sum()}, note=lambda source, _: "all is well")
+    loop = made(beside={"naive": lambda source: Sum()}, note=lambda pair: "all is well")
 
     async def watch():
         loop.step()
@@ -261,6 +261,21 @@ def test_truth_those_beside_and_the_note_are_shown_as_far_as_it_went():
     assert list(shown) == ["truth", "naive", "map", "corrected"]
     assert np.allclose(shown["truth"].rows, shown["naive"].rows)
     assert scene.status == "step 2 of 5 · t = 1.0 s · all is well"
+
+
+def test_curves_are_measured_after_each_step_and_begin_anew_with_a_reset():
+    curves = {"way [m]": {"corrected": lambda pair: pair.estimator.pose[0]}}
+    loop = made(curves=curves)
+
+    async def watch():
+        loop.step()
+        loop.reset()
+
+    asyncio.run(watch())
+    two, one = (scene.curves["way [m]"]["corrected"] for scene in loop.screen.scenes)
+    truth = loop.pair.source.truth
+    assert np.allclose(two, np.column_stack([truth.times, truth.poses[:, 0]])[:2])
+    assert one == two[:1]
 
 
 def test_an_estimator_handed_in_ready_made_cannot_be_reset():

@@ -54,7 +54,7 @@ def test_every_kind_of_layer_arrives_as_its_numbers(send):
 
 def test_an_ellipse_arrives_as_the_outline_that_holds_95_percent(send):
     centre, P = np.array([1.0, -2.0]), np.array([[0.3, 0.2], [0.2, 0.5]])
-    ((x, y, a, b, angle),) = send(Ellipses("landmark", [centre], [P])).rows["ellipses landmark"]
+    ((x, y, a, b, angle),) = send(Ellipses("landmark", [centre], [P])).rows["ellipses  landmark"]
     t = np.linspace(0, 6, 7)
     c, s = np.cos(angle), np.sin(angle)
     rim = np.column_stack([a * np.cos(t), b * np.sin(t)]) @ [[c, s], [-s, c]]
@@ -64,7 +64,7 @@ def test_an_ellipse_arrives_as_the_outline_that_holds_95_percent(send):
 
 def test_a_sample_of_mean_weight_arrives_with_one(send):
     rows = np.array([[0, 0, 9.0], [1, 2, 9]])
-    got = send(Samples("sample", rows, np.array([0.25, 0.75]))).rows["samples sample"]
+    got = send(Samples("sample", rows, np.array([0.25, 0.75]))).rows["samples  sample"]
     assert np.array_equal(got, [[0, 0, 0.5], [1, 2, 1.5]])
 
 
@@ -75,7 +75,7 @@ def test_of_what_only_grew_the_new_rows_alone_are_sent(send):
     more = np.vstack([points, [[1.0, 2.0]]])
     browser = send(Points("map", more))
     assert browser.brought == 8
-    assert np.array_equal(browser.rows["points map"], more.astype(np.float32))
+    assert np.array_equal(browser.rows["points  map"], more.astype(np.float32))
     assert send(Points("map", more)).brought == 0
 
 
@@ -84,15 +84,15 @@ def test_what_changed_or_shrank_is_sent_anew(send, change):
     points = np.arange(10.0).reshape(5, 2)
     send(Points("map", points), Points("scan", points))
     browser = send(Points("map", change(points)), Points("scan", points))
-    assert np.array_equal(browser.rows["points map"], change(points))
-    assert np.array_equal(browser.rows["points scan"], points)
+    assert np.array_equal(browser.rows["points  map"], change(points))
+    assert np.array_equal(browser.rows["points  scan"], points)
 
 
 def test_a_layer_that_is_gone_is_gone_and_comes_back_whole(send):
     points = np.arange(10.0).reshape(5, 2)
     send(Points("map", points), Points("scan", points))
-    assert list(send(Points("scan", points)).rows) == ["points scan"]
-    assert np.array_equal(send(Points("map", points)).rows["points map"], points)
+    assert list(send(Points("scan", points)).rows) == ["points  scan"]
+    assert np.array_equal(send(Points("map", points)).rows["points  map"], points)
 
 
 def test_two_layers_of_one_name_and_kind_are_told_apart(send):
@@ -107,6 +107,16 @@ def test_a_new_screen_gets_everything(send):
     send(Points("map", points))
     send.packer.forget()
     assert send(Points("map", points)).brought == 40
+
+
+def test_curves_follow_the_layers_and_are_told_apart_by_their_panel():
+    line = np.array([[0.0, 1], [1, 4]])
+    scene = Scene([], curves={"error [m]": {"naive": line}, "NEES": {"naive": line[:1]}})
+    browser = Browser()
+    browser.take(*Packer().pack(scene.drawables))
+    assert [d.panel for d in scene.drawables] == ["error [m]", "NEES"]
+    assert [len(rows) for rows in browser.rows.values()] == [2, 1]
+    assert scene.drawables[0].colour.upper() == COLOURS["naive"]
 
 
 def test_no_rows_are_no_bytes(send):

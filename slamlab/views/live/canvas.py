@@ -8,8 +8,8 @@ import traitlets
 from slamlab.views.live.packing import Packer
 from slamlab.views.live.screen import Screen
 
-# a widget's script is one piece; for readers it is three
-SCRIPTS = ("plane.js", "drawing.js", "canvas.js")
+# a widget's script is one piece; for readers it is several
+SCRIPTS = ("plane.js", "panels.js", "drawing.js", "canvas.js")
 
 
 class CanvasWidget(anywidget.AnyWidget):

@@ -162,7 +162,7 @@ function mark(g, { name, colour, kinds, x, y }) {
   g.strokeStyle = g.fillStyle = colour;
   g.lineWidth = 2;
   g.beginPath();
-  if (kinds.has("poses") || kinds.has("segments")) {
+  if (["poses", "segments", "curve"].some((kind) => kinds.has(kind))) {
     g.moveTo(x + 2, y);
     g.lineTo(x + 28, y);
   }
@@ -180,13 +180,16 @@ function mark(g, { name, colour, kinds, x, y }) {
 }
 
 function draw(canvas, camera, layers) {
-  const ratio = window.devicePixelRatio || 1;
-  const wide = Math.round(camera.width * ratio), high = Math.round(camera.height * ratio);
-  if (canvas.width != wide || canvas.height != high) Object.assign(canvas, { width: wide, height: high });
+  const ratio = window.devicePixelRatio || 1, below = panels(layers);
+  const full = camera.height + PANEL * below.size;
+  const wide = Math.round(camera.width * ratio), high = Math.round(full * ratio);
+  if (canvas.width != wide || canvas.height != high) {
+    Object.assign(canvas, { width: wide, height: high });
+  }
   const g = canvas.getContext("2d");
   g.setTransform(ratio, 0, 0, ratio, 0, 0);
   g.fillStyle = PAPER;
-  g.fillRect(0, 0, camera.width, camera.height);
+  g.fillRect(0, 0, camera.width, full);
   const entries = legend(g, camera, layers.list);
   grid(g, camera);
   const [w, h] = camera.inner();
@@ -203,10 +206,10 @@ function draw(canvas, camera, layers) {
     for (const layer of clouds) cloud(image, camera, ratio, layer);
     const sheet = new OffscreenCanvas(wide, high);
     sheet.getContext("2d").putImageData(image, 0, 0);
-    g.drawImage(sheet, 0, 0, camera.width, camera.height);
+    g.drawImage(sheet, 0, 0, camera.width, full);
   };
   for (const layer of layers.list) {
-    if (!many(layer)) DRAW[layer.kind](g, camera, layer, layers.header.radius);
+    if (!many(layer)) DRAW[layer.kind]?.(g, camera, layer, layers.header.radius);
     else if (!painted) paint(); // all clouds at once, where the first one stands
   }
   g.restore();
@@ -214,4 +217,9 @@ function draw(canvas, camera, layers) {
   g.lineWidth = 1;
   g.strokeRect(MARGIN.left + 0.5, camera.top + 0.5, w - 1, h - 1);
   for (const entry of entries) mark(g, entry);
+  let top = camera.height + 4;
+  for (const [title, curves] of below) {
+    panel(g, camera, title, curves, top);
+    top += PANEL;
+  }
 }

@@ -1,12 +1,13 @@
 """Layers as a frame: a header of words and numbers, and all rows as one piece of float32 bytes."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
 from matplotlib.colors import to_hex
 
 from slamlab.layers import Boxes, Ellipses, Layer, Points, Poses, Samples, Segments
+from slamlab.views.figures import COLOURS
 from slamlab.views.layers import SIGMAS_95, colour
 
 
@@ -20,13 +21,16 @@ class Drawable:
     name : str, for the legend
     colour : str, #rrggbb
     rows : (n, width) float32 [m, rad]: points x y; segments x1 y1 x2 y2; poses x y θ; ellipses
-        x y, half axes a b, direction of a; boxes x_min x_max y_min y_max; samples x y weight·n
+        x y, half axes a b, direction of a; boxes x_min x_max y_min y_max; samples x y weight·n;
+        curves time value [s, any]
+    panel : str, title of the panel below the map that a curve stands in
     """
 
     kind: str
     name: str
     colour: str
     rows: np.ndarray
+    panel: str = ""
 
 
 @dataclass(frozen=True)
@@ -39,7 +43,8 @@ class Scene:
     status : str, one line
     radius : float, of the robot [m]
     run : int, another number for another run: the view is fitted anew
-    colours : dict or None, layer's name to colour where it is not the usual one
+    colours : dict or None, name to colour where it is not the usual one
+    curves : dict, title of a panel to a dict of a line's name to (n, 2) time [s] and value
     """
 
     layers: list[Layer]
@@ -47,11 +52,21 @@ class Scene:
     radius: float = 0.15
     run: int = 0
     colours: dict | None = None
+    curves: dict = field(default_factory=dict)
 
     @cached_property
     def drawables(self):
-        """List of Drawable, every layer as rows; a TypeError where something is no layer."""
-        return [self._drawable(layer) for layer in self.layers]
+        """List of Drawable, layers, then curves; a TypeError where something is no layer."""
+        layers = [self._drawable(layer) for layer in self.layers]
+        lines = ((panel, *line) for panel, named in self.curves.items() for line in named.items())
+        return layers + [
+            Drawable("curve", name, self.line_colour(name), _table(values, 2), panel)
+            for panel, name, values in lines
+        ]
+
+    def line_colour(self, name):
+        """The colour of a curve: that of the layer of its name."""
+        return to_hex((self.colours or {}).get(name, COLOURS.get(name, COLOURS["corrected"])))
 
     def _drawable(self, layer):
         usual = colour(layer)
@@ -127,13 +142,13 @@ class Packer:
 
         Returns
         -------
-        (list of dict, bytes) : per layer its key, kind, name, colour, width of a row, how many
-            rows to keep of those that the screen has under this key and how many follow; the
+        (list of dict, bytes) : per layer its key, kind, name, colour, panel, width of a row, how
+            many rows to keep of those that the screen has under this key and how many follow; the
             following rows of all layers, float32 little-endian, in the same order
         """
         there, entries, pieces = {}, [], []
         for drawable in drawables:
-            key = f"{drawable.kind} {drawable.name}"
+            key = f"{drawable.kind} {drawable.panel} {drawable.name}"
             while key in there:
                 key += "'"
             keep = self._kept(key, drawable.rows)
@@ -144,6 +159,7 @@ class Packer:
                     "kind": drawable.kind,
                     "name": drawable.name,
                     "colour": drawable.colour,
+                    "panel": drawable.panel,
                     "width": drawable.rows.shape[1],
                     "keep": keep,
                     "follow": len(drawable.rows) - keep,

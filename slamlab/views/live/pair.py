@@ -17,18 +17,30 @@ class Pair:
     make_estimator : callable(source) -> Estimator, or an Estimator
     beside : dict or None, name to callable(source) -> Estimator that takes in the same readings;
         its track is drawn under that name
-    extra : callable(source, estimator) -> layers, drawn beneath the estimator's, or None
-    note : callable(source, estimator) -> str, more for the status line, or None
+    extra : callable(pair) -> layers, drawn beneath the estimator's, or None
+    note : callable(pair) -> str, more for the status line, or None
+    curves : dict or None, title of a panel to a dict of a line's name to callable(pair) -> float
     truth : bool, whether the true track is drawn where it is known
-    colours : dict or None, layer's name to colour where it is not the usual one
+    colours : dict or None, name to colour where it is not the usual one
+
+    What is called with the pair may look at ``source``, ``estimator``, ``others`` (by name),
+    ``count`` (readings taken in) and ``time``.
     """
 
     def __init__(
-        self, make_source, make_estimator, beside=None, extra=None, note=None, truth=True,
+        self,
+        make_source,
+        make_estimator,
+        beside=None,
+        extra=None,
+        note=None,
+        curves=None,
+        truth=True,
         colours=None,
-    ):  # fmt: skip
+    ):
         self._make_source, self._make_estimator = make_source, make_estimator
         self._beside, self._extra, self._note = dict(beside or {}), extra, note
+        self._measures = curves or {}
         self._truth, self._colours = truth, colours
         self.runs, self.source, self._used = 0, None, False
 
@@ -52,6 +64,7 @@ class Pair:
         self.estimator = _made(self._make_estimator, self.source)
         self.others = {name: make(self.source) for name, make in self._beside.items()}
         self._readings, self._used = iter(self.source), True
+        self._measured = {panel: {name: [] for name in of} for panel, of in self._measures.items()}
         self.step()
 
     @property
@@ -101,6 +114,9 @@ class Pair:
         self.count, self.time = self.count + 1, reading.time
         for estimator in (self.estimator, *self.others.values()):
             estimator.step(reading)
+        for panel, measures in self._measures.items():
+            for name, measure in measures.items():
+                self._measured[panel][name].append((self.time, measure(self)))
 
     def scene(self):
         """What there is to see now.
@@ -109,12 +125,19 @@ class Pair:
         -------
         Scene
         """
-        layers = [] if self._extra is None else list(self._extra(self.source, self.estimator))
+        layers = [] if self._extra is None else list(self._extra(self))
         if self._truth and self.source.truth is not None:
             layers.append(Poses("truth", self.source.truth.poses[: self.count]))
         layers += [Poses(name, each.trajectory().poses) for name, each in self.others.items()]
         layers += self.estimator.layers()
-        return Scene(layers, self.status(), self.source.robot.radius, self.runs, self._colours)
+        return Scene(
+            layers,
+            self.status(),
+            self.source.robot.radius,
+            self.runs,
+            self._colours,
+            self._measured,
+        )
 
     def status(self):
         """One line: how far it went, what the estimator says, the note.
@@ -125,7 +148,7 @@ class Pair:
         """
         whole = len(self.source)
         step = f"step {self.count}" + (f" of {whole}" if whole > self.count else "")
-        note = self._note(self.source, self.estimator) if self._note is not None else ""
+        note = self._note(self) if self._note is not None else ""
         parts = [step, f"t = {self.time:.1f} s", self.estimator.status, note]
         return " · ".join(part for part in parts if part)
 

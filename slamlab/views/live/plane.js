@@ -34,6 +34,7 @@ class Layers {
     const box = [Infinity, -Infinity, Infinity, -Infinity];
     for (const layer of this.list) {
       const { rows, width, kind } = layer;
+      if (kind == "curve") continue;
       for (let i = 0; i < rows.length; i += width) {
         if (kind == "segments") {
           widen(box, rows[i], rows[i + 1]);

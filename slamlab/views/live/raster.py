@@ -16,7 +16,7 @@ MARGIN = 0.06  # of the picture, free on each side
 
 
 class RasterScreen(Screen):
-    """A screen of plain ipywidgets, in equal scale, always fitted; a grid line each metre.
+    """A screen of plain ipywidgets: the map, always fitted, a grid line each metre; no curves.
 
     Parameters
     ----------
@@ -35,7 +35,7 @@ class RasterScreen(Screen):
 
     def _put(self, scene):
         self._image.value = png(paint(scene, self._size))
-        names = {drawable.name: drawable.colour for drawable in scene.drawables}
+        names = {each.name: each.colour for each in scene.drawables if each.kind != "curve"}
         legend = " ".join(
             f'<span style="color:{colour}">■</span> {html.escape(name)}'
             for name, colour in names.items()

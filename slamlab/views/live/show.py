@@ -1,10 +1,11 @@
 """A live view in a notebook: the widgets, and the still picture that a notebook stores."""
 
 import ipywidgets
+import numpy as np
 from IPython.display import display
 
 from slamlab.layers import Points
-from slamlab.views.figures import axes, bundle
+from slamlab.views.figures import COLOURS, axes, bundle
 from slamlab.views.layers import draw, legend
 from slamlab.views.live.controls import Controls
 from slamlab.views.live.loop import Loop, stop
@@ -22,6 +23,7 @@ def live(
     beside=None,
     extra=None,
     note=None,
+    curves=None,
     truth=True,
     colours=None,
     title="",
@@ -48,10 +50,12 @@ def live(
     steps : int, readings taken in for the still picture
     script : sequence of names of commands that follow them, such as ``["forward", "left"]``
     beside : dict or None, name to callable(source) -> Estimator, whose track is drawn, too
-    extra : callable(source, estimator) -> layers to draw beneath, or None
-    note : callable(source, estimator) -> str, more for the status line, or None
+    extra : callable(pair) -> layers to draw beneath, or None
+    note : callable(pair) -> str, more for the status line, or None
+    curves : dict or None, title of a panel below the map, such as "error [m]", to a dict of a
+        line's name to callable(pair) -> float, called after each step
     truth : bool, whether the true track is drawn where it is known
-    colours : dict or None, layer's name to colour where it is not the usual one
+    colours : dict or None, name to colour where it is not the usual one
     title : str
     seed : int, what source and estimator are made anew from
     speed : float, steps a second
@@ -59,6 +63,9 @@ def live(
     play : bool, whether it runs as soon as a browser shows it
     size : (width, height) [pixels]
     raster : bool, a picture of plain ipywidgets, for where anywidget is missing or not let in
+
+    What is called with the pair may look at its ``source``, ``estimator``, ``others`` (by name),
+    ``count`` (readings taken in) and ``time`` [s].
 
     Returns
     -------
@@ -71,7 +78,7 @@ def live(
     stop()
     given = source if isinstance(source, dict) else {title: source}
     pairs = {
-        name: Pair(each, estimator, beside, extra, note, truth, colours)
+        name: Pair(each, estimator, beside, extra, note, curves, truth, colours)
         for name, each in given.items()
     }
     pair = next(iter(pairs.values()))
@@ -104,9 +111,23 @@ def still(scene, title, size):
     -------
     Figure
     """
-    fig, ax = axes(title or None, (size[0] / 100, size[1] / 100))
+    count = len(scene.curves)
+    wide, high = size[0] / 100, size[1] / 100 + count
+    fig, ax = axes(title or None, (wide, high))
+    panels = []
+    if count:
+        grid = fig.add_gridspec(1 + count, 1, height_ratios=[size[1] / 100 - 1, *[1] * count])
+        ax.set_subplotspec(grid[0])
+        panels = [fig.add_subplot(grid[row + 1]) for row in range(count)]
+    for below, (panel, lines) in zip(panels, scene.curves.items(), strict=True):
+        below.set(ylabel=panel)
+        below.grid(color=COLOURS["guide"], linewidth=0.5)
+        for name, values in lines.items():
+            below.plot(*np.transpose(values), color=scene.line_colour(name), label=name)
+    if panels:
+        panels[-1].set_xlabel("t [s]")
     named = set()
-    for layer, drawable in zip(scene.layers, scene.drawables, strict=True):
+    for layer, drawable in zip(scene.layers, scene.drawables, strict=False):
         # one entry in the legend for all that has a name
         label = f"_{layer.name}" if layer.name in named else layer.name
         named.add(layer.name)
