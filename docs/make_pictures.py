@@ -1,4 +1,4 @@
-"""Makes the pictures of the README: ``python docs/make_pictures.py [intel] [polygon] [check]``.
+"""Makes the pictures of the README: ``python docs/make_pictures.py [NAME ...]``.
 
 The Intel map needs the recording (``SLAMLAB_DATA`` or ``data/``), the picture of a check Chromium.
 """
@@ -16,7 +16,7 @@ from nbconvert import HTMLExporter
 
 from slamlab import estimators, sources, views
 from slamlab.geometry import transform
-from slamlab.layers import Points
+from slamlab.layers import Points, Poses
 from slamlab.runner import run
 
 DOCS = Path(__file__).resolve().parent
@@ -42,6 +42,17 @@ def polygon():
     """The cardboard polygon of the thesis, given odometry that is wrong on purpose."""
     source = sources.open("sim:polygon-wrong", np.random.default_rng(1))
     return before_and_after(source, (9, 4.4), "Cardboard polygon: ")
+
+
+def situations():
+    """Smolec's two situations: walls in blue, what EKF-SLAM with walls makes of the scans."""
+    panels = {}
+    for name in ("situation-1", "situation-2"):
+        source = sources.open(f"sim:{name}", np.random.default_rng(1))
+        result = run(source, estimators.make("walls", source))
+        wheels = Poses("naive", result.naive.poses)
+        panels[f"{name}: EKF-SLAM with walls"] = [wheels, *result.estimator.layers()]
+    return views.png(views.side_by_side(panels, (11, 5.2), shared=False)[0])
 
 
 def before_and_after(source, size, title, thin=1, shared=True):
@@ -82,7 +93,7 @@ def photograph(page, size):
         return png.read_bytes()
 
 
-PICTURES = {"intel": intel, "polygon": polygon, "check": check}
+PICTURES = {"intel": intel, "polygon": polygon, "situations": situations, "check": check}
 
 
 def main(names):

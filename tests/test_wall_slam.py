@@ -13,6 +13,7 @@ from slamlab.geometry import wrap
 from slamlab.hardware import RobotModel, SensorModel
 from slamlab.landmarks.candidates import Candidates, overlap, stretch
 from slamlab.landmarks.corners import corners
+from slamlab.landmarks.pieces import pieces, union
 from slamlab.landmarks.ransac import lines
 from slamlab.landmarks.spikes import spikes
 from slamlab.landmarks.thinned import Thinned
@@ -53,7 +54,7 @@ def test_it_believes_no_more_than_it_knows(driven):
 def test_its_walls_lie_on_walls_and_none_is_drawn_twice_over_nothing(driven):
     source, result, _ = driven
     found, true = result.estimator.walls(), source.world.walls
-    assert 5 <= len(found) <= 3 * len(true)
+    assert 5 <= len(found) <= 6 * len(true)
     end_to_end = true[:, 2:] - true[:, :2]
     normals = np.column_stack([-end_to_end[:, 1], end_to_end[:, 0]])
     normals /= np.hypot(*normals.T)[:, None]
@@ -134,6 +135,32 @@ def test_a_wall_is_due_at_its_third_sighting_and_forgotten_when_unseen_for_long(
     assert trial.waiting == []
     trial.sight([one, other])
     assert len(trial.waiting) == 2  # collinear, but far apart: two walls
+
+
+def test_through_a_door_no_wall_is_drawn():
+    source = simulation("situation-1", np.random.default_rng(1))
+    slam = run(source, estimators.make("walls", source)).estimator
+    for x in (0.0, 5.0):  # the middles of the doors at y = 2 and y = 3.5
+        for x1, y1, x2, y2 in slam.walls():
+            if abs(y1 - y2) < 0.3 and min(abs(y1 - 2), abs(y1 - 3.5)) < 0.3:
+                assert not min(x1, x2) + 0.2 < x < max(x1, x2) - 0.2
+
+
+@given(st.lists(st.floats(-3, 3), max_size=30), st.lists(st.floats(-3, 3), max_size=30))
+def test_pieces_hold_what_stands_close_and_their_union_holds_both(first, second):
+    first, second = pieces(np.array(first)), pieces(np.array(second))
+    for parts in (first, second, union(first, second)):
+        assert np.all(parts[:, 0] <= parts[:, 1]) and np.all(parts[1:, 0] > parts[:-1, 1])
+    both = union(first, second)
+    for low, high in [*first, *second]:
+        assert np.any((both[:, 0] <= low) & (high <= both[:, 1]))
+    assert np.sum(np.diff(both)) <= np.sum(np.diff(first)) + np.sum(np.diff(second)) + 1e-9
+
+
+def test_a_hole_parts_two_pieces_and_a_lone_hit_is_none():
+    np.testing.assert_allclose(
+        pieces(np.array([1.0, 0.8, 0.9, 2.0, 2.1, 3.0])), [[0.8, 1], [2, 2.1]]
+    )
 
 
 def test_a_stretch_lies_along_its_line_and_stretches_that_nearly_touch_overlap():

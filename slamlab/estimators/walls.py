@@ -13,6 +13,7 @@ from slamlab.filters.kinds import LINES
 from slamlab.filters.mak import MAK
 from slamlab.geometry import compose, transform
 from slamlab.landmarks.candidates import Candidates, overlap, stretch
+from slamlab.landmarks.pieces import pieces, union
 from slamlab.landmarks.ransac import lines
 from slamlab.landmarks.thinned import Thinned
 from slamlab.layers import Ellipses, Points, Poses, Segments
@@ -43,7 +44,7 @@ class WallSlam(Estimator):
             np.zeros(3), np.zeros((3, 3)), kind=LINES, first_estimates=first_estimates
         )
         self.candidates = Candidates(sightings, lives)
-        self.stretches: dict[int, np.ndarray] = {}
+        self.seen: dict[int, np.ndarray] = {}  # pieces of each wall, along its line [m]
         self.points = Thinned()
         self.doubtful = 0
         self._begun = False
@@ -62,7 +63,7 @@ class WallSlam(Estimator):
             self.skipped += 1
         else:
             found = lines(reading.scan, self.sensor, self.rng, self.ransac)
-            self._update(*self._associated(found))
+            self._update(reading.scan, *self._associated(found))
             self.points.add(transform(self.filter.pose, reading.scan.points()))
         self.pose = self.filter.pose
         self.record(reading.time)
@@ -82,13 +83,14 @@ class WallSlam(Estimator):
         ]
 
     def walls(self):
-        """(N, 4) the walls in the filter, as far as they were seen: rows x1 y1 x2 y2 [m]."""
-        rho, alpha = self.filter.landmarks().T
-        t = np.array([self.stretches[i] for i in self.filter.ids]).reshape(-1, 2)
-        c, s = np.cos(alpha), np.sin(alpha)
-        foot = np.column_stack([rho * c, rho * s])
-        way = np.column_stack([-s, c])
-        return np.hstack([foot + t[:, :1] * way, foot + t[:, 1:] * way])
+        """(k, 4) the pieces of wall that were seen, doors left open: rows x1 y1 x2 y2 [m]."""
+        rows = []
+        for i, (rho, alpha) in zip(self.filter.ids, self.filter.landmarks(), strict=True):
+            normal, way = (np.array([np.cos(a), np.sin(a)]) for a in (alpha, alpha + np.pi / 2))
+            rows += [
+                [*(rho * normal + a * way), *(rho * normal + b * way)] for a, b in self.seen[i]
+            ]
+        return np.array(rows).reshape(-1, 4)
 
     def _associated(self, found):
         """Sightings of walls in the filter, as id to Line, and those of none."""
@@ -106,7 +108,7 @@ class WallSlam(Estimator):
             near = [
                 (distance, i)
                 for distance, i in zip(row, ids, strict=True)
-                if distance < DOUBT and overlap(self.stretches[i], stretch(lines_of[i], ends))
+                if distance < DOUBT and overlap(_hull(self.seen[i]), stretch(lines_of[i], ends))
             ]
             distance, i = min(near, default=(np.inf, None))
             if i is None:
@@ -117,7 +119,7 @@ class WallSlam(Estimator):
                 self.doubtful += 1
         return known, new
 
-    def _update(self, known, new):
+    def _update(self, scan, known, new):
         if known:
             z, R = (np.array([getattr(line, name) for line in known.values()]) for name in "zR")
             self.filter.update(list(known), z, R)
@@ -127,15 +129,20 @@ class WallSlam(Estimator):
         first, self._begun = not self._begun, True
         for line, due in zip(new, self.candidates.sight(placed), strict=True):
             if due or first:
-                i = len(self.stretches)
+                i = len(self.seen)
                 self.filter.add([i], line.z[None], line.R)
-                known[i] = line
-                self.stretches[i] = np.array([np.inf, -np.inf])
+                known[i], self.seen[i] = line, np.empty((0, 2))
         lines_of = dict(zip(self.filter.ids, self.filter.landmarks(), strict=True))
         for i, line in known.items():
-            low, high = stretch(lines_of[i], transform(pose, line.ends))
-            before = self.stretches[i]
-            self.stretches[i] = np.array([min(before[0], low), max(before[1], high)])
+            r, beta = scan.ranges[line.beams], scan.angles[line.beams] + pose[2]
+            hits = pose[:2] + r[:, None] * np.column_stack([np.cos(beta), np.sin(beta)])
+            along = hits @ [-np.sin(lines_of[i][1]), np.cos(lines_of[i][1])]
+            self.seen[i] = union(self.seen[i], pieces(along))
+
+
+def _hull(parts):
+    """(2,) from the first to the last of some pieces [m]."""
+    return np.array([parts[0, 0], parts[-1, 1]]) if len(parts) else np.array([np.inf, -np.inf])
 
 
 def walls(source, rng=None):
