@@ -154,6 +154,17 @@ def test_the_canvas_speaks_only_when_the_browser_is_ready_and_waits_for_its_word
     assert len(rows) == 4 * sum(layer["follow"] * layer["width"] for layer in header["layers"])
 
 
+def test_a_browser_on_the_same_machine_gets_no_short_messages(stored):
+    pair = Pair(Walk, lambda source: Sum())
+    pair.reset(0)
+    canvas = Loop(pair, Heard()).screen
+    for near in (True, False):
+        canvas.say(kind="ready", near=near)
+    (_, (long,)), (_, (short,)) = canvas.messages
+    assert len(long) > 100_000 > len(short)
+    assert long.startswith(short) and not any(long[len(short) :])
+
+
 @pytest.mark.parametrize("message", [None, [], {}, {"kind": "drawn"}, {"kind": "key", "name": {}}])
 def test_what_no_browser_of_ours_says_is_ignored(message):
     canvas = LiveCanvas()

@@ -113,7 +113,8 @@ export default () => {
       });
 
       if (layers.header) repaint();
-      if (!opened) model.send({ kind: "ready" });
+      const near = ["localhost", "127.0.0.1", "[::1]"].includes(location.hostname);
+      if (!opened) model.send({ kind: "ready", near });
       opened = true;
       return () => {
         views.delete(repaint);
