@@ -418,6 +418,7 @@ def drawn_guess(ax, points, line, rows, inside):
     views.draw(ax, Segments("guessed line", [[*ends[0], *ends[1]]]), color=views.COLOURS["truth"])
 
 
+# %% slideshow={"slide_type": "fragment"}
 def try_guess(reading, window=25, band=0.015, needed=21):
     points = turn["situation-1"].points()
     rows, line = guess(points, reading, window)
