@@ -673,11 +673,11 @@ for name in ("situation-1", "situation-2", "corridor", "polygon", "table-legs", 
     print(f"{name:12} {judged(name, THESIS):>22} {judged(name, None):>24}")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** the default finds 95 % and more of the walls in both situations and invents less than
-# 1 %; the thesis' numbers find a quarter, the near ones. Above 100 % means that a line runs on
-# behind a pillar, where no beam hit the wall. With furniture it is less: legs and pillars cut the
-# walls to pieces, some too short to confirm a guess, and a short flat piece of a pillar passes for
-# a wall. Curved walls are nobody's business here: what to do with them, Smolec leaves open, too.
+# **See:** the default finds more than 95 % of the walls in both situations and invents less than
+# 1 %; the thesis' numbers find an eighth to a half, the near ones. Above 100 % means that a line
+# runs on behind a pillar, where no beam hit the wall. With furniture it is less: legs and pillars
+# cut the walls to pieces, some too short to confirm a guess, and a few flat readings of a pillar
+# pass for a wall. What to do with curved walls, Smolec leaves open, and so does this lesson.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* Ask which of the two errors is worse for a map. A missed wall is seen again in
@@ -866,8 +866,8 @@ for name, as_point in (("as its foot", True), ("as (ρ, α)", False)):
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # The lidar said nothing about x. But the foot was computed *through the believed pose*: along the
 # wall, its distance from the robot is −x̂, whatever the truth. It agrees with what is believed, each
-# time, and ten agreements are taken for ten measurements. The filter grows sure of x by listening
-# to itself. As (ρ, α) the same ten looks leave x as it was, and say what a wall can say: y and θ.
+# time, and ten agreements are taken for ten measurements. The filter grows sure of x, where it is
+# wrong by half a metre, by listening to itself. As (ρ, α) the same ten looks leave x as it was, and say what a wall can say: y and θ.
 #
 # And a wall *through* the origin has the origin for its foot: its direction is lost. Lesson 09
 # drives both variants through the situations and measures what it costs.
@@ -919,7 +919,7 @@ ax.plot(*seen.T, "*", ms=13, color=views.COLOURS["naive"], label="seen")
 for name, place in zip("AB", walls_in_map, strict=True):
     ax.annotate(name, place, xytext=(6, 4), textcoords="offset points")
 ax.legend(loc="lower left")
-views.show(fig, "The sighting lies inside the tall ellipse of wall A and outside that of wall B.")
+views.show(fig, "The sighting lies inside the ellipse of wall A and outside that of wall B.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # **See:** B is nearer by Pythagoras, who adds metres to radians as if they were alike. But S knows

@@ -289,15 +289,6 @@ WRONG = [
         "not-the-most",
         may_lose={NEAR},
     ),
-    Wrong(
-        "neighbours in the list",
-        wall().replace(
-            "pair = rng.choice(len(points), 2, replace=False)",
-            "pair = (rng.integers(len(points)) + np.arange(12)) % len(points)",
-        ),
-        {MOST, NEAR, REFITTED},
-        "always-none",
-    ),
     Wrong("no mask", wall(result="rho, alpha"), {"08-ransac"}, None, "malformed"),
     Wrong(
         "rows for a mask",

@@ -4,12 +4,14 @@ import numpy as np
 
 from slamlab.checks.drives.ex08 import DRIVES
 from slamlab.checks.task import Diagnosis, Law, Task
-from slamlab.checks.tasks.ex08_fit import direction, distances, is_least, same, total
+from slamlab.checks.tasks.ex08_lines import direction, distances, is_least, same, total
 
 WALL, OTHERS, BAND, NEEDED, TRIES = 28, 20, 0.05, 16, 60
 SCANS, EMPTY = 6, 2  # the last hold no wall
 ENOUGH = 0.8  # share of the most points that any guess has
-OFF = 0.25  # m, none of the others is nearer to the wall's line
+RAIL = 6  # of the others stand just before the wall, out of the band
+OFF = 0.25  # m, all the rest are farther than this from the wall's line
+LOOSE = 0.01  # share of the least sum of squares that a refit may have more
 
 
 def scans(rng):
@@ -25,6 +27,9 @@ def scans(rng):
         off = others @ normal - rho
         near = np.abs(off) < OFF
         others[near] += np.outer(np.where(off[near] < 0, -2, 2) * OFF, normal)
+        ahead = rho - rng.uniform(0.13, 0.2, RAIL)
+        along = rng.uniform(-1.8, 1.8, RAIL)
+        others[:RAIL] = ahead[:, None] * normal + along[:, None] * (normal[::-1] * [-1, 1])
         rng.shuffle(cloud)
     count = len(points)
     return {
@@ -70,7 +75,7 @@ def _refitted(inputs, outputs):
     points, line, inside = _walls(inputs, outputs)
     return np.array(
         [
-            mask.sum() > 1 and is_least(cloud[None, mask], one[None])[0]
+            mask.sum() > 1 and is_least(cloud[None, mask], one[None], LOOSE)[0]
             for cloud, one, mask in zip(points, line, inside, strict=True)
         ]
     )
@@ -97,7 +102,7 @@ def _wide(inputs, outputs):
 def _not_refitted(inputs, outputs):
     points, line, inside = _walls(inputs, outputs)
     on = (np.abs(distances(points, line)) < 1e-9) & inside
-    return (on.sum(axis=1) >= 2).all()
+    return ((on.sum(axis=1) >= 2) & (inside.sum(axis=1) > 2)).all()
 
 
 def _on_all(inputs, outputs):
