@@ -44,15 +44,20 @@ loop = views.live(
     speed=20,
 )"""
 
+RASTERED = """\
+_ = views.live(
+    partial(sources.simulation, "room"), partial(estimators.make, "icp"), "A room.", raster=True
+)"""
+
 
 def notebook():
-    """A notebook that was never run: an import, a robot to drive, a recording to play.
+    """A notebook never run: imports, a robot to drive, a recording to play, one without JavaScript.
 
     Returns
     -------
     NotebookNode
     """
-    return fresh(SETUP, DRIVEN, PLAYED)
+    return fresh(SETUP, DRIVEN, PLAYED, RASTERED)
 
 
 def fresh(*cells):

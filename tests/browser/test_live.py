@@ -70,6 +70,18 @@ def test_wheel_and_drag_move_the_picture_and_fit_shows_all_again(views, visit):
     view.until(lambda picture: picture == whole)
 
 
+def test_without_javascript_of_ours_a_picture_is_shown_and_steps_on(views, visit):
+    cell = visit.page.locator(".jp-Cell").nth(3)
+    image = cell.locator("img.widget-image")
+    before = image.get_attribute("src")
+    cell.get_by_role("button", name="step", exact=True).click()
+    visit.page.wait_for_function(
+        "([image, before]) => image.src !== before && image.naturalWidth > 0",
+        arg=[image.element_handle(), before],
+    )
+    assert "step 21 of" in cell.locator(".widget-html").text_content()
+
+
 def test_a_cell_that_is_run_again_ends_its_loop_and_shows_a_new_one(views, visit):
     view = views[1]
     view.press("▶ run")

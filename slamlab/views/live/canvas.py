@@ -47,6 +47,8 @@ class LiveCanvas(Screen):
     size : (width, height) [CSS pixels]
     """
 
+    keys = True
+
     def __init__(self, alt="", title="", size=(720, 480)):
         super().__init__(acknowledged=True)
         width, height = map(int, size)

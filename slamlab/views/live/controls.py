@@ -44,7 +44,8 @@ class Controls:
         self.drive.append(_button("■ stop", "stand still", self._driven("stop")))
         self.speed.observe(self._faster, "value")
         loop.on_change = self._changed
-        self._wheel = ipywidgets.HBox([*self.drive, ipywidgets.Label(HINT)], layout=_WRAPPED)
+        hint = [ipywidgets.Label(HINT)] if loop.screen.keys else []
+        self._wheel = ipywidgets.HBox([*self.drive, *hint], layout=_WRAPPED)
         first = ipywidgets.HBox(self.which, layout=_WRAPPED if len(pairs) > 1 else _GONE)
         second = [self.run, self.step, self.reset, self.speed, self.seed]
         second = ipywidgets.HBox(second, layout=_WRAPPED)

@@ -28,9 +28,11 @@ class RasterScreen(Screen):
     def __init__(self, alt="", title="", size=(720, 480)):
         super().__init__(acknowledged=False, gap=GAP)
         self._size = tuple(map(int, size))
-        self._image = ipywidgets.Image(format="png", tooltip=alt)
+        self._image = ipywidgets.Image(
+            format="png", layout={"width": f"{self._size[0]}px", "max_width": "100%"}
+        )
         self._words = ipywidgets.HTML()
-        self._title = title
+        self._alt, self._title = alt, title
         self.widget = ipywidgets.VBox([self._image, self._words])
 
     def _put(self, scene):
@@ -41,7 +43,10 @@ class RasterScreen(Screen):
             for name, colour in names.items()
         )
         title = f"<b>{html.escape(self._title)}</b> " if self._title else ""
-        self._words.value = f"{title}{legend}<br>{html.escape(scene.status)}"
+        # an Image takes no text of its own
+        alt = html.escape(self._alt, quote=True)
+        status = html.escape(scene.status)
+        self._words.value = f'<div aria-label="{alt}">{title}{legend}<br>{status}</div>'
 
 
 def paint(scene, size):
@@ -147,12 +152,13 @@ def _fitted(places, size):
 
 
 def _along(lines):
-    """(k, 2) places along lines, no farther apart than a pixel; all places in pixels."""
+    """(k, 2) places along lines without a gap; all places in pixels."""
     lines = lines[np.isfinite(lines).all(axis=(1, 2))]
     if not len(lines):
         return np.empty((0, 2))
     way = lines[:, 1] - lines[:, 0]
-    counts = np.ceil(np.abs(way).max(axis=1)).astype(int) + 1
+    # closer than a pixel, so that rounding leaves no gap
+    counts = np.ceil(1.5 * np.abs(way).max(axis=1)).astype(int) + 1
     which = np.repeat(np.arange(len(lines)), counts)
     first = np.repeat(np.cumsum(counts) - counts, counts)
     share = (np.arange(len(which)) - first) / np.maximum(counts - 1, 1)[which]

@@ -15,7 +15,11 @@ class Screen:
     ----------
     acknowledged : bool; without, a picture counts as drawn after ``gap`` seconds
     gap : float [s]
+
+    ``keys`` says whether keys that are pressed on it reach ``on_key``.
     """
+
+    keys = False
 
     def __init__(self, acknowledged, gap=0.1):
         self.on_ready = self.on_closed = lambda: None
