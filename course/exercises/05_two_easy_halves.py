@@ -218,8 +218,8 @@ def _():
 
 
 # %% [markdown]
-# On the left they only grow. On the right they grow where no landmark is near, and shrink where one
-# is seen.
+# On the left they grow, and nothing makes them small again. On the right they grow where no
+# landmark is near, and shrink where one is seen.
 #
 # ## 4 · Now the map: one landmark from a known pose
 #

@@ -768,8 +768,9 @@ print("P apart by less than 1e-12:", bool(abs(Ps[-1] - P_batch).max() < 1e-12))
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # Nothing was lost: the belief (x, P) holds *everything* the past has to say about now. The filter
-# is least squares, done step by step, with two numbers and three variances of memory. (The patient
-# one does know the *earlier* states better: it saw what came after. Lesson 15 comes back to that.)
+# is least squares, done step by step, with five numbers of memory: two of x, three of P. (The
+# patient one does know the *earlier* states better: it saw what came after. Lesson 15 comes back to
+# that.)
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## The tools of the trade

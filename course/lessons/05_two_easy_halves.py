@@ -245,11 +245,11 @@ fig, both = views.side_by_side(laps, size=(8, 4))
 for ax in both:
     ax.lines[-1].set(markersize=8)
     views.legend(ax, loc="center", fontsize="x-small")
-views.show(fig, "Left, ellipses that grow all round the lap; right, small ones on the true lap.")
+views.show(fig, "Left, ellipses that grow and stay large; right, small ones on the true lap.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** without eyes the ellipses grow all round the lap. With a map they do not: they are as
-# large at the end as in the middle, and larger only where no landmark is near.
+# **See:** without eyes the ellipses grow, and nothing makes them small again. With a map they do
+# not: they are as large at the end as in the middle, and larger only where no landmark is near.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## The robot's covariance breathes
@@ -367,9 +367,9 @@ views.explore(
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # **See:** with 1.5 m of sight the ellipses swell between landmarks, and the estimate leaves the true
-# lap, yet stays inside them. At 3 m they all but vanish. Below 1.4 m the filter gets lost: the
-# ellipse is as large as the distance to the landmark, H is taken at a place where the robot is not,
-# and the correction goes astray. The small ellipses after that say nothing of it.
+# lap, yet the truth stays inside them. At 3 m they all but vanish. At 1.4 m and below the filter
+# gets lost: the ellipse is as large as the distance to the landmark, H is taken at a place where
+# the robot is not, and the correction goes astray. The small ellipses after that say nothing of it.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Is it honest? NEES over 100 runs

@@ -335,8 +335,8 @@ def strip(stages, names, size=(11, 3.6)):
 # %% slideshow={"slide_type": "slide"}
 views.show(
     strip(stages, ["robot", "a", "b"]),
-    "Three correlation matrices: two squares on the diagonal for the robot and a; the same after "
-    "driving; then b, coloured against the robot and white against a.",
+    "Three correlation matrices: first only a's own block has a colour; after driving the robot's "
+    "own block, too; then b, coloured against the robot and white against a.",
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
@@ -576,9 +576,9 @@ views.show(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** while all landmarks are new the filter drifts, if slower than odometry: a map of its own
-# making cannot tell it where it is. It knows that: σ grows along with the error. Then, at step 71,
-# something happens that odometry has no part in.
+# **See:** while all landmarks are new the filter drifts, here for fifty steps slower than odometry
+# and in the end as far: a map of its own making cannot tell it where it is. It knows that: σ grows
+# along with the error. Then, at step 71, something happens that odometry has no part in.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## The loop closes
@@ -992,7 +992,7 @@ ax.set_ylim(0)
 views.show(fig, "The jumps fall with λ to a fifth; the error rises, slowly and then steeply.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** the shown pose gets calmer with every bit of λ and never more accurate; from 0.6 on it is
+# **See:** the shown pose gets calmer with every bit of λ and never more accurate; beyond 0.6 it is
 # plainly less so, once the loop is closed. Before, all drift together and λ hardly matters. The
 # estimate is the best that can be made of the measurements so far; who mixes an old gap into it
 # mixes in what the last measurement has just refuted. For a display the calm may be worth it; a
@@ -1025,8 +1025,8 @@ views.explore(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** the filter learns its error within a few scans. The shown pose glides after it and is the
-# worse one for ten steps.
+# **See:** the filter learns its error within a few scans. The shown pose glides after it and is
+# plainly the worse one for more than ten steps.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* The note also smooths landmarks that found their match; the same holds for

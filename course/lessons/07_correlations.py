@@ -646,7 +646,9 @@ ax.axhline(0.2, color=views.COLOURS["walls"], linewidth=1)
 ax.set_ylim(0, 0.47)
 ax.legend(ncols=2, fontsize="small", loc="upper center")
 views.show(
-    fig, "Landmarks fall to the grey line at 0.2 m; vectors go on falling, the compass's to zero."
+    fig,
+    "With a compass the landmark falls to the line at 0.2 m, without one it stays above; vectors "
+    "go on falling, the compass's towards zero.",
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
@@ -709,7 +711,9 @@ fig, ax = views.growth(
     "ms, MB",
     f"One step: time grows as N^{slope:.1f} from 400 on",
 )
-views.show(fig, "Memory lies along the line N²; time joins it once N is above a few hundred.")
+views.show(
+    fig, "Memory runs beside the line N²; time joins the line once N is above a few hundred."
+)
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # **See:** on these axes a power is a straight line, its slope the exponent. Memory is N² exactly.
@@ -900,7 +904,7 @@ Markdown("\n".join(lines))
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # **See:** with good wheels the three are close together. With noisy ones the standard filter's NEES
 # is twice what it may be, above the band nearly always, and its heading and map are the worst: it
-# is surer, *and* farther off. First estimates come close to the ideal. Even that one is at the
+# is surer, *and* farther off. First estimates come close to the ideal. Even the ideal is at the
 # band's edge: with so much noise a straight map is not all of the truth (lesson 04's banana).
 #
 # A few runs again show the mechanism:
@@ -927,7 +931,7 @@ for name in ("ideal", "first estimates", "standard"):
 # | the common error (relative maps) | little, if loops are made to add up |
 # | changing Jacobians (first estimates) | honesty for little money |
 #
-# **Next:** landmarks from scans (lesson 08, to come): here every landmark told its name; a wall
-# does not. What can be read now: [lesson 13](13_scan_matching.ipynb) does without landmarks.
+# **Next:** [lesson 08](08_landmarks_from_scans.ipynb), landmarks from scans: here every landmark
+# told its name; a wall does not. [Lesson 13](13_scan_matching.ipynb) does without landmarks.
 #
 # **Exercise:** [correlations](../exercises/07_correlations.ipynb).
