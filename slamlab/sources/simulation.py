@@ -92,6 +92,11 @@ class Simulation(Source):
         self._simulator = simulator
 
     @property
+    def drivable(self):
+        """Whether there is a robot to drive; a fixed run has none."""
+        return self._simulator is not None
+
+    @property
     def truth(self):
         """Trajectory of the true poses, for evaluation only."""
         return Trajectory(PERIOD * np.arange(len(self)), np.array(self._poses))

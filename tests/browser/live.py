@@ -16,10 +16,10 @@ from slamlab.layers import Segments"""
 DRIVEN = """\
 loop = views.live(
     {
-        name.capitalize(): partial(sources.simulation, name, tour=False)
-        for name in ("room", "corridor")
+        f"Simulation {n}": partial(sources.simulation, f"situation-{n}", tour=False)
+        for n in (1, 2)
     },
-    partial(estimators.make, "icp"),
+    partial(estimators.make, "walls"),
     "A robot and the points it has seen.",
     steps=1,
     speed=20,

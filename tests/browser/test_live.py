@@ -30,7 +30,7 @@ def changes(view, act):
 
 def test_a_robot_is_chosen_run_and_driven_and_a_recording_is_played(views, visit):
     driven, played = views
-    assert changes(driven, lambda: driven.press("Corridor"))
+    assert changes(driven, lambda: driven.press("Simulation 2"))
     driven.press("▶ run")
     assert changes(driven, lambda: driven.press("▲ forward"))
     driven.wait(driven.frame() + 3)
