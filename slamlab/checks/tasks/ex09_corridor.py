@@ -12,8 +12,8 @@ from slamlab.checks.tasks.ex06_beliefs import either_sign
 from slamlab.geometry import wrap
 
 RUNS, STEPS, WALLS = 20, 8, 4
-# left and right as far as a door, then beyond it, all met again but in the last scans
-SCANS = np.array([[1, -1], [0, 1], [0, -1], [1, 2], [2, 0], [-1, -1], [3, 2], [2, 3]])
+# left and right as far as a door, then beyond it; the last wall is never first in a scan
+SCANS = np.array([[1, -1], [0, 1], [0, -1], [1, 2], [2, 0], [-1, -1], [2, 3], [2, 3]])
 WHEELS, EYES = np.array([0.025, 0.01]), np.array([0.015, 0.008])  # σ of d, Δθ and of ρ', α'
 START = np.array([0.02, 0.025, 0.01])  # σ of the start [m, m, rad]
 

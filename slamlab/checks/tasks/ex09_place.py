@@ -24,7 +24,7 @@ def sights(rng):
     pose_sigma = np.column_stack(
         [rng.uniform(0.05, 0.15, (ROWS, 2)), rng.uniform(0.03, 0.06, ROWS)]
     )
-    wall_sigma = np.column_stack([rng.uniform(0.02, 0.05, ROWS), rng.uniform(0.02, 0.04, ROWS)])
+    wall_sigma = np.column_stack([rng.uniform(0.15, 0.3, ROWS), rng.uniform(0.08, 0.15, ROWS)])
     return {"x": x, "P": covariances(rng, pose_sigma), "z": z, "R": covariances(rng, wall_sigma)}
 
 

@@ -11,12 +11,15 @@ ROUNDING = 1e-9
 
 def scans(rng):
     """Walls and some clutter, seen again and again; the spacing is not that of the thesis."""
-    spacing = rng.uniform(0.04, 0.09)
+    spacing = rng.uniform(0.04, 0.07)
     t = rng.uniform(-0.7, 0.7, (COUNT, SIZE))
     tilt, wall = rng.uniform(0.3, 1.2), rng.integers(0, 2, (COUNT, SIZE))
-    points = np.stack([t, 0.4 * wall], axis=-1) + 0.02 * rng.standard_normal((COUNT, SIZE, 2))
+    points = np.stack([t, 0.4 * wall], axis=-1) + 0.03 * rng.standard_normal((COUNT, SIZE, 2))
     c, s = np.cos(tilt), np.sin(tilt)
-    return {"scans": points @ [[c, s], [-s, c]], "spacing": np.array([spacing])}
+    points = points @ [[c, s], [-s, c]]
+    # two points in one cell, yet farther apart than it is wide
+    points[:2, 0] = spacing * (np.floor(2 / spacing) + np.array([[0.03, 0.03], [0.96, 0.96]]))
+    return {"scans": points, "spacing": np.array([spacing])}
 
 
 def _apart(a, b):

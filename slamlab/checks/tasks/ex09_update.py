@@ -25,6 +25,8 @@ def sights(rng):
     seen = np.column_stack([rng.uniform(1, 4, ROWS), either_sign(rng, 0.3, 2.4, ROWS)])
     side = np.sign(seen[-BEHIND:, 1])
     seen[-BEHIND:, 1] = side * (np.pi - rng.uniform(0.01, 0.03, BEHIND))
+    # α and θ have opposite signs: their difference needs no wrapping, the innovation does
+    x[-BEHIND:, 2] = -side * abs(x[-BEHIND:, 2])
     for k in range(WALLS):
         around = np.column_stack([rng.uniform(1, 4, ROWS), either_sign(rng, 0.3, 2.8, ROWS)])
         mine = np.where((j == k)[:, None], seen, around)

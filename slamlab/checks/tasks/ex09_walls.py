@@ -15,7 +15,7 @@ from slamlab.geometry import wrap
 MAP = slice(3, None)
 HONEST = 1 - 5e-7  # a right filter lies inside a band in this share of gradings
 SLACK = 1.15  # the Jacobians are taken at estimates: bands are this much wider
-SURE = 0.75, 1.33  # what variances may be in units of those of least squares
+SURE = 0.8, 1.33  # what variances may be in units of those of least squares
 
 
 def _whole(inputs, outputs):
