@@ -96,7 +96,8 @@ def _no_abs(inputs, outputs):
 def _wide(inputs, outputs):
     points, line, inside = _walls(inputs, outputs)
     off = np.abs(distances(points, line))[inside]
-    return inside.any() and 1.5 * BAND < off.max() < 2 * np.sqrt(BAND)
+    enough = _enough(inputs, outputs).all()
+    return enough and 1.5 * BAND < off.max() < 2 * np.sqrt(BAND)
 
 
 def _not_refitted(inputs, outputs):
