@@ -11,6 +11,7 @@ from nbclient import NotebookClient
 from nbclient.exceptions import CellExecutionError, CellTimeoutError, DeadKernelError
 
 from course.source import ROOT
+from slamlab.parallel import THREADS
 
 WIDGET = "application/vnd.jupyter.widget-view+json"
 TIMEOUT = 300  # [s] for one cell
@@ -81,6 +82,7 @@ def execute(derived, folder):
         "PYTHONHASHSEED": "0",
         "JUPYTER_PREFER_ENV_PATH": "1",
     }
+    env |= dict.fromkeys(THREADS, "1")  # measured times are those of one core
     if "SLAMLAB_DATA" in env:  # the kernel stands in another folder
         env["SLAMLAB_DATA"] = str(Path(env["SLAMLAB_DATA"]).resolve())
     try:
