@@ -448,7 +448,7 @@ WRONG = [
     Wrong(
         "entries inverted", pairing(d2="v @ (1 / S[j]) @ v"), {NEAREST}, "entries", may_lose={GATE}
     ),
-    Wrong("not wrapped", pairing(wrap="pass"), {NEAREST}, "unwrapped"),
+    Wrong("angle of v not wrapped", pairing(wrap="pass"), {NEAREST}, "unwrapped"),
     Wrong(
         "variances only",
         pairing(d2="np.sum(v**2 / np.diag(S[j]))"),
