@@ -421,19 +421,19 @@ WRONG = [
         "re-augmented",
     ),
     Wrong("first of a scan only", slam(before="seen = seen[:1]"), {"06-slam"}, "too-few"),
-    Wrong("newest id first", slam(keep="ids.insert(0, i)"), ENDS, "mispaired"),
+    Wrong("newest id first", slam(keep="ids.insert(0, i)"), ENDS, "far-off"),
     Wrong(
         "ids sorted",
         slam(ids="sorted(ids)"),
         {"06-slam:map", "06-slam:sure"},
-        "mispaired",
+        "far-off",
         may_lose={"06-slam:pose"},
     ),
     Wrong(
         "first sight for all",
         slam(before="z = [z[0]] * len(z) if len(z) else z"),
         ENDS,
-        "mispaired",
+        "far-off",
     ),
     Wrong(
         "placed before the drive",
@@ -448,6 +448,47 @@ WRONG = [
         ),
         ENDS,
         "placed-too-early",
+    ),
+    Wrong(
+        "placed before the drive, and all updated after it",
+        slam(
+            before="""for i, one in zip(seen, z):
+        if i not in ids:
+            x, P = augment(x, P, one, R)
+            ids.append(i)""",
+            augment="pass",
+            keep="pass",
+        ),
+        ENDS,
+        "placed-too-early",
+    ),
+    Wrong(
+        "updated before the drive",
+        slam(
+            before="""for i, one in zip(seen, z):
+        if i in ids:
+            x, P = update(x, P, one, ids.index(i), R)""",
+            known="i in had",
+            update="pass",
+        ),
+        ENDS,
+        "predicted-last",
+    ),
+    Wrong(
+        "predicted within the loop",
+        """
+def slam_step(x, P, ids, u, seen, z, C, R):
+    for i, one in zip(seen, z):
+        x, P = predict(x, P, u, C)
+        if i in ids:
+            x, P = update(x, P, one, ids.index(i), R)
+        else:
+            x, P = augment(x, P, one, R)
+            ids.append(i)
+    return x, P, ids
+""",
+        ENDS,
+        "predicted-for-each",
     ),
     Wrong(
         "predicted at the end",

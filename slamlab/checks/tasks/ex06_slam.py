@@ -77,8 +77,9 @@ def _sure(inputs, outputs):
 def _filtered(inputs, run, order):
     """A run of the filter with the calls of each step in some order.
 
-    p predict; u update what is known; a augment what is new; m both, in the scan's order; d the
-    same, and what was augmented is updated as well; e the same as m, a predict before each update.
+    p predict; u update what is known; a augment what is new; m both, in the scan's order. Three
+    mistakes on top of m: d what was augmented is updated as well; e a predict before each update;
+    s a predict before each sight. And w: update what is known by now, what is new included.
     """
     mak = MAK(inputs["x"][run], inputs["P"])
     for u, seen, z in zip(inputs["u"][run], inputs["seen"], inputs["z"][run], strict=True):
@@ -88,14 +89,14 @@ def _filtered(inputs, run, order):
                 _predict(mak, u, inputs["C"])
                 continue
             for i, one in zip(seen.tolist(), z, strict=True):
-                if i in known and what in "umde":
-                    if what == "e":
-                        _predict(mak, u, inputs["C"])
-                    mak.update([i], [one], inputs["R"])
-                elif i >= 0 and i not in known and what in "amde":
+                if i < 0:
+                    continue
+                if what == "s" or (what == "e" and i in known):
+                    _predict(mak, u, inputs["C"])
+                if i not in known and what in "amdes":
                     mak.add([i], [one], inputs["R"])
-                    if what == "d":
-                        mak.update([i], [one], inputs["R"])
+                if what in "dw" or (i in known and what in "umes"):
+                    mak.update([i], [one], inputs["R"])
     return mak
 
 
@@ -195,13 +196,13 @@ SLAM = Task(
             "placed-too-early",
             "New landmarks are placed before the pose is predicted: z was measured after the "
             "drive, so everything new stands a step behind.",
-            _ordered("apu"),
+            _ordered("apu", "apw"),
         ),
         Diagnosis(
             "predicted-last",
             "What is seen is used before the drive is predicted: z was measured after it. Predict "
             "first.",
-            _ordered("mp", "uap", "aup"),
+            _ordered("mp", "uap", "aup", "upa"),
         ),
         Diagnosis(
             "never-updated",
@@ -222,12 +223,13 @@ SLAM = Task(
         Diagnosis(
             "predicted-for-each",
             "The drive is predicted once for each landmark seen. It happened once in a step.",
-            _ordered("pe", "e"),
+            _ordered("pe", "e", "s", "ps"),
         ),
         Diagnosis(
-            "mispaired",
-            "The map is more than a metre off: some sights seem to go to the wrong landmark. "
-            "ids[j] names landmark j of x, new ones come last in both, z[k] belongs to seen[k].",
+            "far-off",
+            "The map is more than a metre off. Look at the order first: predict once, before "
+            "anything is looked at. If it is right, some sights go to the wrong landmark: ids[j] "
+            "names landmark j of x, new ones come last in both, z[k] belongs to seen[k].",
             _far_off,
         ),
     ),
