@@ -327,6 +327,27 @@ WRONG = [
           "had: continue"), {"09-walls:map", "09-walls:sure"}, "placed-too-early",
           may_lose={"09-walls:pose", "09-walls:map"}),
     Wrong(
+        "predicted at the end",
+        """
+def slam_step(x, P, ids, u, seen, z, C, R):
+    had = list(ids)
+    for i, one in zip(seen, z):
+        if i in had:
+            x, P = update(x, P, one, ids.index(i), R)
+    for i, one in zip(seen, z):
+        if i not in had:
+            line, C_line, X = place(x[:3], P[:3, :3], one, R)
+            row = X @ np.linalg.inv(P[:3, :3]) @ P[:3]
+            x, P = np.append(x, line), np.block([[P, row.T], [row, C_line]])
+            ids = ids + [i]
+    x, P = predict(x, P, u, C)
+    return x, P, ids
+""",
+        {"09-walls:sure"},
+        "predicted-last",
+        may_lose={"09-walls:pose", "09-walls:map"},
+    ),
+    Wrong(
         "never updated",
         step(update="pass"),
         {"09-walls:sure"},
