@@ -273,7 +273,64 @@ def localise(x, P, drives, ids, zs, landmarks, C, R):
         {CLOSE, FITS},
         "look-first",
     ),
-    Wrong("eyes shut", localise(look="pass"), {CLOSE}, "drives-only"),
+    Wrong("eyes shut", localise(look="pass"), {CLOSE, FITS}, "drives-only"),
+    Wrong(
+        "landmark 0 ignored",
+        localise(look="x, P = locate(x, P, zs[k], landmarks[ids[k]], R) if ids[k] > 0 else (x, P)"),
+        {CLOSE, FITS},
+        "zero-skipped",
+    ),
+    Wrong(
+        "last landmark ignored",
+        localise(
+            look="x, P = locate(x, P, zs[k], landmarks[ids[k]], R) "
+            "if 0 <= ids[k] < len(landmarks) - 1 else (x, P)"
+        ),
+        {CLOSE, FITS},
+        "sighting-skipped",
+    ),
+    Wrong(
+        "every second sighting skipped",
+        localise(
+            look="x, P = locate(x, P, zs[k], landmarks[ids[k]], R) "
+            "if ids[k] >= 0 and k % 2 else (x, P)"
+        ),
+        {CLOSE, FITS},
+        "sighting-skipped",
+    ),
+    Wrong(
+        "id taken for a truth value",
+        localise(look="x, P = locate(x, P, zs[k], landmarks[ids[k]], R) if ids[k] else (x, P)"),
+        {UNSEEN, CLOSE, FITS},
+        "id-as-truth",
+    ),
+    Wrong(
+        "z by id instead of step",
+        localise(
+            look="x, P = locate(x, P, zs[ids[k]], landmarks[ids[k]], R) if ids[k] >= 0 else (x, P)"
+        ),
+        {CLOSE, FITS},
+        "z-by-id",
+    ),
+    Wrong(
+        "one array changed in place",
+        localise(
+            look="""
+        if ids[k] >= 0:
+            x, P = locate(x, P, zs[k], landmarks[ids[k]], R)
+        x0[:], P0[:] = x, P
+        x, P = x0, P0
+"""
+        ),
+        {UNSEEN, CLOSE, FITS},
+        "aliased",
+    ),
+    Wrong(
+        "predict changes its pose in place",
+        predict(moved="np.add(f_odometry(x, u), 0, out=x)") + localise(),
+        {UNSEEN, CLOSE, FITS},
+        "aliased",
+    ),
     Wrong(
         "−1 taken for a landmark",
         localise(look="x, P = locate(x, P, zs[k], landmarks[ids[k]], R)"),

@@ -21,7 +21,7 @@ from slamlab.evaluation import nees
 
 NEES = 3.0
 NEES_OFF = 0.3  # what curvature may do to the mean over runs
-WORSE = 1.1  # times the error of a filter that does all it can
+WORSE = 1.1  # times the error, and the σ, of a filter that does all it can
 
 
 def _unseen(inputs, outputs):
@@ -43,7 +43,9 @@ def _close(inputs, outputs):
 
 def _consistent(inputs, outputs):
     mean = nees(errors(inputs, outputs["xs"]), outputs["Ps"]).mean(axis=0)
-    return np.abs(mean - NEES) < NEES_OFF
+    # who does not look is honest, too, with a large P: that alone earns nothing
+    sigma, least = (deviations(Ps).mean(axis=0) for Ps in (outputs["Ps"], filtered(inputs)[1]))
+    return (np.abs(mean - NEES) < NEES_OFF) & (sigma <= WORSE * least).all(axis=-1)
 
 
 # ---- mistakes: a filter over all runs at once, and what can be done wrong in its loop ----------
@@ -64,11 +66,11 @@ def filtered(inputs, step=None):
         A, W = each(jacobians.A_odometry, x, u), each(jacobians.W_odometry, x, u)
         return each(models.f_odometry, x, u), sandwich(A, P) + sandwich(W, inputs["C"])
 
-    def look(x, P, k, always=False):
+    def look(x, P, k, when=lambda id: id >= 0, row=lambda k, id: k):
         id = inputs["ids"][0, k]
-        if id < 0 and not always:
+        if not when(id):
             return x, P
-        p, z = landmarks[:, id], inputs["zs"][:, k]
+        p, z = landmarks[:, id], inputs["zs"][:, row(k, id)]
         K, S = gain(P, each(jacobians.H_robot, x, p), R)
         return x + times(K, innovation(x, p, z)), P - sandwich(K, S)
 
@@ -95,6 +97,19 @@ def _keeps_P_of_drive(inputs, x, P, k, drive, look):
     return look(x, P, k)[0], P
 
 
+def _skipped(inputs, outputs):
+    moved = [
+        each(models.f_odometry, outputs["xs"][:, k - 1], inputs["drives"][:, k])
+        for k in range(1, STEPS)
+    ]
+    off = off_pose(outputs["xs"][:, 1:], np.swapaxes(moved, 0, 1))
+    return (np.abs(off).max(axis=(0, 2)) < 1e-6)[inputs["ids"][0, 1:] >= 0].any()
+
+
+def _aliased(inputs, outputs):
+    return (outputs["xs"][:, 1:] == outputs["xs"][:, :-1]).all(axis=(0, 2)).any()
+
+
 def _one_behind(inputs, outputs):
     xs, _ = filtered(inputs)
     late = np.concatenate([inputs["x"][:, None], xs[:, :-1]], axis=1)
@@ -113,7 +128,8 @@ LOCALISE = Task(
         Law(
             "consistent",
             2,
-            f"x̃ᵀ P⁻¹ x̃ is {NEES:.0f} on average over {RUNS} robots, after every step",
+            f"x̃ᵀ P⁻¹ x̃ is {NEES:.0f} on average over {RUNS} robots, after every step, and P is no "
+            "larger than the sightings allow",
             _consistent,
         ),
     ),
@@ -138,7 +154,25 @@ LOCALISE = Task(
             "minus-one-seen",
             "Where ids[k] is −1 nothing was seen, but you update all the same: landmarks[-1] is "
             "the last landmark to Python, without a complaint.",
-            lambda i, x, P, k, drive, look: look(*drive(x, P, k), k, always=True),
+            lambda i, x, P, k, drive, look: look(*drive(x, P, k), k, when=lambda id: True),
+        ),
+        _loop(
+            "zero-skipped",
+            "Landmark 0 is a landmark like the others, row 0 of landmarks. You skip its sightings: "
+            "only −1 says that nothing was seen.",
+            lambda i, x, P, k, drive, look: look(*drive(x, P, k), k, when=lambda id: id > 0),
+        ),
+        _loop(
+            "id-as-truth",
+            "if id: takes −1 for true and 0 for false. Nothing was seen where ids[k] is −1, and 0 "
+            "is a landmark.",
+            lambda i, x, P, k, drive, look: look(*drive(x, P, k), k, when=lambda id: id != 0),
+        ),
+        _loop(
+            "z-by-id",
+            "You take row ids[k] of zs. zs has a row for each step, landmarks one for each id: "
+            "zs[k] and landmarks[ids[k]].",
+            lambda i, x, P, k, drive, look: look(*drive(x, P, k), k, row=lambda k, id: id),
         ),
         _loop(
             "blind-drive-lost",
@@ -168,6 +202,18 @@ LOCALISE = Task(
             "drive-keeps-P",
             "The drive moves x, and its P is thrown away: x, P = predict(...).",
             lambda i, x, P, k, drive, look: look(drive(x, P, k)[0], P, k),
+        ),
+        Diagnosis(
+            "aliased",
+            "Entries of xs are equal, though the robot moves in every step. Did you append one and "
+            "the same array and change it in place? Append a copy.",
+            _aliased,
+        ),
+        Diagnosis(
+            "sighting-skipped",
+            "After a sighting the pose is just where f takes it: that sighting is not used. Update "
+            "in every step where ids[k] is not −1.",
+            _skipped,
         ),
     ),
     needs=("05-predict", "05-locate"),

@@ -13,6 +13,8 @@ from slamlab.geometry import wrap
 
 RUNS, STEPS, LANDMARKS = 40, 8, 4
 UNSEEN = (0, 3)  # steps that see nothing
+LAST = LANDMARKS - 1
+LATER = (0, 1, 2, LAST, LAST)  # ids after 0, which is seen first: it and the last one twice
 WHEELS = np.array([0.04, 0.02])  # standard deviations of d [m] and Δθ [rad]
 EYES = np.array([0.05, 0.02])  # of r [m] and β [rad]
 
@@ -23,9 +25,9 @@ def runs(rng):
     drives = np.column_stack([rng.uniform(0.4, 0.7, STEPS), turns])
     start = np.array([*rng.uniform(-5, 5, 2), rng.uniform(-3, 3)])
     path = driven(start, drives)
-    landmarks, ids = _around(rng, path.mean(axis=0)), rng.integers(0, LANDMARKS, STEPS)
-    ids[list(UNSEEN)] = -1
-    seen = ids >= 0
+    landmarks, ids = _around(rng, path.mean(axis=0)), np.full(STEPS, -1)
+    seen = np.isin(np.arange(STEPS), UNSEEN, invert=True)
+    ids[seen] = [0, *rng.permutation(LATER)]
     P = covariances(rng, np.array([[0.1, 0.1, 0.04]]))[0]
     white = whitened(rng, RUNS, 3 + 2 * STEPS + 2 * int(seen.sum()))
     of_start, of_wheels, of_eyes = np.split(white, [3, 3 + 2 * STEPS], axis=1)
