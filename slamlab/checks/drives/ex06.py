@@ -1,8 +1,10 @@
 """Drives of exercise 06, EKF-SLAM: one call per belief, and whole runs step by step."""
 
+from traceback import walk_tb
+
 import numpy as np
 
-from slamlab.checks.drives import Drive, StudentError, numbers
+from slamlab.checks.drives import Drive, StudentError, describe, numbers
 
 
 def _belief(value, function, size):
@@ -73,15 +75,31 @@ def _one_run(slam_step, inputs, x, drives, sights):
     P, ids, C, R = inputs["P"], [], inputs["C"], inputs["R"]
     for u, seen, z in zip(drives, inputs["seen"], sights, strict=True):
         there = seen >= 0  # a scan of fewer landmarks is filled up with -1
-        value = slam_step(
-            np.array(x), np.array(P), list(ids), u.copy(), seen[there].tolist(), z[there],
-            C.copy(), R.copy(),
-        )  # fmt: skip
+        try:
+            value = slam_step(
+                np.array(x), np.array(P), list(ids), u.copy(), seen[there].tolist(), z[there],
+                C.copy(), R.copy(),
+            )  # fmt: skip
+        except (IndexError, ValueError) as error:
+            _tell_id_from_index(error, seen)
+            raise
         if not isinstance(value, tuple | list) or len(value) != 3:
             raise StudentError("malformed", "slam_step must end with: return x, P, ids")
         x, P = _belief(value[:2], "slam_step", None)
         ids = _whole(value[2])
     return x, P, np.array(ids, dtype=float)
+
+
+def _tell_id_from_index(error, seen):
+    """Say so where a function was asked for landmark j and j is an id: ids begin at 30."""
+    for frame, _ in walk_tb(error.__traceback__):
+        j = frame.f_locals.get("j")
+        if frame.f_code.co_name in ("update", "H_full") and isinstance(j, int) and j in seen:
+            raise StudentError(
+                "raised",
+                f"{describe(error)}. There j = {j} is an id; the index of landmark i in the state "
+                "is ids.index(i)",
+            ) from None
 
 
 def _whole(ids):
