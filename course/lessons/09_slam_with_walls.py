@@ -382,9 +382,9 @@ buttons = {
 }
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# Choose a simulation, press **run**. The first two drive the tour, and then listen to the arrows;
-# the others listen at once: click the picture and use the arrow keys. (Without a running kernel you
-# see a still picture after 60 steps.)
+# Choose a simulation, press **run**, his *Run simulation*. The first two drive the tour, and then
+# listen to the arrows; the others listen at once: click the picture and use the arrow keys.
+# (Without a running kernel you see a still picture after 60 steps.)
 
 # %% slideshow={"slide_type": "slide"}
 seen_live = views.live(
