@@ -190,6 +190,16 @@ def two_updates(P, H_1, H_2, R):
     return P_first, update(P_first, H_2, slice(3, 5))
 """
 
+_IN_PLACE = """
+def two_updates(P, H_1, H_2, R):
+    def update(P, H):
+        K = P @ H.T @ np.linalg.inv(H @ P @ H.T + R)
+        P -= K @ H @ P
+        return P
+    P_first = update(P, H_1)
+    return P_first, update(P_first, H_2)
+"""
+
 WHEN_FULL = (FIRST_LAW, BOTH)
 IN_UPDATES = [
     _updates("K = P Hᵀ", WHEN_FULL, "gain-without-S", K="P @ H.T"),
@@ -281,6 +291,8 @@ IN_UPDATES = [
         "covariance-before-the-first",
         both="P_first - P @ H_2.T @ np.linalg.inv(H_2 @ P @ H_2.T + R) @ H_2 @ P_first",
     ),
+    Wrong("updates: in place", _IN_PLACE, (FIRST_LAW,), "overwritten"),
+    _updates("after both, twice", (FIRST_LAW,), "overwritten", result="P_both, P_both"),
     _updates("p1 twice", (BOTH,), "one-landmark-twice", both="update(P_first, H_1)"),
     _updates(
         "second first",
@@ -373,6 +385,7 @@ IN_FUSE = [
         S="P_a + P_b + P_ab + P_ab.T",
         C="(P_a + P_ab)",
     ),
+    _fuse("S_xv by v = a − b against b − a", NOT_BEST, "gain-sign", C="(P_ab - P_a)"),
     _fuse("plus in S", NOT_BEST, "plus-for-minus", S="P_a + P_b + P_ab + P_ab.T"),
     _fuse("plus in C", NOT_BEST, "plus-for-minus", C="(P_a + P_ab)"),
     _fuse("P_ab twice in S", NOT_BEST, "transpose-missing", S="P_a + P_b - 2 * P_ab"),

@@ -150,8 +150,8 @@ CORRELATION = Task(
         ),
         Diagnosis(
             "certain-not-zero",
-            "Where all variances are positive you are right. Where one is 0, the whole row and "
-            "column must be 0: nothing errs together with what does not err.",
+            "Where all variances are positive you are right. Where one is 0, all of its row and "
+            "column beside the diagonal must be 0: nothing errs with what does not err.",
             _not_zero,
         ),
     ),

@@ -124,7 +124,19 @@ def _both_forms(*formulas):
     return matches
 
 
+def _overwritten(inputs, outputs):
+    """Whether both are the covariance after both, as when P was changed in place."""
+    both = _twice(right, right)(inputs)
+    return bool((close(outputs["P_first"], both) & close(outputs["P_both"], both)).all())
+
+
 ERRATA = (
+    Diagnosis(
+        "overwritten",
+        "P_first was overwritten: it equals P_both. P -= … changes the array itself, and P_first "
+        "is that array. Write P = P − …, or keep a copy.",
+        _overwritten,
+    ),
     Diagnosis(
         "gain-without-S",
         "The gain lacks S⁻¹, as in (4.19) of the thesis: K = P Hᵀ S⁻¹. P Hᵀ alone says how "

@@ -79,6 +79,10 @@ def _swapped(i):
     return i["a"] + i["b"] - RIGHT[0](i)
 
 
+def _away(i):
+    return 2 * i["a"] - RIGHT[0](i)
+
+
 def _averaged(i):
     return (i["a"] + i["b"]) / 2
 
@@ -119,6 +123,12 @@ MISTAKES = (
         "weights-swapped",
         "a and b have changed places in x. Test it: if P_a is tiny, x must be close to a.",
         _says(_swapped),
+    ),
+    Diagnosis(
+        "gain-sign",
+        "x is led away from b: the sign of S_xv. The innovation b − a errs by ã − b̃ when errors "
+        "are truth less estimate, so S_xv = E[ã (ã − b̃)ᵀ] begins with + P_a.",
+        _says(_away),
     ),
     Diagnosis(
         "plus-for-minus",
