@@ -98,6 +98,14 @@ WRONG = [
     # prediction
     Wrong("x stays", predict(x="x"), P_X, "x-not-moved"),
     Wrong("x as a row", predict(x="x @ F"), P_X, "x-transposed"),
+    Wrong(
+        "slip drawn for x",
+        predict(x="F @ x + np.random.default_rng(5).multivariate_normal(0 * x, Q)"),
+        P_X,
+        "x-shaken",
+    ),
+    Wrong("deviations added to x", predict(x="F @ x + np.sqrt(np.diag(Q))"), P_X, "x-shaken"),
+    Wrong("x a column", predict(x="(F @ x)[:, None]"), {"03-predict"}, None, "malformed"),
     Wrong("no Q", predict(P="F @ P @ F.T"), P_P, "Q-forgotten"),
     Wrong("P not carried", predict(P="P + Q"), P_P, "P-not-carried"),
     Wrong("P as it was", predict(P="P"), P_P, "P-not-carried"),

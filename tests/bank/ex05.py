@@ -150,6 +150,25 @@ WRONG = [
         "turned-first",
     ),
     Wrong(
+        "lesson 05's arc, mean alone",
+        predict(moved="f_odometry(x + [0, 0, u[1] / 2], u) - [0, 0, u[1] / 2]"),
+        {"05-predict:mean"},
+        "arc",
+    ),
+    Wrong(
+        "lesson 05's arc",
+        """
+def predict(x, P, u, C):
+    d, turn = u
+    c, s = np.cos(x[2] + turn / 2), np.sin(x[2] + turn / 2)
+    A = np.array([[1, 0, -d * s], [0, 1, d * c], [0, 0, 1]])
+    W = np.array([[c, -d / 2 * s], [s, d / 2 * c], [0, 1]])
+    return x + np.array([d * c, d * s, turn]), A @ P @ A.T + W @ C @ W.T
+""",
+        {"05-predict:mean", "05-predict:covariance"},
+        "arc",
+    ),
+    Wrong(
         "Jacobians after the drive",
         predict(jacobians="A_odometry(f_odometry(x, u), u), W_odometry(f_odometry(x, u), u)"),
         P_OF_DRIVE,
@@ -200,6 +219,7 @@ WRONG = [
     Wrong("Wᵀ C W", predict(P="A @ P @ A.T + W.T @ C @ W"), {"05-predict"}, None, "raised"),
     # the two updates
     *both_updates("not wrapped", {"behind"}, "unwrapped", wrap="pass"),
+    *both_updates("bearing from 0 to 2π", MEANS, "from-zero", wrap="v[1] %= 2 * np.pi"),
     *both_updates(
         "wrapped as if in degrees", {"behind"}, "unwrapped", wrap="v[1] = (v[1] + 180) % 360 - 180"
     ),

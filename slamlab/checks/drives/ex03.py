@@ -5,12 +5,12 @@ import numpy as np
 from slamlab.checks.drives import Drive, StudentError, numbers, rows
 
 
-def pairs(*names):
+def pairs(**like):
     """A drive that keeps the two results of each call apart.
 
     Parameters
     ----------
-    names : str, what the two results are called
+    like : the result's name to that of the argument whose shape it has
 
     Returns
     -------
@@ -19,11 +19,14 @@ def pairs(*names):
 
     def run(functions, inputs):
         (function, call), *_ = functions.items()
-        results = [_pair(call(*row), function, names) for row in rows(inputs)]
-        return {
-            name: _stacked([result[i] for result in results], f"{function}'s {name}")
-            for i, name in enumerate(names)
-        }
+        shapes = [inputs[name].shape[1:] for name in like.values()]
+        found = {name: [] for name in like}
+        for row in rows(inputs):
+            result = _pair(call(*row), function, like)
+            for name, part, shape in zip(like, result, shapes, strict=True):
+                what = f"{function}'s {name}"
+                found[name].append(_shaped(numbers(part, what), what, shape))
+        return {name: np.array(parts) for name, parts in found.items()}
 
     return run
 
@@ -58,8 +61,10 @@ def filtered(functions, inputs):
                     f"kalman_filter's {name}s has {len(np.atleast_1d(array))} entries for {steps} "
                     "measurements: one after each of them, the start left out",
                 )
+            for entry in array:
+                _shaped(entry, f"an entry of kalman_filter's {name}s", inputs[name].shape)
             found.append(array)
-    return {name: _stacked(found, f"kalman_filter's {name}s") for name, found in beliefs.items()}
+    return {name: np.array(found) for name, found in beliefs.items()}
 
 
 def _pair(result, function, names):
@@ -73,18 +78,17 @@ def _list(part):
     return list(part) if hasattr(part, "__next__") else part
 
 
-def _stacked(results, what):
-    arrays = [numbers(result, what) for result in results]
-    shapes = sorted({array.shape for array in arrays})
-    if len(shapes) > 1:
-        raise StudentError("malformed", f"{what} has different shapes: {shapes[0]}, {shapes[1]}")
-    return np.array(arrays)
+def _shaped(array, what, shape):
+    """The array, when it has the shape expected: that of one call, as the student sees it."""
+    if np.shape(array) != shape:
+        raise StudentError("malformed", f"{what} has shape {np.shape(array)}, expected {shape}")
+    return array
 
 
 DRIVES = {
-    "03-predict": Drive(("predict",), pairs("x", "P")),
-    "03-innovation": Drive(("innovation",), pairs("v", "S")),
+    "03-predict": Drive(("predict",), pairs(x="x", P="P")),
+    "03-innovation": Drive(("innovation",), pairs(v="z", S="R")),
     "03-gain": Drive(("gain",)),
-    "03-update": Drive(("update",), pairs("x", "P")),
+    "03-update": Drive(("update",), pairs(x="x", P="P")),
     "03-filter": Drive(("kalman_filter",), filtered),
 }

@@ -1,7 +1,9 @@
 """Exercise 03, the prediction: what a step makes of samples of the belief."""
 
+import numpy as np
+
 from slamlab.checks.drives.ex03 import DRIVES
-from slamlab.checks.task import Law, Task
+from slamlab.checks.task import Diagnosis, Law, Task
 from slamlab.checks.tasks import ex03_laws as law
 from slamlab.checks.tasks.ex03_laws import DEVIATION, misread, mistake, times, turned
 
@@ -18,6 +20,12 @@ def _stepped(i):
     """Mean and covariance of samples of the belief, moved by F and shaken by q."""
     errors, slips = law.samples(i["P"], i["Q"])
     return law.moments((i["x"][:, None] + errors) @ turned(i["F"]) + slips)
+
+
+def _shaken(i, o):
+    """Whether x is off F x, by no more than Q allows."""
+    slip = times(law.whitener(i["Q"]), o["x"] - times(i["F"], i["x"]))
+    return (np.abs(slip).max(axis=1) > law.TOLERANCE).all() and np.abs(slip).max() < 5
 
 
 def _carried(i, F=None, P=None):
@@ -59,6 +67,12 @@ PREDICT = Task(
             "column, so it is F @ x.",
             "x",
             lambda i: times(turned(i["F"]), i["x"]),
+        ),
+        Diagnosis(
+            "x-shaken",
+            "x is F x plus something of the slip's size. The slip q is not known, and 0 on "
+            "average: x stays F x, and only P grows, by Q.",
+            _shaken,
         ),
         mistake(
             "Q-forgotten",

@@ -66,7 +66,19 @@ def diagnoses(state, H_of, behind):
     def minus(M):
         return lambda i: i["P"] - M(i)
 
+    def round_the_circle(i):
+        off = v(i, wrapped=False)
+        off[:, 1] %= 2 * np.pi
+        return i[state] + times(parts(i)[0], off)
+
     return (
+        mean_of(
+            state,
+            "from-zero",
+            "% (2π) brings the innovation's bearing into [0, 2π): what is a little to the right "
+            "becomes almost a full turn. It belongs in (−π, π]: wrap.",
+            round_the_circle,
+        ),
         mean_of(
             state,
             "unwrapped",

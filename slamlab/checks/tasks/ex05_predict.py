@@ -101,6 +101,14 @@ def _turned_first(inputs, outputs):
     return np.abs(off_pose(outputs["x"], want)).max() < 1e-6
 
 
+def _arc(inputs, outputs):
+    x, u = inputs["x"].copy(), inputs["u"]
+    x[:, 2] += u[:, 1] / 2
+    want = each(models.f_odometry, x, u)
+    want[:, 2] = inputs["x"][:, 2] + u[:, 1]
+    return np.abs(off_pose(outputs["x"], want)).max() < 1e-6
+
+
 def _covariance(name, hint, *wrong):
     return Diagnosis(
         name, hint, lambda i, o: any(same_covariance(o["P"], w(i)).all() for w in wrong)
@@ -128,6 +136,13 @@ PREDICT = Task(
             "Your robot turns first and then drives. f drives along the old heading and turns "
             "at the end: f_odometry does that for you.",
             _turned_first,
+        ),
+        Diagnosis(
+            "arc",
+            "Your robot drives half the turn off its old heading: that is the arc of lesson 05's "
+            "lap. Here f is lesson 04's f_odometry, along the old heading and then the turn, and "
+            "so are A_odometry and W_odometry.",
+            _arc,
         ),
         _covariance(
             "jacobian-after",

@@ -30,7 +30,7 @@ SEEN_AHEAD, SEEN_BEHIND = slice(BEHIND, None), slice(0, BEHIND)
 def _sightings(rng):
     """Poses, landmarks and measurements; of the first rows the bearing crosses ±π."""
     x = np.column_stack([rng.uniform(-5, 5, (ROWS, 2)), rng.uniform(-3, 3, ROWS)])
-    r, side = rng.uniform(1.5, 5, ROWS), rng.choice([-1.0, 1.0], ROWS)
+    r, side = rng.uniform(1.5, 5, ROWS), (-1.0) ** (np.arange(ROWS) + rng.integers(2))
     bearing = side * rng.uniform(0.4, 2.4, ROWS)
     bearing[SEEN_BEHIND] = side[SEEN_BEHIND] * (np.pi - rng.uniform(0.01, 0.03, BEHIND))
     p = each(models.g, x, np.column_stack([r, bearing]))
