@@ -314,6 +314,19 @@ WRONG = [
     ),
     Wrong("one column per landmark", H_full(at="3 + j"), {"seen", "others"}, "robot-not-counted"),
     Wrong(
+        "one number per landmark",
+        H_full(at="3 + j", p="x[3 + j : 5 + j]"),
+        {"06-h"},
+        "robot-not-counted",
+    ),
+    Wrong(
+        "robot not counted, place and all",
+        H_full(at="2 * j", p="x[2 * j : 2 + 2 * j]"),
+        {"06-h"},
+        "robot-not-counted",
+        may_lose={"06-h:robot", "06-h:others"},
+    ),
+    Wrong(
         "robot's columns not counted",
         H_full(at="2 * j"),
         {"06-h:seen"},
@@ -400,6 +413,18 @@ WRONG = [
         update(P="np.block([[(P - K @ S @ K.T)[:3, :3], P[:3, 3:]], [P[3:, :3], P[3:, 3:]]])"),
         {"06-update:P"},
         "P-in-part",
+    ),
+    Wrong(
+        "cross blocks thrown away",
+        update(P=f"({APART.replace('P * (', '(P - K @ S @ K.T) * (', 1)})"),
+        {"06-update:P"},
+        "cross-zero",
+    ),
+    Wrong(
+        "robot and map unlinked",
+        update(P="P - K @ S @ K.T; P[:3, 3:] = P[3:, :3] = 0"),
+        {"06-update:P"},
+        "cross-zero",
     ),
     Wrong("P not symmetric", update(P="P - np.triu(K @ S @ K.T)"), {"06-update:P"}, "P-in-part"),
     Wrong(

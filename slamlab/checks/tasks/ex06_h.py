@@ -53,7 +53,7 @@ def _part(which):
     return holds
 
 
-def _placed(robot=lambda j: 0, landmark=lambda j: 3 + 2 * j, of=0, H_r=1, H_p=1):
+def _placed(robot=lambda j: 0, landmark=lambda j: 3 + 2 * j, of=0, H_r=1, H_p=1, place=None):
     """A formula for H with its parts put somewhere.
 
     Parameters
@@ -61,12 +61,14 @@ def _placed(robot=lambda j: 0, landmark=lambda j: 3 + 2 * j, of=0, H_r=1, H_p=1)
     robot, landmark : j -> first column of the part
     of : the Jacobians are those of landmark j + of
     H_r, H_p : factors of the two parts
+    place : j -> where the landmark is read in x, or None for that of landmark j + of
     """
 
     def formula(inputs):
         H = np.zeros((ROWS, 2, inputs["x"].shape[1]))
         for k, (x, j) in enumerate(zip(inputs["x"], inputs["j"], strict=True)):
-            p = x[3 + 2 * (j + of) : 5 + 2 * (j + of)]
+            first = 3 + 2 * (j + of) if place is None else place(j)
+            p = x[first : first + 2]
             at, to = robot(j), landmark(j)
             H[k, :, at : at + 3] = H_r * jacobians.H_robot(x, p)
             H[k, :, to : to + 2] = H_p * jacobians.H_landmark(x, p)
@@ -94,6 +96,8 @@ def _other_than(which, *formulas):
 
     return matches
 
+
+TOO_NEAR = (lambda j: 2 * j, lambda j: 2 + 2 * j, lambda j: 3 + j)
 
 H_FULL = Task(
     id="06-h",
@@ -127,9 +131,8 @@ H_FULL = Task(
             "The landmark's part begins too far to the left: the robot's three columns come first, "
             "and each landmark takes two.",
             _looks(
-                _placed(landmark=lambda j: 2 * j),
-                _placed(landmark=lambda j: 2 + 2 * j),
-                _placed(landmark=lambda j: 3 + j),
+                *(_placed(landmark=first) for first in TOO_NEAR),
+                *(_placed(landmark=first, place=first) for first in TOO_NEAR),
             ),
         ),
         Diagnosis(

@@ -105,6 +105,12 @@ def _P_in_part(inputs, outputs):
     return 0.05 < same.mean() < 1 and not same_block(outputs["P"], truth(inputs)[1]).all()
 
 
+def _cross_zero(inputs, outputs):
+    """Whether blocks between robot and landmarks, or between two landmarks, are exactly zero."""
+    cross = _cross_ignored({"x": inputs["x"], "P": 1.0}) == 0
+    return (outputs["P"][:, cross] == 0).any(axis=1).all()
+
+
 MISTAKES = (
     Diagnosis(
         "printed-15",
@@ -174,6 +180,12 @@ MISTAKES = (
         "half-of-joseph",
         "(I − K H) P (I − K H)ᵀ alone leaves out the sight's own noise: Joseph's form adds K R Kᵀ.",
         lambda P, K, S, H: P - K @ H @ P - T(K @ H @ P) + K @ H @ P @ T(H) @ T(K),
+    ),
+    Diagnosis(
+        "cross-zero",
+        "Blocks of P beside the diagonal are zero. One sight corrects robot and landmarks "
+        "together, so they share what is left of the error: keep all of P − K S Kᵀ.",
+        _cross_zero,
     ),
     Diagnosis(
         "P-in-part",
