@@ -39,6 +39,9 @@ from slamlab.models import f_odometry, g, h
 #
 # $$x \leftarrow f(x, u), \qquad P \leftarrow A P A^{\mathsf T} + W C W^{\mathsf T}$$
 #
+# f is lesson 04's `f_odometry`: along the old heading, then turn. It is *not* the arc of lesson 05's
+# lap, so A and W are not that arc's, either: take those of the table.
+#
 # **Predict first.** A and W are computed at a pose: the one before the drive, or the one after?
 
 
@@ -207,7 +210,7 @@ def _():
         xs, Ps = localise(*start, drives, seen, zs, landmarks, C, R)
         maps[title] = [
             layers.Poses("truth", true),
-            layers.Poses("corrected", xs),
+            layers.Poses("predicted" if seen is blind else "corrected", xs),
             layers.Ellipses("robot", xs[::4, :2], Ps[::4, :2, :2]),
             layers.Points("landmark", landmarks),
         ]

@@ -117,17 +117,18 @@ print("robot known: S =", known(S, "r"))
 #
 # The state is the pose, three numbers. The robot predicts by its wheels.
 #
-# It turns *while* it drives, so a step of length d points half the turn off the old heading. One
-# more model, so one more pair of Jacobians, as in lesson 04:
+# It turns *while* it drives, so a step of length d points half the turn off the old heading. That is
+# not lesson 04's `f_odometry`, which drives along the old heading and then turns (the exercise keeps
+# to it). One more model, f_arc, so one more pair of Jacobians:
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 x, y, theta, d, turn = sp.symbols("x y θ d Δθ")
 half = theta + turn / 2
-f = sp.Matrix([x + d * sp.cos(half), y + d * sp.sin(half), theta + turn])
-f.jacobian([x, y, theta])
+f_arc = sp.Matrix([x + d * sp.cos(half), y + d * sp.sin(half), theta + turn])
+f_arc.jacobian([x, y, theta])
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-f.jacobian([d, turn])
+f_arc.jacobian([d, turn])
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## The filter, in two functions
@@ -140,7 +141,7 @@ R = np.diag([0.1, np.radians(2)]) ** 2
 
 
 def predict(x, P, u):
-    """Drive u = (d, Δθ): x ← f(x, u), P ← A P Aᵀ + W C Wᵀ."""
+    """Drive u = (d, Δθ): x ← f_arc(x, u), P ← A P Aᵀ + W C Wᵀ."""
     d, turn = u
     c, s = np.cos(x[2] + turn / 2), np.sin(x[2] + turn / 2)
     A = np.array([[1, 0, -d * s], [0, 1, d * c], [0, 0, 1]])
@@ -226,19 +227,20 @@ def eyes_shut(x, P, z, p):
     return x, P
 
 
-def lap(run, poses, covariances, every=4):
+def lap(run, poses, covariances, every=4, name="corrected"):
     """The layers of a lap: truth, estimate, an ellipse every so many steps."""
     return [
         Poses("truth", run.truth.poses),
-        Poses("corrected", poses),
+        Poses(name, poses),
         Ellipses("robot", poses[::every, :2], covariances[::every, :2, :2]),
         Points("landmark", run.landmarks),
     ]
 
 
 # %% slideshow={"slide_type": "slide"}
+blind = localise(run, run.landmarks, START, eyes_shut)
 laps = {
-    "eyes shut: predict only": lap(run, *localise(run, run.landmarks, START, eyes_shut), every=12),
+    "eyes shut: predict only": lap(run, *blind, every=12, name="predicted"),
     "located in a known map": lap(run, poses, covariances),
 }
 fig, both = views.side_by_side(laps, size=(8, 4))
@@ -283,7 +285,17 @@ views.show(fig, "The error of y stays within a band that widens where no landmar
 # and nothing of its place, sees one landmark, at 2 m. Where may it be? Draw the set of poses.
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# A sighting adds HᵀR⁻¹H to the information P⁻¹ (lesson 03). Which direction does H not feel?
+# In lesson 03 a measurement added 1/R to 1/P. With matrices, what a sighting adds to the information
+# P⁻¹ is HᵀR⁻¹H:
+
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+P_after = update(x_there, P_there, models.h(x_there, p_there), p_there)[1]
+gained = np.linalg.inv(P_after) - np.linalg.inv(P_there)
+print("P⁻¹ after − P⁻¹ before:", gained.round(1), sep="\n")
+print("is HᵀR⁻¹H:", np.allclose(gained, H_there.T @ np.linalg.inv(R) @ H_there))
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# A direction that H does not feel gains nothing. Which one is it?
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 p_x, p_y = sp.symbols("p_x p_y")
@@ -332,8 +344,8 @@ views.show(fig, "With one landmark the poses form an arc round it; with two, a s
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # **See:** with one landmark, the poses that agree lie on an arc round it; the filter's ellipse lies
-# along the arc's tangent, narrow towards the landmark, wide across (and straight: lesson 04). The second landmark has an arc of its own:
-# where the two cross, the robot is.
+# along the arc's tangent, narrow towards the landmark, wide across (and straight: lesson 04). The
+# second landmark has an arc of its own: where the two cross, the robot is.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 H_one, H_two = jacobians.H_robot(vague, two[0]), jacobians.H_robot(vague, two).reshape(-1, 3)
@@ -451,7 +463,7 @@ views.show(
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # **See:** the scale is logarithmic. An unwrapped bearing strikes only when a landmark is right
 # behind the robot, and then throws it far off. A map that is 0.3 m wrong makes NEES thirty times
-# too large, and it never gets better: the filter trusts the map completely, since P_pp = 0 says so.
+# too large, and it never gets better: the filter trusts the map completely, since P_ii = 0 says so.
 #
 # **Nobody has an exact map.** So landmarks need a covariance, too: the other half.
 
@@ -739,7 +751,7 @@ for name, odometry in (("true poses", False), ("odometry's poses", True)):
 # The obvious idea: at each sighting, correct the pose as if the map were exact, and the map as if
 # the pose were exact. Both halves are written.
 #
-# A careful student objects: "Do not pretend. Tell each half how unsure the other is: add H_p P_pp
+# A careful student objects: "Do not pretend. Tell each half how unsure the other is: add H_p P_ii
 # H_pᵀ to the R of the one, and H_r P_rr H_rᵀ to the R of the other." Fair enough; we try that, too.
 
 
@@ -750,11 +762,11 @@ def in_turn(run, careful):
     for reading in run:
         x, P = predict(x, P, wheels(reading)) if reading.time else (x, P)
         for id, z in zip(reading.observations.ids, reading.observations.z, strict=True):
-            p, P_pp = beliefs.get(id, (models.g(x, z), np.zeros((2, 2))))
+            p, P_ii = beliefs.get(id, (models.g(x, z), np.zeros((2, 2))))
             H_r, H_p = jacobians.H_robot(x, p), jacobians.H_landmark(x, p)
             R_pose, R_map = R, R
             if careful:
-                R_pose, R_map = R + H_p @ P_pp @ H_p.T, R + H_r @ P @ H_r.T
+                R_pose, R_map = R + H_p @ P_ii @ H_p.T, R + H_r @ P @ H_r.T
             pose_before, is_known = x, id in beliefs
             if is_known:
                 x, P = update(x, P, z, p, R_pose)
@@ -826,8 +838,8 @@ PHt.blocks[2, 0]
 # With neither known it is not zero: who sees i learns about j. The N filters have become one.
 #
 # (Before its (4.10) the thesis prints this row as P_jr H_rᵀ + P_ij H_pᵀ, where P_ji is meant, if our
-# copy has the subscripts right, and S_rr⁻¹ in the gain, where S_vv⁻¹ is meant. Sections 4.1 and 4.2,
-# the two halves, hold.)
+# copy has the subscripts right, and S_rr⁻¹ in the gain, where our S, its S_vv, is meant. Sections 4.1
+# and 4.2, the two halves, hold.)
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## What you can do now
