@@ -263,9 +263,10 @@ def _():
 
 
 # %% [markdown]
-# **See:** the blue track should leave the black one and be caught again when the first landmarks
-# come back into view, near the end of the round. The true landmarks should lie in their ellipses,
-# but for one in twenty.
+# **See:** look closely, on the left: in the last third of the round the blue track is a hand's
+# breadth or two off the black one, and it jumps back where the first landmarks come into view
+# again. The ellipses are small at both ends of the round, and largest far from the start, at the
+# top. The true landmarks should lie in them, but for one in twenty.
 #
 # ## Done?
 #

@@ -419,7 +419,8 @@ PHt[2, 0]
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* Three things usually go wrong here: the bearing of v is not wrapped; the
 # heading is not wrapped after the correction; K is applied to the robot and the seen landmark only.
-# The exercise has all three.
+# The exercise's check finds the first and the last. The second it lets pass: headings that differ
+# by 2π are the same heading, and whoever wraps v never notices.
 
 
 # %% slideshow={"slide_type": "fragment"}
@@ -473,7 +474,8 @@ ways = [[*x[s], *x_after[s]] for s in parts]
 views.draw(ax, Segments("truth", ways), linewidth=2.5, label="moved")
 for name, s in zip(["robot", "a", "b"], parts, strict=True):
     ax.annotate(name, x_after[s], xytext=(18, 12), textcoords="offset points", fontsize=12)
-views.legend(ax)
+for line, style in zip(views.legend(ax).legend_handles, ["dashed", "solid"], strict=False):
+    line.set_linestyle(style)
 views.show(
     fig,
     "Ellipses before and after: those of the robot and of b shrink and move, that of "
@@ -906,12 +908,18 @@ fig, ax = views.curves(steps, means, "step", "mean NEES of the pose", size=(6.5,
 ax.axhspan(low, high, color=views.COLOURS["guide"], alpha=0.4, label="band, 95 %")
 ax.set_ylim(0)
 ax.legend(loc="lower right")
-views.show(fig, "This robot's NEES stays in the band, the worse one's climbs out of it.")
+views.show(
+    fig,
+    "This robot's NEES stays in the band, the worse one's climbs out of it, falls back "
+    "when the loop closes and climbs out again.",
+)
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # **See:** this robot's curve stays in the band: with all correlations kept, EKF-SLAM is honest here.
-# The worse one's leaves it while its heading is unsure, and no block is missing: the Jacobians are
-# straight lines taken where the robot *believes* to be (lesson 04's banana). Lesson 07 looks at
+# The worse one's leaves it for the second half of the round, while its heading is unsure, comes
+# back as the loop closes (about step 80), and is out again from step 89 on. No block is missing: the
+# Jacobians are straight lines taken where the robot *believes* to be (lesson 04's banana), and what
+# the filter was too sure of it stays too sure of. Lesson 07 looks at
 # both: at the gain from better places for the Jacobians, and at what dropped blocks cost.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
