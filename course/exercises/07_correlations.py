@@ -18,7 +18,7 @@ import numpy as np
 from slamlab import views
 from slamlab.checks import attempt, check
 from slamlab.geometry import compose
-from slamlab.jacobians import H_robot
+from slamlab.jacobians import H_landmark, H_robot
 
 # %% [markdown]
 # ## 1 · What is shared, without units
@@ -27,7 +27,8 @@ from slamlab.jacobians import H_robot
 # $\rho_{ij} = P_{ij} / (\sigma_i \sigma_j)$, from −1 to 1.
 #
 # A robot at its start defines where the map lies: `P_rr = 0`. What is certain errs together with
-# nobody, so put 0 into its rows and columns.
+# nobody else, so put 0 beside the diagonal in its rows and columns. On the diagonal 0 and 1 are
+# both fine there.
 #
 # **Predict first.** What stands on the diagonal? What becomes of ρ when the map is drawn in
 # centimetres?
@@ -37,7 +38,7 @@ from slamlab.jacobians import H_robot
 
 # %%
 def correlation(P):
-    """The correlations ρ_ij = P_ij / (σ_i σ_j); 0 where a variance is 0.
+    """The correlations ρ_ij = P_ij / (σ_i σ_j); beside the diagonal 0 where a variance is 0.
 
     P : (n, n) covariance;  returns (n, n)
     """
@@ -340,8 +341,8 @@ def _():
 # **Predict first.** Which of the three directions is in danger, and why not the other two?
 #
 # **Your task.** A and H of a whole run. For any motion, with the displacement (Δx, Δy) from pose to
-# pose, $A = \begin{bmatrix}1&0&-\Delta y\\0&1&\Delta x\\0&0&1\end{bmatrix}$. `H_robot(x, p)` of
-# lesson 04 is there already.
+# pose, $A = \begin{bmatrix}1&0&-\Delta y\\0&1&\Delta x\\0&0&1\end{bmatrix}$. `H_robot(x, p)` (2, 3)
+# and `H_landmark(x, p)` (2, 2) of lesson 04 are there already.
 
 
 # %%
@@ -373,7 +374,6 @@ check("07-first-estimates")
 @attempt
 def _():
     from slamlab.estimators.mak import MakSlam
-    from slamlab.jacobians import H_landmark
     from slamlab.sources.landmarks import LandmarkRun, Loop
 
     source = LandmarkRun(Loop(landmarks=6, steps=80, range_max=12), np.random.default_rng(7))

@@ -265,7 +265,8 @@ views.explore(
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # **See:** left, the true way is black, the estimate blue; the colour of a landmark is its
-# correlation with the one in the square, whose rows and columns are framed on the right. Just
+# correlation with the one in the square, whose rows and columns are framed on the right. (Of the
+# 2×2 block of the two it is the mean of the diagonal: x with x and y with y.) Just
 # before the loop closes, 5 and its neighbours are red: they err *together*. Number 0, seen
 # from the start that is certain, errs alone: its rows are nearly white. From here press ▶: with one
 # look at number 0 the robot jumps to its place, and what it had misplaced moves back with it.
@@ -660,15 +661,16 @@ views.show(
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 for name, (_, own, vector, length) in (("compass", compass), ("no compass", no_compass)):
     rho = 1 - vector[-1] ** 2 / (2 * own[-1] ** 2)  # var(p_j − p_i) = 2 σ² (1 − ρ)
-    print(
-        f"{name}: landmark ±{own[-1]:.3f} m, vector ±{vector[-1]:.3f} m, "
-        f"its length ±{length[-1]:.3f} m, correlation about {rho:.3f}"
-    )
+    across = np.sqrt(2 * vector[-1] ** 2 - length[-1] ** 2)  # the trace is the same in any axes
+    print(f"{name}, per axis: landmark ±{own[-1]:.3f} m, vector ±{vector[-1]:.3f} m", end="; ")
+    print(f"correlation about {rho:.3f}")
+    print(f"    the vector along itself ±{length[-1]:.3f} m, across ±{across:.3f} m")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # With a compass the correlation goes to 1: *fully correlated*. Without, one more thing stays
 # unknown, how the whole map is turned: after the first moment, nothing can tell the heading at the
-# start. The vector's direction keeps that error; its length goes on getting better.
+# start. A turn moves the vector's end across, not along: its direction keeps that error, its length
+# goes on getting better.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* The thesis' section and the classic proof are about a linear system, in which
