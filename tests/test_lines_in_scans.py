@@ -101,7 +101,9 @@ def test_what_is_found_is_measured_against_what_was_seen():
         ends = transform(inverse(pose), np.array([[x1, y1], [x2, y2]]))
         return Line(np.zeros(2), np.eye(2), ends, np.arange(20))
 
-    assert found_metres(world, pose, [line(*w) for w in world.walls])[0] == pytest.approx(14, abs=0.1)
+    assert found_metres(world, pose, [line(*w) for w in world.walls])[0] == pytest.approx(
+        14, abs=0.1
+    )
     assert found_metres(world, pose, [line(-1, 0, 1, 0)]) == (0, pytest.approx(2, abs=0.1))
     slanted = line(-2, -1.5, 2, -0.5)
     assert found_metres(world, pose, [slanted])[0] == 0
