@@ -9,6 +9,7 @@ from scipy.linalg import block_diag
 
 from slamlab import jacobians, models
 from slamlab.checks.tasks.ex06_beliefs import either_sign
+from slamlab.filters.kinds import POINTS
 from slamlab.geometry import wrap
 
 RUNS, STEPS, LANDMARKS = 20, 8, 4
@@ -30,19 +31,39 @@ def runs(rng):
     around = rng.uniform(-np.pi, np.pi) + np.arange(LANDMARKS) * 1.6
     far = rng.uniform(3.5, 4.5, (LANDMARKS, 1))
     p = way[:, :2].mean(axis=0) + far * np.column_stack([np.cos(around), np.sin(around)])
+    return measured(rng, start, drives, p, SCANS, (START, WHEELS, EYES))
+
+
+def measured(rng, start, drives, p, scans, sigmas, kind=POINTS):
+    """Many runs of one way among landmarks: what each was told of start, drives and sights.
+
+    Parameters
+    ----------
+    rng : numpy.random.Generator
+    start : (3,), drives : (STEPS, 2), p : (LANDMARKS, 2), all true
+    scans : (STEPS, 2) int, rows of p that each scan holds, -1 for none
+    sigmas : (3,), (2,), (2,) deviations of start, drives and sights
+    kind : Kind of the landmarks
+
+    Returns
+    -------
+    dict of arrays, the task's inputs
+    """
+    of_start, of_wheels, of_eyes = sigmas
+    way = driven(start, drives)
     names = rng.permutation(np.arange(30, 90))[:LANDMARKS]
     names[:2].sort()  # which are met in the order 1, 0: sorted ids are never right
-    z = np.array([models.h(pose, p[scan]) for pose, scan in zip(way, SCANS, strict=True)])
-    z = z + EYES * _errors_of(rng, STEPS, 2, 2)
+    z = np.array([kind.h(pose, p[scan]) for pose, scan in zip(way, scans, strict=True)])
+    z = z + of_eyes * _errors_of(rng, STEPS, 2, 2)
     z[..., 1] = wrap(z[..., 1])
     return {
-        "x": start + START * _errors_of(rng, 3),
-        "P": np.diag(START**2),
-        "u": drives + WHEELS * _errors_of(rng, STEPS, 2),
-        "seen": np.where(SCANS < 0, -1, names[SCANS]),
+        "x": start + of_start * _errors_of(rng, 3),
+        "P": np.diag(of_start**2),
+        "u": drives + of_wheels * _errors_of(rng, STEPS, 2),
+        "seen": np.where(scans < 0, -1, names[scans]),
         "z": z,
-        "C": np.diag(WHEELS**2),
-        "R": np.diag(EYES**2),
+        "C": np.diag(of_wheels**2),
+        "R": np.diag(of_eyes**2),
     }
 
 
@@ -61,7 +82,7 @@ def driven(x, drives):
     return np.array(poses)
 
 
-def truth(inputs):
+def truth(inputs, kind=POINTS):
     """What all runs have in common.
 
     Returns
@@ -76,16 +97,16 @@ def truth(inputs):
     for pose, seen, sights in zip(way, inputs["seen"].tolist(), z, strict=True):
         for i, sight in zip(seen, sights, strict=True):
             if i >= 0 and i not in landmarks:
-                landmarks[i] = models.g(pose, sight)
+                landmarks[i] = kind.g(pose, sight)
     return start, drives, way, landmarks
 
 
-def least_squares(inputs):
+def least_squares(inputs, kind=POINTS):
     """(n, n) covariance at the end, of all that was measured, linearised at the truth.
 
     Unknown are the start's error, those of all drives and the landmarks; a pose is a sum of them.
     """
-    before, drives, way, landmarks = truth(inputs)
+    before, drives, way, landmarks = truth(inputs, kind)
     unknowns = 3 + 2 * STEPS + 2 * LANDMARKS
     sure = [np.linalg.inv(inputs["P"]), *[np.linalg.inv(inputs["C"])] * STEPS]
     information = block_diag(*sure, np.zeros((2 * LANDMARKS, 2 * LANDMARKS)))
@@ -96,8 +117,9 @@ def least_squares(inputs):
         D[:, 3 + 2 * k : 5 + 2 * k] += jacobians.W_odometry(before, u)
         for i in seen:
             if i >= 0:
-                H = jacobians.H_robot(pose, landmarks[i]) @ D
-                H[:, first[i] : first[i] + 2] += jacobians.H_landmark(pose, landmarks[i])
+                H_r, H_p = kind.H(pose, landmarks[i])
+                H = H_r @ D
+                H[:, first[i] : first[i] + 2] += H_p
                 information += H.T @ weight @ H
         before = pose
     G = np.vstack([D, np.eye(2 * LANDMARKS, unknowns, 3 + 2 * STEPS)])

@@ -5,8 +5,9 @@ import numpy as np
 from slamlab import jacobians, models, noise
 from slamlab.checks.drives.ex09 import DRIVES
 from slamlab.checks.task import Diagnosis, Law, Task
-from slamlab.checks.tasks.ex09_corridor import RUNS, least_squares, runs, truth
-from slamlab.checks.tasks.ex09_corridor import WALLS as MET
+from slamlab.checks.tasks.ex06_runs import LANDMARKS as MET
+from slamlab.checks.tasks.ex06_runs import RUNS
+from slamlab.checks.tasks.ex09_corridor import least_squares, runs, truth
 from slamlab.evaluation import band, nees
 from slamlab.filters.kinds import LINES
 from slamlab.filters.mak import MAK
