@@ -1,11 +1,11 @@
 """Estimators: every SLAM of the course, made by its name."""
 
 from slamlab.estimators.base import Estimator
-from slamlab.estimators.feet import FootSlam, walls_foot
+from slamlab.estimators.feet import FootSlam
 from slamlab.estimators.icp import IcpSlam
 from slamlab.estimators.mak import MakSlam, mak
 from slamlab.estimators.odometry import Odometry
-from slamlab.estimators.walls import WallSlam, walls
+from slamlab.estimators.walls import WallSlam, of_scans
 
 __all__ = ["NAMES", "Estimator", "FootSlam", "IcpSlam", "MakSlam", "Odometry", "WallSlam", "make"]
 
@@ -15,8 +15,8 @@ MAKERS = {
     "icp-plain": lambda source: IcpSlam(plain=True),
     "mak": mak,
     "mak-first-estimates": lambda source: mak(source, first_estimates=True),
-    "walls": walls,
-    "walls-foot": walls_foot,
+    "walls": lambda source: of_scans(WallSlam, source),
+    "walls-foot": lambda source: of_scans(FootSlam, source),
 }
 NAMES = tuple(MAKERS)
 

@@ -8,9 +8,9 @@ import numpy as np
 
 from slamlab import noise
 from slamlab.estimators.base import Estimator
-from slamlab.estimators.mak import Q_arc
+from slamlab.estimators.mak import predict
 from slamlab.filters.mak import MAK
-from slamlab.geometry import compose, transform
+from slamlab.geometry import transform
 from slamlab.landmarks.ransac import THESIS, lines
 from slamlab.landmarks.thinned import Thinned
 from slamlab.layers import Ellipses, Points, Poses
@@ -55,9 +55,7 @@ class FootSlam(Estimator):
         ----------
         reading : Reading
         """
-        pose, odometry = self.filter.pose, np.asarray(reading.odometry, dtype=float)
-        if odometry.any():
-            self.filter.predict(compose(pose, odometry), Q_arc(pose, odometry, self.robot))
+        predict(self.filter, reading, self.robot)
         if reading.scan is None or not reading.scan.valid.any():
             self.skipped += 1
         else:
@@ -123,24 +121,3 @@ class FootSlam(Estimator):
             if self.left[i] <= 0:
                 self.filter.remove([i])
                 del self.seen[i], self.left[i]
-
-
-def walls_foot(source, rng=None):
-    """Smolec's estimator for a source, or an error where it has nothing to see.
-
-    Parameters
-    ----------
-    source : Source
-    rng : numpy.random.Generator, seed 0 when None
-
-    Returns
-    -------
-    FootSlam
-
-    Raises
-    ------
-    ValueError : no reading holds a scan
-    """
-    if len(source) and all(reading.scan is None for reading in source):
-        raise ValueError(f"{source.name} holds no scans, which walls-foot needs")
-    return FootSlam(source.robot, source.sensor, rng or np.random.default_rng(0))

@@ -41,9 +41,7 @@ class MakSlam(Estimator):
         ----------
         reading : Reading
         """
-        pose, odometry = self.filter.pose, np.asarray(reading.odometry, dtype=float)
-        if odometry.any():
-            self.filter.predict(compose(pose, odometry), Q_arc(pose, odometry, self.robot))
+        odometry = predict(self.filter, reading, self.robot)
         if reading.observations is not None:
             self._see(reading.observations)
         self.pose = self._smoothed(odometry)
@@ -81,6 +79,25 @@ class MakSlam(Estimator):
         """(m, 2, 2) covariances of the observations."""
         s = self.sensor
         return np.array([noise.R(r, s.range_error, s.bearing_sigma, s.range_sigma) for r in ranges])
+
+
+def predict(filter, reading, robot):
+    """Move a MAK filter by a reading's odometry; standing still changes nothing.
+
+    Parameters
+    ----------
+    filter : MAK
+    reading : Reading
+    robot : RobotModel
+
+    Returns
+    -------
+    (3,) the odometry [m, m, rad]
+    """
+    pose, odometry = filter.pose, np.asarray(reading.odometry, dtype=float)
+    if odometry.any():
+        filter.predict(compose(pose, odometry), Q_arc(pose, odometry, robot))
+    return odometry
 
 
 def Q_arc(pose, odometry, robot):

@@ -7,11 +7,11 @@ a measurement of their own, whereas the foot of the perpendicular is computed th
 import numpy as np
 
 from slamlab.estimators.base import Estimator
-from slamlab.estimators.mak import Q_arc
+from slamlab.estimators.mak import predict
 from slamlab.filters.association import squared_distances
 from slamlab.filters.kinds import LINES
 from slamlab.filters.mak import MAK
-from slamlab.geometry import compose, transform
+from slamlab.geometry import transform
 from slamlab.landmarks.candidates import Candidates, overlap, stretch
 from slamlab.landmarks.pieces import pieces, union
 from slamlab.landmarks.ransac import lines
@@ -56,9 +56,7 @@ class WallSlam(Estimator):
         ----------
         reading : Reading
         """
-        pose, odometry = self.filter.pose, np.asarray(reading.odometry, dtype=float)
-        if odometry.any():
-            self.filter.predict(compose(pose, odometry), Q_arc(pose, odometry, self.robot))
+        predict(self.filter, reading, self.robot)
         if reading.scan is None or not reading.scan.valid.any():
             self.skipped += 1
         else:
@@ -145,22 +143,23 @@ def _hull(parts):
     return np.array([parts[0, 0], parts[-1, 1]]) if len(parts) else np.array([np.inf, -np.inf])
 
 
-def walls(source, rng=None):
-    """The wall estimator for a source, or an error where it has nothing to see.
+def of_scans(slam, source, rng=None):
+    """A wall estimator for a source, or an error where it has nothing to see.
 
     Parameters
     ----------
+    slam : WallSlam or FootSlam, the class
     source : Source
     rng : numpy.random.Generator, seed 0 when None
 
     Returns
     -------
-    WallSlam
+    Estimator
 
     Raises
     ------
     ValueError : no reading holds a scan
     """
     if len(source) and all(reading.scan is None for reading in source):
-        raise ValueError(f"{source.name} holds no scans, which walls needs; sim:situation-1 does")
-    return WallSlam(source.robot, source.sensor, rng or np.random.default_rng(0))
+        raise ValueError(f"{source.name} holds no scans, which walls need; sim:situation-1 does")
+    return slam(source.robot, source.sensor, rng or np.random.default_rng(0))
