@@ -55,10 +55,12 @@ from slamlab.world import World
 # **Predict:** the robot drives the tours below, 43 m and 20 m. By how much will odometry alone be
 # off at the end?
 
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+# %% slideshow={"slide_type": "fragment"}
 sources = {
     name: simulation(name, np.random.default_rng(1)) for name in ("situation-1", "situation-2")
 }
+
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 naive = {}
 for name, source in sources.items():
     poses = [np.zeros(3)]
@@ -264,11 +266,14 @@ def driven(source, slam):
         drawn.add(transform(slam.mak.pose, reading.scan.points()))
     errors = np.array(poses) - source.truth.poses
     errors[:, 2] = wrap(errors[:, 2])
-    # the first pose is exact by definition: P is zero there and has no inverse
     sizes = np.r_[np.full(10, np.nan), nees(errors[10:], np.array(P)[10:])]
     return {"slam": slam, "poses": poses, "errors": errors, "nees": sizes, "drawn": drawn.xy}
 
 
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# (The first pose is exact by definition: P is zero there and has no inverse, so NEES begins later.)
+
+# %% slideshow={"slide_type": "fragment"}
 good = {name: driven(source, Walls(source)) for name, source in sources.items()}
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
@@ -282,19 +287,21 @@ def pictured(name):
         smeared.add(transform(pose, reading.scan.points()))
     truth = Poses("truth", sources[name].truth.poses)
     corrected = Points("points", good[name]["drawn"]), Poses("corrected", good[name]["poses"])
-    fig, _ = views.side_by_side(
-        {
-            f"{name}, odometry": [Points("points", smeared.xy), truth, Poses("naive", naive[name])],
-            f"{name}, corrected": [corrected[0], truth, corrected[1]],
-        },
-        size=(7.8, 3.5),
-    )
-    return fig
+    maps = {
+        f"{name}, odometry": [Points("points", smeared.xy), truth, Poses("naive", naive[name])],
+        f"{name}, corrected": [corrected[0], truth, corrected[1]],
+    }
+    return views.side_by_side(maps, size=(7.8, 3.5))[0]
 
 
+# %% slideshow={"slide_type": "fragment"}
 views.show(
     pictured("situation-1"), "Odometry's map of the rooms is smeared, the corrected one is sharp."
 )
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# **See:** with odometry each wall is drawn many times, turned; corrected, once, and the doors are
+# open. And the room with the slanted wall?
 
 # %% slideshow={"slide_type": "fragment"}
 views.show(
@@ -302,8 +309,8 @@ views.show(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** with odometry each wall is drawn many times, turned; corrected, once. Its blue track lies
-# on the black one: at this scale you cannot tell them apart. So look at the error itself:
+# **See:** the same here. In both the blue track lies on the black one: at this scale you cannot tell
+# them apart. So look at the error itself:
 
 # %% slideshow={"slide_type": "slide"}
 fig, ax = views.chart("step", "error of the place [cm]", "Odometry and corrected", (6.6, 3.2))
@@ -314,7 +321,7 @@ for (name, one), dash in zip(good.items(), ("-", "--"), strict=True):
     ax.plot(astray, dash, color=views.COLOURS["naive"], label=f"{name}, odometry")
     ax.plot(corrected, dash, color=views.COLOURS["corrected"], label=f"{name}, corrected")
 ax.set(yscale="log", ylim=(0.01, 400))
-ax.legend(fontsize="small", loc="lower right", ncols=2)
+views.legend(ax, fontsize="small", loc="lower right", ncols=2)
 views.show(
     fig, "Odometry's error climbs to metres, the corrected one stays near half a centimetre."
 )
@@ -333,7 +340,7 @@ fig, ax = views.chart("step", "NEES of the pose", "One run", (6, 2.6))
 ax.plot(good["situation-1"]["nees"], color=views.COLOURS["corrected"], label="situation 1")
 ax.axhspan(*band(3, 1), color=views.COLOURS["guide"], alpha=0.4, label="95 % of single steps")
 ax.set(yscale="log")
-ax.legend(fontsize="small")
+views.legend(ax, fontsize="small")
 views.show(fig, "NEES of the run stays mostly within the band of single steps.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
@@ -655,6 +662,8 @@ kinds, curves = {"(ρ, α)": LINES, "foot": POINTS}, {}
 corridor_runs = {
     name: [down_the_corridor(kind, seed) for seed in range(60)] for name, kind in kinds.items()
 }
+
+# %% slideshow={"slide_type": "fragment"}
 for name, runs in corridor_runs.items():
     errors, P = (np.array(each) for each in zip(*runs, strict=True))
     curves[f"{name}: errs by"] = 100 * np.sqrt(np.mean(errors[:, :, 0] ** 2, axis=0))
@@ -691,16 +700,18 @@ for name, runs in corridor_runs.items():
 # readings within 15 mm, *grown lines* the default of lesson 08; *true poses* is the floor: whoever
 # knows the way draws a map as good as the noise allows.
 
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+# %% slideshow={"slide_type": "fragment"}
 table = files("slamlab") / "data" / "studies" / "walls.json"
 study = json.loads(table.read_text(encoding="utf-8"))
+first, last = study["seeds"]
+
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 rows = ["| situation | variant | at the end | worst | map | NEES | last |", "|---" * 7 + "|"]
 for situation, variants in study["situations"].items():
     for name, row in variants.items():
         sizes = [f"{row[key]:.3g}" if key in row else "" for key in ("nees", "nees_end")]
         lengths = [f"{100 * row[key]:.1f} cm" for key in ("final_m", "final_m_worst", "map_m")]
         rows.append(f"| {situation[-1]} | {name} | {' | '.join(lengths + sizes)} |")
-first, last = study["seeds"]
 rows += ["", f"{last - first + 1} seeds: medians, the worst run, the mean NEES over all steps and"]
 rows += ["at the last; for one step 95 % of such means lie from"]
 rows += ["{:.2f} to {:.2f}.".format(*study["band_95"])]
@@ -909,16 +920,22 @@ for name, source in sources.items():
 
 # %% slideshow={"slide_type": "fragment"}
 tower, lidar = World(circles=np.array([[3.0, 2.0, 1.5]])), replace(RPLIDAR_A2, range_error=0.01)
+flats = {}
+for place in (1.5, 4.5):
+    pose, rng = np.array([place, -0.5, 0.0]), np.random.default_rng(2)
+    found = lines(lidar.scan(tower, pose, rng), lidar.model, rng)
+    ends = [transform(pose, line.ends) for line in found]
+    flats[place] = [[*(1.5 * a - 0.5 * b), *(1.5 * b - 0.5 * a)] for a, b in ends]
+    print(f"from x = {place}: {len(found)} walls")
+
+# %% slideshow={"slide_type": "fragment"}
 fig, ax = views.axes("Flats found on a round tower, drawn on a little", (6, 3.8))
-views.draw(ax, Segments("walls", tower.outline()))
-for place, name in ((1.5, "naive"), (4.5, "corrected")):
-    pose, rng, flats = np.array([place, -0.5, 0.0]), np.random.default_rng(2), []
-    for line in lines(lidar.scan(tower, pose, rng), lidar.model, rng):
-        a, b = transform(pose, line.ends)
-        flats.append([*(1.5 * a - 0.5 * b), *(1.5 * b - 0.5 * a)])
-    views.draw(ax, Segments(name, flats), label=f"seen from x = {place}", linewidth=2)
-    views.draw(ax, Poses(name, [pose]), label=f"_{name}")
-    print(f"from x = {place}: {len(flats)} walls")
+drawn = {"walls": Segments("walls", tower.outline())}
+for (place, rows), name in zip(flats.items(), ("naive", "corrected"), strict=True):
+    drawn |= {f"seen from x = {place}": Segments(name, rows)}
+    drawn |= {f"_from {place}": Poses(name, [[place, -0.5, 0.0]])}
+for label, layer in drawn.items():
+    views.draw(ax, layer, label=label)
 ax.set_aspect("equal", adjustable="box")
 ax.set(xlim=(0.2, 5.8), ylim=(-0.8, 2.2))
 views.legend(ax, loc="upper center", fontsize="small")
