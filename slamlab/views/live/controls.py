@@ -19,7 +19,7 @@ class Controls:
     def __init__(self, loop, pairs):
         self.loop, self._pairs = loop, pairs
         self.which = [_button(title, "start with this one", self._chosen(title)) for title in pairs]
-        self.run = _button("▶ run", "step after step", self._run, "6.5em")
+        self.run = _button("▶ run", "step after step", self._run, "8em")
         self.step = _button("step", "one step, then pause", loop.step, "5em")
         self.reset = _button("reset", "from the start, with this seed", self._reset, "5em")
         self.speed = ipywidgets.SelectionSlider(
