@@ -5,70 +5,12 @@ import numpy as np
 from slamlab import jacobians, models, noise
 from slamlab.checks.drives.ex06 import DRIVES
 from slamlab.checks.task import Diagnosis, Law, Task
-from slamlab.checks.tasks.ex06_runs import LANDMARKS, RUNS, least_squares, runs, truth
-from slamlab.evaluation import band, nees
+from slamlab.checks.tasks.ex06_ends import MAP, Ends, whole
+from slamlab.checks.tasks.ex06_runs import LANDMARKS, RUNS, runs
+from slamlab.filters.kinds import POINTS
 from slamlab.filters.mak import MAK
-from slamlab.geometry import wrap
 
-MAP = slice(3, None)
-HONEST = 1 - 5e-7  # a right filter lies inside a band in this share of gradings
-SLACK = 1.15  # the Jacobians are taken at estimates: bands are this much wider
-SURE = 0.75, 1.33  # what variances may be in units of those of least squares
-
-
-def _whole(inputs, outputs):
-    """Whether the map holds each landmark once, so that it can be looked at."""
-    ids, met = outputs["ids"], np.unique(inputs["seen"][inputs["seen"] >= 0])
-    fits = ids.shape == (RUNS, LANDMARKS) and outputs["x"].shape == (RUNS, 3 + 2 * LANDMARKS)
-    return bool(fits and (np.sort(ids, axis=1) == met).all())
-
-
-def _in_order(inputs, x, P, ids):
-    """x (r, n), P (r, n, n) with the landmarks in the order of meeting."""
-    met = list(truth(inputs)[3])
-    x, P = x.copy(), P.copy()
-    for r, mine in enumerate(ids.tolist()):
-        first = 3 + 2 * np.array([mine.index(i) for i in met])
-        rows = np.concatenate([[0, 1, 2], np.column_stack([first, first + 1]).ravel()])
-        x[r], P[r] = x[r, rows], P[r][np.ix_(rows, rows)]
-    return x, P
-
-
-def _ends(inputs, outputs):
-    return _in_order(inputs, outputs["x"], outputs["P"], outputs["ids"])
-
-
-def _errors(inputs, x):
-    _, _, way, landmarks = truth(inputs)
-    error = x - np.concatenate([way[-1], *landmarks.values()])
-    error[:, 2] = wrap(error[:, 2])
-    return error
-
-
-def _honest(part):
-    def holds(inputs, outputs):
-        if not _whole(inputs, outputs):
-            return False
-        x, P = _ends(inputs, outputs)
-        error = _errors(inputs, x)[:, part]
-        # the runs' common mean costs one of them
-        low, high = band(error.shape[1], RUNS - 1, HONEST)
-        return low / SLACK <= nees(error, P[:, part, part]).mean() <= high * SLACK
-
-    return holds
-
-
-def ratios(inputs, P):
-    """Variances of the mean of P (r, n, n) in all directions, in units of least squares'."""
-    root = np.linalg.inv(np.linalg.cholesky(least_squares(inputs)))
-    return np.linalg.eigvalsh(root @ P.mean(axis=0) @ root.T)
-
-
-def _sure(inputs, outputs):
-    if not _whole(inputs, outputs):
-        return False
-    of_all = ratios(inputs, _ends(inputs, outputs)[1])
-    return SURE[0] <= of_all.min() and of_all.max() <= SURE[1]
+ENDS = Ends(POINTS, sure=(0.75, 1.33))
 
 
 # ---- mistakes: the same calls in a wrong order ------------------------------------------------
@@ -109,7 +51,7 @@ def _ordered(*orders):
     """Whether the end of a run is that of the same calls in one of these orders."""
 
     def matches(inputs, outputs):
-        return _whole(inputs, outputs) and any(_like(inputs, outputs, order) for order in orders)
+        return whole(inputs, outputs) and any(_like(inputs, outputs, order) for order in orders)
 
     return matches
 
@@ -117,10 +59,10 @@ def _ordered(*orders):
 def _like(inputs, outputs, order):
     for run in (0, 1):
         mak = _filtered(inputs, run, order)
-        (x,), (P,) = _in_order(inputs, mak.x[None], mak.P[None], np.array([mak.ids]))
-        (got,), (claimed,) = (part[run, None] for part in _ends(inputs, outputs))
+        (x,), (P,) = ENDS.in_order(inputs, mak.x[None], mak.P[None], np.array([mak.ids]))
+        (got,), (claimed,) = (part[run, None] for part in ENDS.of(inputs, outputs))
         sigma, off = np.sqrt(np.diag(P)), got - x
-        off[2] = wrap(off[2])
+        off = ENDS.wrapped(off)
         if max((abs(off) / sigma).max(), (abs(claimed - P) / np.outer(sigma, sigma)).max()) > 0.1:
             return False
     return True
@@ -140,9 +82,12 @@ def _ids_behind(inputs, outputs):
 
 def _far_off(inputs, outputs):
     """Whether the map is off by far more than any wrong covariance can explain."""
-    if not _whole(inputs, outputs):
+    if not whole(inputs, outputs):
         return False
-    return np.hypot(*_errors(inputs, _ends(inputs, outputs)[0])[:, MAP].reshape(-1, 2).T).max() > 1
+    return (
+        np.hypot(*ENDS.errors(inputs, ENDS.of(inputs, outputs)[0])[:, MAP].reshape(-1, 2).T).max()
+        > 1
+    )
 
 
 SLAM = Task(
@@ -152,25 +97,25 @@ SLAM = Task(
     inputs=runs,
     shapes={"x": (RUNS, None), "P": (RUNS, None, None), "ids": (RUNS, None)},
     laws=(
-        Law("ids", 1, "the map holds every landmark that was seen, each once", _whole),
+        Law("ids", 1, "the map holds every landmark that was seen, each once", whole),
         Law(
             "pose",
             1,
             "over all runs, the pose errs as much as P says (NEES within its band)",
-            _honest(np.s_[:3]),
+            ENDS.honest(np.s_[:3]),
         ),
         Law(
             "map",
             1,
             "over all runs, the landmarks err as much as P says (NEES within its band)",
-            _honest(MAP),
+            ENDS.honest(MAP),
         ),
         Law(
             "sure",
             2,
             "P is neither more nor less sure, of robot, map and what lies between them, than least "
             "squares over the whole run",
-            _sure,
+            ENDS.sure,
         ),
     ),
     diagnoses=(
