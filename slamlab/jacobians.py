@@ -84,14 +84,14 @@ def H_robot(x, p):
 
     Parameters
     ----------
-    x : (3,) pose [m, m, rad]
+    x : (..., 3) pose [m, m, rad], broadcast against the landmarks
     p : (..., 2) landmarks [m]
 
     Returns
     -------
     (..., 2, 3)
     """
-    d = np.asarray(p, dtype=float) - np.asarray(x, dtype=float)[:2]
+    d = np.asarray(p, dtype=float) - np.asarray(x, dtype=float)[..., :2]
     dx, dy = d[..., 0], d[..., 1]
     q = dx * dx + dy * dy
     r = np.sqrt(q)
@@ -106,7 +106,7 @@ def H_landmark(x, p):
 
     Parameters
     ----------
-    x : (3,) pose [m, m, rad]
+    x : (..., 3) pose [m, m, rad], broadcast against the landmarks
     p : (..., 2) landmarks [m]
 
     Returns
@@ -145,15 +145,15 @@ def J_z(x, z):
 
     Parameters
     ----------
-    x : (3,) pose [m, m, rad]
+    x : (..., 3) pose [m, m, rad], broadcast against the sightings
     z : (..., 2) range [m], bearing [rad]
 
     Returns
     -------
     (..., 2, 2)
     """
-    z = np.asarray(z, dtype=float)
-    r, direction = z[..., 0], x[2] + z[..., 1]
+    x, z = np.asarray(x, dtype=float), np.asarray(z, dtype=float)
+    r, direction = z[..., 0], x[..., 2] + z[..., 1]
     c, s = np.cos(direction), np.sin(direction)
     return np.stack([np.stack([c, -r * s], -1), np.stack([s, r * c], -1)], -2)
 

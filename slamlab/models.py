@@ -59,17 +59,18 @@ def h(x, p):
 
     Parameters
     ----------
-    x : (3,) pose [m, m, rad]
+    x : (..., 3) pose [m, m, rad], broadcast against the landmarks
     p : (..., 2) landmarks [m]
 
     Returns
     -------
     (..., 2) range [m] and bearing [rad], wrapped
     """
-    d = np.asarray(p, dtype=float) - np.asarray(x, dtype=float)[:2]
+    x = np.asarray(x, dtype=float)
+    d = np.asarray(p, dtype=float) - x[..., :2]
     z = np.empty_like(d)
     z[..., 0] = np.hypot(d[..., 0], d[..., 1])
-    z[..., 1] = wrap(np.arctan2(d[..., 1], d[..., 0]) - x[2])
+    z[..., 1] = wrap(np.arctan2(d[..., 1], d[..., 0]) - x[..., 2])
     return z
 
 
@@ -80,18 +81,17 @@ def g(x, z):
 
     Parameters
     ----------
-    x : (3,) pose [m, m, rad]
+    x : (..., 3) pose [m, m, rad], broadcast against the sightings
     z : (..., 2) range [m] and bearing [rad]
 
     Returns
     -------
     (..., 2) landmarks [m]
     """
-    z = np.asarray(z, dtype=float)
-    direction = x[2] + z[..., 1]
-    return np.stack(
-        [x[0] + z[..., 0] * np.cos(direction), x[1] + z[..., 0] * np.sin(direction)], axis=-1
-    )
+    x, z = np.asarray(x, dtype=float), np.asarray(z, dtype=float)
+    r, direction = z[..., 0], x[..., 2] + z[..., 1]
+    ends = x[..., 0] + r * np.cos(direction), x[..., 1] + r * np.sin(direction)
+    return np.stack(ends, axis=-1)
 
 
 def h_line(x, line):

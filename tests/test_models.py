@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from hypothesis import assume, given
+from hypothesis import strategies as st
 
 from slamlab import jacobians, models
 from slamlab.geometry import compose, inverse, matrix, transform
@@ -153,3 +154,18 @@ def test_the_jacobians_of_lines_are_the_slopes_of_their_models(x, line):
     ]
     for coded, f, at in pairs:
         np.testing.assert_allclose(coded, finite_differences(f, at, angular), atol=1e-6)
+
+
+@given(st.lists(poses, min_size=1, max_size=3), st.lists(points, min_size=1, max_size=3))
+def test_many_poses_at_once_are_what_each_of_them_is_alone(many, p):
+    x, p = np.array(many), np.array(p)
+    assume(np.min(np.hypot(*(p - x[:, None, :2]).T)) > 0.01)
+    z = models.h(x[:, None], p)
+    for function, other in [
+        *((f, p) for f in (models.h, jacobians.H_robot, jacobians.H_landmark)),
+        *((f, z) for f in (models.g, jacobians.J_z)),
+    ]:
+        together = function(x[:, None], other)
+        for k, one in enumerate(x):
+            alone = function(one, other if other is p else other[k])
+            np.testing.assert_allclose(together[k], alone, rtol=1e-12, atol=1e-12)
