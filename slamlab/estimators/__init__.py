@@ -1,13 +1,24 @@
 """Estimators: every SLAM of the course, made by its name."""
 
 from slamlab.estimators.base import Estimator
+from slamlab.estimators.bor import BorSlam, bor
 from slamlab.estimators.feet import FootSlam
 from slamlab.estimators.icp import IcpSlam
 from slamlab.estimators.mak import MakSlam, mak
 from slamlab.estimators.odometry import Odometry
 from slamlab.estimators.walls import WallSlam, of_scans
 
-__all__ = ["NAMES", "Estimator", "FootSlam", "IcpSlam", "MakSlam", "Odometry", "WallSlam", "make"]
+__all__ = [
+    "NAMES",
+    "BorSlam",
+    "Estimator",
+    "FootSlam",
+    "IcpSlam",
+    "MakSlam",
+    "Odometry",
+    "WallSlam",
+    "make",
+]
 
 MAKERS = {
     "odometry": lambda source: Odometry(),
@@ -15,6 +26,7 @@ MAKERS = {
     "icp-plain": lambda source: IcpSlam(plain=True),
     "mak": mak,
     "mak-first-estimates": lambda source: mak(source, first_estimates=True),
+    "bor": bor,
     "walls": lambda source: of_scans(WallSlam, source),
     "walls-foot": lambda source: of_scans(FootSlam, source),
 }

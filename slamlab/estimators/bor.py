@@ -1,0 +1,131 @@
+"""The BOR filter as an estimator: a bound is so many sigmas, the pose is the box's middle."""
+
+import numpy as np
+
+from slamlab import noise
+from slamlab.estimators.base import Estimator
+from slamlab.estimators.seen import seen
+from slamlab.filters.bor import BOR, EmptyIntersection
+from slamlab.filters.bor.predict import odometry
+from slamlab.layers import Boxes, Points, Poses
+
+
+class BorSlam(Estimator):
+    """Boxes on a source's landmarks: those it names, else the corners of its scans.
+
+    No Gaussian stays inside a bound for ever: the more sigmas, the wider the boxes and the later
+    one is broken. A sighting that has nothing in common with what is believed is left out, and the
+    estimator says from then on that it is ``lost``: it goes on, but promises nothing any more.
+
+    Parameters
+    ----------
+    robot : RobotModel, how wrong the odometry is
+    sensor : SensorModel, how wrong a range and a bearing are
+    rng : numpy.random.Generator, for RANSAC; seed 0 when None
+    sigmas : float, above 0, standard deviations that a bound is
+    boxes : {id: (4,) x_min, x_max, y_min, y_max}, a map that is known beforehand, or None [m]
+
+    Raises
+    ------
+    ValueError
+    """
+
+    def __init__(self, robot, sensor, rng=None, sigmas=3.0, boxes=None):
+        super().__init__()
+        if not 0 < sigmas < np.inf:
+            raise ValueError(f"sigmas is a number above 0, not {sigmas}")
+        self.model, self.sensor, self.sigmas = robot, sensor, sigmas
+        self.rng = np.random.default_rng(0) if rng is None else rng
+        # the first pose is where the map's frame is laid: nothing about it is uncertain
+        self.filter = BOR(np.zeros(4), np.zeros(2), boxes)
+        self.lost = ""
+        self.contradictions = 0
+
+    def step(self, reading):
+        """Take a reading in: predict by odometry, clip by each landmark seen, add the new ones.
+
+        Parameters
+        ----------
+        reading : Reading
+        """
+        motion = np.asarray(reading.odometry, dtype=float)
+        if motion.any():
+            self.filter.predict(*odometry(motion, *bounds(motion, self.model, self.sigmas)))
+        sights = seen(reading, self.sensor, self.rng)
+        for z, R, i in zip(sights.z, sights.R, sights.ids.tolist(), strict=True):
+            self._see(i, z, self.sigmas * np.sqrt(np.diag(R)), reading.time)
+        self.pose = self.filter.pose
+        self.record(reading.time)
+        self.status = self._status()
+
+    def layers(self):
+        """Middles and boxes of the landmarks, the track, the robot's box."""
+        boxes = self.filter.boxes()
+        return [
+            Points("landmark", boxes.reshape(-1, 2, 2).mean(axis=2)),
+            Boxes("landmark", boxes),
+            Poses("corrected", self.trajectory().poses),
+            Boxes("robot", self.filter.robot[None]),
+        ]
+
+    def _see(self, i, z, bounds, time):
+        try:
+            if i < 0:
+                self.filter.take(z, bounds)
+            elif i in self.filter:
+                self.filter.update(i, z, bounds)
+            else:
+                self.filter.add(i, z, bounds)
+        except EmptyIntersection as error:
+            self.contradictions += 1
+            self.lost = self.lost or f"lost at {time:g} s: {error}"
+
+    def _status(self):
+        counted = (
+            f"{len(self.filter)} landmarks, {self.filter.ambiguous} ambiguous sightings ignored"
+        )
+        if not self.lost:
+            return counted
+        return f"{counted}, {self.contradictions} contradictions; {self.lost}"
+
+
+def bounds(motion, robot, sigmas):
+    """Most that the length and the turn of an arc are off: so many standard deviations.
+
+    Parameters
+    ----------
+    motion : (3,) odometry [m, m, rad]
+    robot : RobotModel
+    sigmas : float
+
+    Returns
+    -------
+    (2,) [m, rad]
+    """
+    u = np.hypot(motion[0], motion[1]), motion[2]
+    C = noise.C_odometry(u, robot.distance_error, robot.turn_error, robot.turn_per_metre)
+    return sigmas * np.sqrt(np.diag(C + noise.C_wheels(u, robot.slip, robot.base)))
+
+
+def bor(source):
+    """The BOR estimator for a source, or an error where it has nothing to see.
+
+    Parameters
+    ----------
+    source : Source
+
+    Returns
+    -------
+    BorSlam
+
+    Raises
+    ------
+    ValueError : no reading holds landmarks or a scan
+    """
+    # a source that goes on for ever, such as a robot, has no length and is not run through
+    if len(source) and all(r.observations is None and r.scan is None for r in source):
+        raise ValueError(
+            f"{source.name} holds neither landmarks nor scans, of which bor needs one; "
+            "sim:landmarks has landmarks"
+        )
+    return BorSlam(source.robot, source.sensor)
