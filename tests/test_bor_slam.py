@@ -1,0 +1,114 @@
+"""BOR as an estimator: bounds of so many sigmas, boxes to draw, and it says when it is lost."""
+
+import numpy as np
+import pytest
+
+from slamlab import estimators
+from slamlab.estimators.bor import BorSlam, bounds
+from slamlab.hardware import RobotModel
+from slamlab.layers import Boxes, Points, Poses
+from slamlab.noise import C_wheels
+from slamlab.readings import Observations, Reading
+from slamlab.runner import run
+from slamlab.simulator import arc
+from slamlab.sources import simulation
+from slamlab.sources.landmarks import LandmarkRun, Loop
+from slamlab.studies.boxes import inside, outside
+
+CALM = Loop(steps=80, v_sigma=0.004, omega_sigma=0.002, range_sigma=0.02, bearing_sigma=0.005)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_with_bounds_that_no_noise_leaves_the_truth_is_in_its_boxes_at_every_step(seed):
+    source = LandmarkRun(CALM, np.random.default_rng(seed))
+    slam = BorSlam(source.robot, source.sensor, sigmas=5.5)
+    for reading, pose in zip(source, source.truth.poses, strict=True):
+        slam.step(reading)
+        assert outside(slam.filter, pose, source.landmarks) == []
+    assert slam.lost == ""
+    assert set(slam.filter.ids) == set(np.concatenate([r.observations.ids for r in source]))
+
+
+def test_bounds_far_too_narrow_are_broken_and_the_status_says_since_when_and_what_to_do():
+    source = LandmarkRun(CALM, np.random.default_rng(1))
+    slam = run(source, BorSlam(source.robot, source.sensor, sigmas=0.3)).estimator
+    assert slam.contradictions > 0
+    assert slam.lost in slam.status
+    assert "lost at" in slam.lost and "Widen the bounds" in slam.lost
+    assert np.isfinite(slam.pose).all()
+
+
+def test_a_map_known_beforehand_is_used():
+    source = LandmarkRun(CALM, np.random.default_rng(2))
+    known = {i: (x, x, y, y) for i, (x, y) in enumerate(source.landmarks)}
+    slam = run(source, BorSlam(source.robot, source.sensor, sigmas=5.5, boxes=known)).estimator
+    assert slam.filter.ids == list(known)
+    assert outside(slam.filter, source.truth.poses[-1], source.landmarks) == []
+    assert np.diff(slam.filter.robot)[::2].max() < 0.6
+
+
+def test_without_ids_it_finds_out_itself_who_is_seen():
+    source = LandmarkRun(CALM, np.random.default_rng(3))
+    slam = BorSlam(source.robot, source.sensor)
+    for reading in list(source)[:15]:
+        seen = reading.observations
+        slam.step(
+            Reading(reading.time, reading.odometry, None, Observations(seen.z, -1 - 0 * seen.ids))
+        )
+    assert len(slam.filter) >= len(next(iter(source)).observations.ids)
+    for box in slam.filter.boxes():
+        assert any(inside(box, landmark) for landmark in source.landmarks)
+
+
+def test_it_draws_the_landmarks_boxes_and_the_robots_and_the_track():
+    source = LandmarkRun(CALM, np.random.default_rng(1))
+    slam = run(source, estimators.make("bor", source)).estimator
+    landmarks, around, track, robot = slam.layers()
+    assert [type(a) for a in slam.layers()] == [Points, Boxes, Poses, Boxes]
+    assert all(inside(box, middle) for box, middle in zip(around.rows, landmarks.xy, strict=True))
+    assert len(track.rows) == len(source)
+    assert inside(robot.rows[0], slam.pose)
+    assert "landmarks" in slam.status
+
+
+def test_before_anything_is_seen_there_is_a_robot_and_no_landmark():
+    landmarks, around, *_ = BorSlam(RobotModel(), Loop().sensor).layers()
+    assert landmarks.xy.shape == (0, 2)
+    assert around.rows.shape == (0, 4)
+
+
+def test_it_takes_the_corners_of_scans_where_no_landmark_is_named():
+    source = simulation("polygon", np.random.default_rng(0))
+    slam = run(source, estimators.make("bor", source)).estimator
+    assert len(slam.filter) > 2
+    assert inside(slam.filter.robot, source.truth.poses[-1])
+
+
+def test_a_bound_is_so_many_standard_deviations_of_the_arcs_length_and_turn():
+    robot = RobotModel(distance_error=0.1, turn_error=0.2, turn_per_metre=0.0, slip=0.05, base=0.4)
+    motion, C = arc(0.3, 0.5, 0.4), C_wheels((0.4, 0.5), 0.05, 0.4)
+    d = np.hypot(*motion[:2])
+    of_length, of_turn = bounds(motion, robot, 3)
+    assert np.isclose(of_length, 3 * np.hypot(0.1 * d, np.sqrt(C[0, 0])), rtol=1e-2)
+    assert np.isclose(of_turn, 3 * np.hypot(0.2 * 0.5, np.sqrt(C[1, 1])), rtol=1e-2)
+
+
+def test_standing_still_changes_nothing():
+    slam = BorSlam(RobotModel(), Loop().sensor)
+    for time in range(5):
+        slam.step(Reading(float(time)))
+    np.testing.assert_array_equal(slam.filter.robot, 0)
+    np.testing.assert_array_equal(slam.filter.heading, 0)
+
+
+@pytest.mark.parametrize("sigmas", [0, -1, np.nan, np.inf])
+def test_bounds_of_no_width_or_none_are_refused(sigmas):
+    with pytest.raises(ValueError, match="sigmas is a number above 0"):
+        BorSlam(RobotModel(), Loop().sensor, sigmas=sigmas)
+
+
+def test_a_source_without_landmarks_and_scans_is_refused_in_one_line():
+    source = LandmarkRun(CALM, np.random.default_rng(1))
+    source.__class__ = type("Blind", (LandmarkRun,), {"_reading": lambda self, i: Reading(0.0)})
+    with pytest.raises(ValueError, match="neither landmarks nor scans"):
+        estimators.make("bor", source)
