@@ -49,6 +49,20 @@ def test_without_a_browser_nothing_runs(stored):
     assert loop.screen.sent == 0
 
 
+def test_a_picture_comes_with_the_widget_the_newest_there_is(stored):
+    loop = walk(steps=3)
+    for count in (3, 4):
+        frame = loop.screen.widget.get_state()["frame"]
+        assert frame["header"]["status"].startswith(f"step {count} of")
+        points = {layer["name"]: layer["follow"] for layer in frame["header"]["layers"]}
+        assert points["map"] == count
+        numbers = sum(layer["follow"] * layer["width"] for layer in frame["header"]["layers"])
+        assert len(frame["rows"]) == 4 * numbers
+        loop.pair.step()
+        loop.show()  # no browser: nothing is sent
+    assert loop.screen.sent == 0
+
+
 def test_the_still_is_the_same_bytes_each_time(stored):
     for _ in range(2):
         walk(steps=3)
@@ -152,6 +166,21 @@ def test_the_canvas_speaks_only_when_the_browser_is_ready_and_waits_for_its_word
     header, (rows,) = canvas.messages[-1]
     assert all(layer["keep"] == 0 for layer in header["layers"])
     assert len(rows) == 4 * sum(layer["follow"] * layer["width"] for layer in header["layers"])
+
+
+def test_a_view_that_is_gone_pauses_and_is_shown_anew_as_it_was(stored):
+    async def watch():
+        pair = Pair(Walk, lambda source: Sum())
+        pair.reset(0)
+        loop = Loop(pair, Heard())
+        loop.screen.say(kind="ready")
+        loop.run()
+        loop.screen.say(kind="gone")
+        assert not loop.running
+        loop.screen.say(kind="ready")
+        assert loop.screen.messages[-1][0]["status"].startswith("step 1 of")
+
+    asyncio.run(watch())
 
 
 def test_a_browser_on_the_same_machine_gets_no_short_messages(stored):

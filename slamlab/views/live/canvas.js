@@ -14,10 +14,13 @@ function element(tag, style, more = {}) {
 export default () => {
   const layers = new Layers();
   const views = new Set();
-  let opened = false, drawn = 0, driving = false;
+  let drawn = 0, driving = false;
 
   return {
     initialize({ model }) {
+      const { header, rows } = model.get("frame");
+      layers.take(header, rows);
+      drawn = header.number; // came with the widget: nobody waits for an answer
       model.on("msg:custom", (header, buffers) => {
         if (header?.kind != "frame") return;
         layers.take(header, buffers[0]);
@@ -51,7 +54,6 @@ export default () => {
       let due = false;
       const paint = () => {
         due = false;
-        if (!layers.header) return;
         const wide = canvas.clientWidth || model.get("width");
         camera.width = wide;
         camera.height = Math.round(wide * model.get("height") / model.get("width"));
@@ -72,6 +74,10 @@ export default () => {
         due = true;
       };
 
+      if (!views.size) {
+        const near = ["localhost", "127.0.0.1", "[::1]"].includes(location.hostname);
+        model.send({ kind: "ready", near });
+      }
       views.add(repaint);
       const resized = new ResizeObserver(repaint);
       resized.observe(canvas);
@@ -112,13 +118,11 @@ export default () => {
         model.send({ kind: "key", name: KEYS[event.key] });
       });
 
-      if (layers.header) repaint();
-      const near = ["localhost", "127.0.0.1", "[::1]"].includes(location.hostname);
-      if (!opened) model.send({ kind: "ready", near });
-      opened = true;
+      repaint();
       return () => {
         views.delete(repaint);
         resized.disconnect();
+        if (!views.size) model.send({ kind: "gone" });
       };
     },
   };

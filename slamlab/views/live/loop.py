@@ -2,6 +2,7 @@
 
 import asyncio
 from dataclasses import replace
+from math import inf
 from time import monotonic
 
 from slamlab.views.live.packing import Scene
@@ -10,6 +11,7 @@ PICTURES = 20  # a second, at most; more steps than these share a picture
 BREATH = 0.005  # [s] left to the kernel between two pictures, to hear of a press
 BUSY = 0.1  # [s] of steps in a row, then a picture
 STANDING = 0.1  # [s] between looks whether a robot that stands has got a command
+SOON = 0.02  # [s] that all else in the kernel waits for a source's readings, a picture
 
 COMMANDS = {"forward": (1, 0), "back": (-1, 0), "left": (0, 1), "right": (0, -1), "stop": None}
 """What can be commanded: shares of top speed and top turn rate."""
@@ -37,7 +39,7 @@ class Loop:
         self.tops, self.play, self.trouble = tops, play, ""
         self.on_change = lambda: None
         self._task, self._scene = None, Scene([])
-        screen.on_ready, screen.on_closed, screen.on_key = self._ready, self.pause, self.drive
+        screen.on_ready, screen.on_closed, screen.on_key = self._ready, self.close, self.drive
 
     @property
     def running(self):
@@ -46,13 +48,10 @@ class Loop:
 
     def run(self):
         """Step after step; from the start where the end was reached."""
-        global _running
-        stop()
-        if self.pair.played and not self.pair.drivable and not self._do(self._renew):
-            return
-        _running = self
-        self._task = asyncio.get_running_loop().create_task(self._run())
-        self.on_change()
+        if self._at_end and not self._do(self._renew):
+            self.show()
+        else:
+            self._start()
 
     def pause(self):
         """Stop after the step that is being made."""
@@ -63,10 +62,17 @@ class Loop:
         self.on_change()
 
     def step(self):
-        """One step, then pause."""
+        """One step, as soon as there is a reading, then pause."""
         self.pause()
-        self._do(self.pair.step)
+        before = self.pair.count
+        self._do(lambda: self.pair.step(SOON))
+        self._await(before + 1)
         self.show()
+
+    def close(self):
+        """Nobody looks any more: pause, and close a source that was made for this view."""
+        self.pause()
+        self._do(self.pair.close)
 
     def reset(self, seed=None, pair=None):
         """Begin anew and pause.
@@ -80,11 +86,12 @@ class Loop:
         self.seed = self.seed if seed is None else seed
         self.pair = self.pair if pair is None else pair
         self._do(self._renew)
+        self._await(1)
         self.on_change()
         self.show()
 
     def drive(self, name):
-        """While it runs, steer; else drive one step.
+        """While it runs, steer; else drive one step. A robot with a clock of its own is told.
 
         Parameters
         ----------
@@ -93,10 +100,11 @@ class Loop:
         if name not in COMMANDS:
             return
         command = self.command(name)
-        if self.running and self.pair.drivable and self.pair.played:
-            self.pair.command = command
-        elif command is not None:
-            self._do(lambda: self.pair.drive(command))
+        pair = self.pair
+        if self.running and pair.drivable and pair.over:
+            pair.command = command
+        elif command is not None or (pair.drivable and pair.played and not pair.over):
+            self._do(lambda: pair.drive(command or (0.0, 0.0)))
             self.show()
 
     def command(self, name):
@@ -130,7 +138,19 @@ class Loop:
         self._scene = scene
 
     def _renew(self):
-        self.pair.reset(self.seed)
+        self.pair.reset(self.seed, SOON)
+
+    def _await(self, count):
+        """Go on until so many readings are taken in, where the source keeps one waiting."""
+        if not self.trouble and self.pair.count < count and self.pair.waited:
+            self._start(count)
+
+    def _start(self, until=inf):
+        global _running
+        stop()
+        _running = self
+        self._task = asyncio.get_running_loop().create_task(self._run(until))
+        self.on_change()
 
     def _do(self, function):
         """Do it; a mistake has no cell to fail in, so it stops the loop and is told."""
@@ -148,33 +168,43 @@ class Loop:
             self.play = False
             self.run()
 
-    async def _run(self):
+    async def _run(self, until):
         # JupyterLab may run messages and cells in two threads, and a task is cancelled safely only
         # from its own: so it asks whether it is still the one that runs
-        mine = asyncio.current_task()
+        mine, late = asyncio.current_task(), 0
         while self._task is mine:
             began = monotonic()
-            made = self._steps(mine)
-            if made or self.trouble:
+            made = self._steps(mine, until)
+            if made or self.trouble or int(self.pair.waited) > late:
                 self.show()
-            elif not self.pair.drivable:
+            late = int(self.pair.waited)
+            if self.pair.count >= until or (not made and self._at_end):
                 self.pause()
-            pace = max(1 / self.speed, 1 / PICTURES) if made else STANDING
-            await asyncio.sleep(max(pace - (monotonic() - began), BREATH))
+            await asyncio.sleep(max(self._pace(made) - (monotonic() - began), BREATH))
             while self._task is mine and not self.screen.free:
                 await self.screen.until_drawn()
 
-    def _steps(self, mine):
-        """Make the steps of one picture; False where there was none to make."""
-        began, made = monotonic(), 0
-        while self._task is mine and made < max(self.speed / PICTURES, 1):
-            before = self.pair.count
-            if not self._do(self.pair.step) or self.pair.count == before:
+    @property
+    def _at_end(self):
+        return self.pair.over and not self.pair.drivable
+
+    def _pace(self, made):
+        """Time from one picture to the next [s]."""
+        if made:
+            return max(1 / self.speed, 1 / PICTURES)
+        return BREATH if self.pair.waited else STANDING
+
+    def _steps(self, mine, until):
+        """Make the steps of one picture; how many there were."""
+        began, first = monotonic(), self.pair.count
+        most = min(first + max(self.speed / PICTURES, 1), until)
+        while self._task is mine and self.pair.count < most:
+            before, spent = self.pair.count, monotonic() - began
+            patience = 0 if self.pair.waited else max(SOON - spent, 0)
+            done = self._do(lambda patience=patience: self.pair.step(patience))
+            if not done or self.pair.count == before or monotonic() - began > BUSY:
                 break
-            made += 1
-            if monotonic() - began > BUSY:
-                break
-        return bool(made)
+        return self.pair.count - first
 
 
 def stop():

@@ -3,6 +3,7 @@
 import numpy as np
 
 from slamlab.layers import Poses
+from slamlab.views.live.feed import feed
 from slamlab.views.live.packing import Scene
 
 
@@ -42,14 +43,16 @@ class Pair:
         self._beside, self._extra, self._note = dict(beside or {}), extra, note
         self._measures = curves or {}
         self._truth, self._colours = truth, colours
-        self.runs, self.source, self._used = 0, None, False
+        self.runs, self.count, self.time, self._used = 0, 0, 0.0, False
+        self.source, self._feed, self._measured = None, None, {}
 
-    def reset(self, seed):
+    def reset(self, seed, patience=None):
         """Make source and estimators anew and take the first reading in.
 
         Parameters
         ----------
         seed : int
+        patience : float, for that reading [s], or None to wait until it comes
 
         Raises
         ------
@@ -57,15 +60,20 @@ class Pair:
         """
         if not callable(self._make_estimator) and self._used:
             raise ValueError("a ready-made estimator cannot start again: hand in what makes one")
-        if self.source is not None and callable(self._make_source):
-            self.source.close()
+        self.close()
         self.runs, self.count, self.time, self.command = self.runs + 1, 0, 0.0, None
+        self._measured = {panel: {name: [] for name in of} for panel, of in self._measures.items()}
+        self.source = self._feed = None  # stays so where the source cannot be had
         self.source = _made(self._make_source, np.random.default_rng(seed))
         self.estimator = _made(self._make_estimator, self.source)
         self.others = {name: make(self.source) for name, make in self._beside.items()}
-        self._readings, self._used = iter(self.source), True
-        self._measured = {panel: {name: [] for name in of} for panel, of in self._measures.items()}
-        self.step()
+        self._feed, self._used = feed(self.source), True
+        self.step(patience)
+
+    def close(self):
+        """Close the source, if it was made here; one handed in ready-made is its owner's."""
+        if self.source is not None and callable(self._make_source):
+            self.source.close()
 
     @property
     def drivable(self):
@@ -77,15 +85,31 @@ class Pair:
         """bool, whether every reading that the source has was taken in."""
         return self.count >= len(self.source)
 
-    def step(self):
-        """Take in the next reading: a recorded one, else drive on by the last command.
+    @property
+    def over(self):
+        """bool, whether no more readings come by themselves."""
+        return self._feed is None or self._feed.ended or 0 < len(self.source) <= self.count
+
+    @property
+    def waited(self):
+        """float, for how long a reading has been waited for [s]; 0 when none is."""
+        return 0.0 if self._feed is None else self._feed.waited
+
+    def step(self, patience=None):
+        """Take in the next reading: the source's own, else drive on by the last command.
+
+        Parameters
+        ----------
+        patience : float, how long to wait for the source [s], or None; what comes later is taken
+            in by the next step
 
         Returns
         -------
         bool, whether there was one
         """
-        reading = next(self._readings, None)
-        if reading is None and self.drivable and self.command is not None:
+        self._check()
+        reading = self._feed.take(patience)
+        if self._feed.ended and self.drivable and self.command is not None:
             reading = self.source.drive(self.command)
         if reading is not None:
             self._take(reading)
@@ -102,6 +126,7 @@ class Pair:
         ------
         ValueError : a recording, or one that is not over yet
         """
+        self._check()
         if not self.drivable:
             raise ValueError(f"{self.source.name} is a recording: it cannot be driven")
         if not self.played:
@@ -109,6 +134,10 @@ class Pair:
         reading = self.source.drive(command)
         if reading is not None:  # a real robot's readings come in their own time
             self._take(reading)
+
+    def _check(self):
+        if self._feed is None:
+            raise ValueError("there is no source to read: reset tries again")
 
     def _take(self, reading):
         self.count, self.time = self.count + 1, reading.time
@@ -125,19 +154,21 @@ class Pair:
         -------
         Scene
         """
+        return Scene(
+            self._layers() if self.count else [],
+            self.status(),
+            run=self.runs,
+            colours=self._colours,
+            curves=self._measured,
+            **({} if self.source is None else {"radius": self.source.robot.radius}),
+        )
+
+    def _layers(self):
         layers = [] if self._extra is None else list(self._extra(self))
         if self._truth and self.source.truth is not None:
             layers.append(Poses("truth", self.source.truth.poses[: self.count]))
         layers += [Poses(name, each.trajectory().poses) for name, each in self.others.items()]
-        layers += self.estimator.layers()
-        return Scene(
-            layers,
-            self.status(),
-            self.source.robot.radius,
-            self.runs,
-            self._colours,
-            self._measured,
-        )
+        return layers + self.estimator.layers()
 
     def status(self):
         """One line: how far it went, what the estimator says, the note.
@@ -146,10 +177,13 @@ class Pair:
         -------
         str
         """
+        late = f"no reading for {self.waited:.0f} s" if self.waited >= 1 else ""
+        if not self.count:
+            return late or "no reading yet"
         whole = len(self.source)
         step = f"step {self.count}" + (f" of {whole}" if whole > self.count else "")
         note = self._note(self) if self._note is not None else ""
-        parts = [step, f"t = {self.time:.1f} s", self.estimator.status, note]
+        parts = [step, f"t = {self.time:.1f} s", self.estimator.status, note, late]
         return " · ".join(part for part in parts if part)
 
 

@@ -7,10 +7,13 @@ from IPython.display import display
 from slamlab.layers import Points
 from slamlab.views.figures import COLOURS, axes, bundle
 from slamlab.views.layers import draw, legend
+from slamlab.views.live.cells import loops_of_this_cell
 from slamlab.views.live.controls import Controls
 from slamlab.views.live.loop import Loop, stop
 from slamlab.views.live.pair import Pair
 from slamlab.views.live.raster import RasterScreen
+
+PATIENCE = 3.0  # [s] that a cell of a notebook waits for a reading
 
 
 def live(
@@ -40,6 +43,9 @@ def live(
     stores is the picture after them, and where a browser shows the live view, it goes on from
     there. Calling this stops whatever runs, so that a cell can be run again.
 
+    A source may wait for a device: all else in the notebook goes on meanwhile. One made here is
+    closed when the cell is run again or the view is gone; one handed in ready-made stays open.
+
     Parameters
     ----------
     source : callable(rng) -> Source, such as ``partial(sources.simulation, "room")``; or a Source;
@@ -47,7 +53,7 @@ def live(
     estimator : callable(source) -> Estimator, such as ``partial(estimators.make, "icp")``; or an
         Estimator, which then cannot be reset
     alt : str, what the still picture shows
-    steps : int, readings taken in for the still picture
+    steps : int, readings taken in for the still picture; fewer where a source gives none for 3 s
     script : sequence of names of commands that follow them, such as ``["forward", "left"]``
     beside : dict or None, name to callable(source) -> Estimator, whose track is drawn, too
     extra : callable(pair) -> layers to draw beneath, or None
@@ -76,24 +82,24 @@ def live(
     ValueError : without a text; a script for what cannot be driven
     """
     stop()
+    loops = loops_of_this_cell()
     given = source if isinstance(source, dict) else {title: source}
     pairs = {
         name: Pair(each, estimator, beside, extra, note, curves, truth, colours)
         for name, each in given.items()
     }
     pair = next(iter(pairs.values()))
-    pair.reset(seed)
-    while pair.count < steps and pair.step():
-        pass
     shown = _screen(raster)(alt=alt, title=title, size=size)
     loop = Loop(pair, shown, seed, speed, tops, play)
+    loops.append(loop)
+    pair.reset(seed, PATIENCE)
+    while 0 < pair.count < steps and pair.step(PATIENCE):
+        pass
     for name in script:
         pair.drive(loop.command(name))
     data, metadata = bundle(still(pair.scene(), title, size), alt)
+    loop.show()
     box = ipywidgets.VBox([Controls(loop, pairs).widget, shown.widget])
-    # an image has no browser's side that could ask for the first picture
-    if isinstance(shown, RasterScreen):
-        loop.show()
     display((box._repr_mimebundle_() or {}) | data, metadata=metadata, raw=True)
     return loop
 
