@@ -39,6 +39,7 @@ class SensorModel:
     range_error : float, standard deviation as a share of the range [1]
     range_sigma : float, standard deviation at range zero [m]
     bearing_sigma : float [rad]
+    range_curvature : float, standard deviation per range squared, of sensors that triangulate [1/m]
     """
 
     range_min: float = 0.0
@@ -47,3 +48,23 @@ class SensorModel:
     range_error: float = 0.01
     range_sigma: float = 0.0
     bearing_sigma: float = 0.005
+    range_curvature: float = 0.0
+
+    def sigma(self, ranges):
+        """Standard deviation of a range.
+
+        σ² = (error r)² + σ₀² + (curvature r²)²
+
+        Parameters
+        ----------
+        ranges : (...,) [m]
+
+        Returns
+        -------
+        (...,) [m]
+        """
+        return np.sqrt(
+            (self.range_error * ranges) ** 2
+            + self.range_sigma**2
+            + (self.range_curvature * ranges**2) ** 2
+        )

@@ -61,10 +61,10 @@ def Q(W, C):
     return W @ C @ W.T
 
 
-def R(r, range_error, bearing_sigma, range_sigma=0.0):
+def R(r, range_error, bearing_sigma, range_sigma=0.0, range_curvature=0.0):
     """Covariance of one range and bearing, growing with the range (Smolec (9), mended).
 
-    R = diag((k r)² + σ_0², σ_β²): variances, not standard deviations
+    R = diag((k r)² + σ_0² + (c r²)², σ_β²): variances, not standard deviations
 
     Parameters
     ----------
@@ -72,9 +72,30 @@ def R(r, range_error, bearing_sigma, range_sigma=0.0):
     range_error : float k, standard deviation as a share of the range [1]
     bearing_sigma : float σ_β [rad]
     range_sigma : float σ_0, standard deviation at range zero [m]
+    range_curvature : float c, standard deviation per range squared [1/m]
 
     Returns
     -------
     (2, 2) [m², rad²]
     """
-    return np.diag([(range_error * r) ** 2 + range_sigma**2, bearing_sigma**2])
+    along = (range_error * r) ** 2 + range_sigma**2 + (range_curvature * r**2) ** 2
+    return np.diag([along, bearing_sigma**2])
+
+
+def R_of(sensor, ranges):
+    """Covariances of a sensor's ranges and bearings, :func:`R` of each range.
+
+    Parameters
+    ----------
+    sensor : SensorModel
+    ranges : (m,) [m]
+
+    Returns
+    -------
+    (m, 2, 2) [m², rad²]
+    """
+    s = sensor
+    R_each = [
+        R(r, s.range_error, s.bearing_sigma, s.range_sigma, s.range_curvature) for r in ranges
+    ]
+    return np.reshape(R_each, (-1, 2, 2))

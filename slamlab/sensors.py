@@ -72,30 +72,11 @@ class Scanner:
             range_min=self.range_min,
             range_max=self.range_max,
             field_of_view=self.field_of_view,
-            # what grows with the square is told as it is at the far end: never too sure
-            range_error=self.range_error + self.range_curvature * self.range_max,
+            range_error=self.range_error,
             range_sigma=self.range_sigma,
             # anywhere in the cone, all places alike
             bearing_sigma=float(np.hypot(self.bearing_sigma, self.cone / np.sqrt(12))),
-        )
-
-    def sigma(self, ranges):
-        """Standard deviation of a range.
-
-        σ² = (error r)² + σ₀² + (curvature r²)²
-
-        Parameters
-        ----------
-        ranges : (...,) [m]
-
-        Returns
-        -------
-        (...,) [m]
-        """
-        return np.sqrt(
-            (self.range_error * ranges) ** 2
-            + self.range_sigma**2
-            + (self.range_curvature * ranges**2) ** 2
+            range_curvature=self.range_curvature,
         )
 
     def scan(self, world, pose, rng):
@@ -118,7 +99,7 @@ class Scanner:
 
         ranges = self._nearest(world, pose[:2], directions)
         ranges[np.isinf(ranges)] = np.nan
-        ranges += self.sigma(ranges) * noise
+        ranges += self.model.sigma(ranges) * noise
         with np.errstate(invalid="ignore"):
             outside = (ranges < self.range_min) | (ranges > self.range_max)
         ranges[outside | dropped] = np.nan
@@ -134,12 +115,27 @@ class Scanner:
         return world.cast(position, fan).reshape(-1, rays).min(axis=1)
 
 
-RPLIDAR_A2 = Scanner(range_error=0.004, bearing_sigma=np.radians(0.1), dropouts=0.03)
+RPLIDAR_A2 = Scanner(
+    range_error=0.001,
+    range_curvature=0.00054,
+    bearing_sigma=np.radians(0.1),
+    dropouts=0.005,
+)
 """An RPLIDAR A2: 400 beams a turn (0.9° apart), 0.2 to 12 m by its data sheet.
 
-The noise is that of real recordings of an A2 standing still: σ 0.34–0.46 % of the range, 2.4–3.9 %
-empty returns. The data sheet allows 0.75 %, Smolec simulates 1 %:
-``dataclasses.replace(RPLIDAR_A2, range_error=0.01)``.
+Noise and dropouts are fitted to three recordings of an A2 standing still, 49 turns (lesson 02):
+
+- Noise: what a reading differs by from the line between its neighbours in the turn before, at 2 to
+  13 m, up to 50° off square on. Told by the median in bins of range and of incidence ι, it is
+  σ² = (0.11 % r)² + (0.54 mm/m² r²)² + (r tan ι 0.11°)², the 95 % intervals being 0.09 to 0.13 %,
+  0.50 to 0.58 mm/m², 0.09 to 0.12°. That is 0.16 % of a range of 2.4 m and 0.63 % of 11.5 m: an A2
+  triangulates. Its data sheet allows 0.75 % throughout, Smolec simulates 1 %.
+- Dropouts: 2.8 % of all readings are empty, most of them at edges and into the open, turn after
+  turn. Lost are 0.96 % where the turn before saw a surface (people are in it), 0.23 % where the
+  turn after saw it, too.
+
+Not in it: gross errors at edges, errors that repeat from turn to turn, more dropouts far off. Nor
+is the number of beams as steady: it fell from 539 to 356 (0.7° to 1.0°) as the motor spun up.
 """
 
 GP2D120 = Scanner(

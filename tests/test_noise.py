@@ -6,6 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from slamlab import jacobians, models, noise
+from slamlab.hardware import SensorModel
 from tests.laws import odometry_controls, poses
 
 shares = st.floats(0, 0.5)
@@ -25,9 +26,20 @@ def test_Q_and_C_are_symmetric_and_positive_semidefinite(x, u, k_d, k_turn, k_s)
     assert np.linalg.eigvalsh(Q).min() >= -1e-12
 
 
-@given(st.floats(0, 20), shares, shares, shares)
-def test_R_is_symmetric_and_positive_semidefinite(r, k, sigma_bearing, sigma_range):
-    assert_covariance(noise.R(r, k, sigma_bearing, sigma_range))
+@given(st.floats(0, 20), shares, shares, shares, shares)
+def test_R_is_symmetric_and_positive_semidefinite(r, k, sigma_bearing, sigma_range, curvature):
+    assert_covariance(noise.R(r, k, sigma_bearing, sigma_range, curvature))
+
+
+@given(st.lists(st.floats(0, 20), max_size=5), shares, shares, shares, shares)
+def test_the_covariances_of_a_sensor_are_R_of_each_range(ranges, k, beta, constant, curvature):
+    sensor = SensorModel(
+        range_error=k, range_sigma=constant, bearing_sigma=beta, range_curvature=curvature
+    )
+    R = noise.R_of(sensor, ranges)
+    assert R.shape == (len(ranges), 2, 2)
+    for r, R_r in zip(ranges, R, strict=True):
+        np.testing.assert_allclose(R_r, np.diag([sensor.sigma(r) ** 2, beta**2]), rtol=1e-12)
 
 
 @given(poses, odometry_controls, shares, shares, shares)

@@ -253,6 +253,24 @@ def test_a_damaged_reading_is_counted_and_its_motion_is_not_lost(tmp_path, damag
     assert np.allclose(*ends, atol=1e-9)
 
 
+def test_an_older_reading_log_that_does_not_know_a_figure_of_the_sensor_is_read(tmp_path):
+    sources.write(sources.open("sim:situation-1"), tmp_path / "log")
+    header, *rest = (tmp_path / "log").read_text().splitlines()
+    older = json.loads(header)
+    del older["sensor"]["range_curvature"]
+    log = opened(tmp_path, "\n".join([json.dumps(older), *rest]))
+    assert log.sensor == sources.open("sim:situation-1").sensor
+
+
+@pytest.mark.parametrize("robot", [[], "fast", None, {"slip": "much"}])
+def test_a_header_whose_robot_is_none_is_refused(tmp_path, robot):
+    sources.write(sources.open("sim:polygon"), tmp_path / "log")
+    header, *rest = (tmp_path / "log").read_text().splitlines()
+    odd = json.loads(header) | {"robot": robot}
+    with pytest.raises(SourceError, match="header of this reading log is damaged"):
+        opened(tmp_path, "\n".join([json.dumps(odd), *rest]))
+
+
 def test_a_reading_log_of_another_version_or_with_a_broken_header_is_refused(tmp_path):
     sources.write(sources.open("sim:polygon"), tmp_path / "log")
     header, *rest = (tmp_path / "log").read_text().splitlines()

@@ -4,6 +4,8 @@ The foot is not seen, it is computed through the estimated pose, and then given 
 range and bearing to it had been measured. ``WallSlam`` is the same system mended.
 """
 
+from dataclasses import replace
+
 import numpy as np
 
 from slamlab import noise
@@ -110,9 +112,8 @@ class FootSlam(Estimator):
     def _measured(self, feet):
         """Feet as if they had been seen: z and R."""
         z = h(self.filter.pose, np.array(feet))
-        s = self.sensor
-        R = [noise.R(r, s.range_error, max(s.bearing_sigma, 0.01), s.range_sigma) for r in z[:, 0]]
-        return z, np.array(R)
+        blunt = replace(self.sensor, bearing_sigma=max(self.sensor.bearing_sigma, 0.01))
+        return z, noise.R_of(blunt, z[:, 0])
 
     def _bury(self, paired):
         """Every landmark that was not seen loses a life; at none it leaves database, x and P."""

@@ -65,7 +65,7 @@ class MakSlam(Estimator):
         new = ~np.isin(ids, self.filter.ids)
         for rows, take in ((~new, self.filter.update), (new & (ids >= 0), self.filter.add)):
             if rows.any():
-                take(ids[rows].tolist(), seen.z[rows], self._R(seen.z[rows, 0]))
+                take(ids[rows].tolist(), seen.z[rows], noise.R_of(self.sensor, seen.z[rows, 0]))
 
     def _smoothed(self, odometry):
         """The pose to show: s ← s ⊕ odometry, then (1 − smoothing) of the way to the estimate."""
@@ -74,11 +74,6 @@ class MakSlam(Estimator):
         shown = self.filter.pose + self.smoothing * back
         shown[2] = wrap(shown[2])
         return shown
-
-    def _R(self, ranges):
-        """(m, 2, 2) covariances of the observations."""
-        s = self.sensor
-        return np.array([noise.R(r, s.range_error, s.bearing_sigma, s.range_sigma) for r in ranges])
 
 
 def predict(filter, reading, robot):

@@ -41,9 +41,7 @@ def seen(reading, sensor, rng, ransac=None):
     """
     if reading.observations is not None:
         z = np.asarray(reading.observations.z, dtype=float).reshape(-1, 2)
-        s = sensor
-        R = [noise.R(r, s.range_error, s.bearing_sigma, s.range_sigma) for r in z[:, 0]]
-        return Seen(z, np.reshape(R, (-1, 2, 2)), np.asarray(reading.observations.ids))
+        return Seen(z, noise.R_of(sensor, z[:, 0]), np.asarray(reading.observations.ids))
     found = [] if reading.scan is None else corners(lines(reading.scan, sensor, rng, ransac))
     z, R = ([getattr(corner, name) for corner in found] for name in "zR")
     return Seen(np.reshape(z, (-1, 2)), np.reshape(R, (-1, 2, 2)), np.full(len(found), -1))

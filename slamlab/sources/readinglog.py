@@ -1,6 +1,7 @@
 """Reading logs: the project's own text format, a JSON header and then one reading a line.
 
-NaN is written as null, a limit of infinity too. Numbers come back exactly as they were.
+NaN is written as null, a limit of infinity too. Numbers come back exactly as they were. What the
+header does not say of robot or sensor is as by default: older logs know fewer things.
 ``reckoned`` is the odometry summed up so far: where a line is lost, its motion is not.
 """
 
@@ -75,11 +76,11 @@ class ReadingLog(LogFile):
         try:
             self.name = str(header["name"])
             self.robot, self.sensor = (
-                kind(**{f.name: _number(header[key][f.name]) for f in fields(kind)})
+                kind(**{f.name: _number(header[key].get(f.name, f.default)) for f in fields(kind)})
                 for key, kind in (("robot", RobotModel), ("sensor", SensorModel))
             )
             return None if header["angles"] is None else _array(header["angles"], (-1,))
-        except (ValueError, TypeError, KeyError):
+        except (ValueError, TypeError, KeyError, AttributeError):
             raise SourceError(f"{path}: the header of this reading log is damaged") from None
 
     def _reading(self, row):
