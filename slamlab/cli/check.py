@@ -25,8 +25,8 @@ def run(arguments) -> int:
     """Check; 0 when there is a verdict, 2 when the notebook cannot be read."""
     from slamlab.checks import OPEN_SEED, catalogue
     from slamlab.grading import judge, submissions
-    from slamlab.grading.client import CannotStart
     from slamlab.grading.submissions import Submission, Unreadable
+    from slamlab.grading.workers import CannotStart, Workers
 
     path = arguments.notebook
     try:
@@ -35,7 +35,8 @@ def run(arguments) -> int:
         submission = Submission(path.name, path.stem, path)
         notebook = submissions.read(submission)
         exercise = submissions.exercise_of(submission, notebook, arguments.exercise)
-        result = judge.judge(exercise, notebook.cells, OPEN_SEED)
+        with Workers(warm=False) as workers:
+            result = judge.judge(exercise, notebook.cells, OPEN_SEED, workers)
     except (Unreadable, CannotStart, KeyError) as error:
         print(f"slamlab check: {path}: {error.args[0]}", file=sys.stderr)
         return 2

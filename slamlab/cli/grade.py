@@ -58,6 +58,7 @@ def run(arguments) -> int:
     # imported late: what a help text needs should come at once
     from slamlab.grading import folder
     from slamlab.grading.submissions import Unreadable
+    from slamlab.grading.workers import Workers
 
     try:
         if arguments.jobs < 1:
@@ -65,10 +66,11 @@ def run(arguments) -> int:
         if arguments.exercise is not None:
             catalogue.exercise(arguments.exercise)
         found, secret = folder.prepare(arguments.folder, arguments.out, arguments.secret)
-        graded = folder.grade_all(
-            found, secret, arguments.out, arguments.exercise, min(arguments.jobs, len(found))
-        )
-        with _asked_to_end_as_by_a_key():
+        jobs = min(arguments.jobs, len(found))
+        with Workers() as workers, _asked_to_end_as_by_a_key():
+            graded = folder.grade_all(
+                found, secret, arguments.out, workers, arguments.exercise, jobs
+            )
             records = _with_progress(graded, len(found))
     except (Unreadable, KeyError) as error:
         print(f"slamlab grade: {error.args[0]}", file=sys.stderr)

@@ -7,7 +7,7 @@ import time
 
 from slamlab.checks.drives import StudentError
 from slamlab.grading import wire
-from slamlab.grading.process import Process
+from slamlab.grading.workers import CannotStart
 
 START_SECONDS = 120.0
 CELL_SECONDS = 10.0
@@ -15,10 +15,6 @@ TOTAL_SECONDS = 300.0
 GLANCE = 0.2
 """How often it is looked whether to stop [s]."""
 KINDS = {"missing", "not attempted", "raised", "malformed"}
-
-
-class CannotStart(Exception):
-    """A worker did not come up, or was not to: no fault of the student's."""
 
 
 class Gone(Exception):
@@ -36,11 +32,11 @@ class Client:
     ----------
     exercise : Exercise
     cells : list of (number, source), the student's code cells in order
-    start : exercise -> Process, how a worker is started
+    start : exercise -> worker, such as ``Workers.start``
     stop : threading.Event or None; once it is set, nothing is waited for any more
     """
 
-    def __init__(self, exercise, cells, start=Process, stop=None):
+    def __init__(self, exercise, cells, start, stop=None):
         self._exercise, self._cells, self._start = exercise, cells, start
         self._stop = stop or threading.Event()
         self._process, self._thread, self._turn = None, None, 0
@@ -74,7 +70,7 @@ class Client:
         StudentError : when nothing came back that could be judged
         CannotStart
         """
-        self._load()
+        self.load()
         try:
             head, arrays = self._ask({"do": "task", "task": task.id}, inputs, task.drive.seconds)
         except Gone as gone:
@@ -85,7 +81,7 @@ class Client:
             raise StudentError(kind if kind in KINDS else "raised", _text(head["problem"]))
         return arrays
 
-    def _load(self):
+    def load(self):
         """Have a worker in which all cells ran that can run."""
         while self._process is None:
             self._begin()

@@ -38,7 +38,7 @@ def prepare(folder: Path, out: Path, secret: Path | None = None):
     return found, judge.secret_from(secret or out / "secret", make=secret is None)
 
 
-def grade_all(found, secret: bytes, out: Path, default=None, jobs=1):
+def grade_all(found, secret: bytes, out: Path, workers, default=None, jobs=1):
     """Grade submissions side by side; records come as they are done, already written.
 
     Parameters
@@ -46,6 +46,7 @@ def grade_all(found, secret: bytes, out: Path, default=None, jobs=1):
     found : list of Submission
     secret : bytes
     out : Path
+    workers : Workers
     default : str or None, the exercise of notebooks that do not tell it
     jobs : int, how many at once
 
@@ -56,7 +57,7 @@ def grade_all(found, secret: bytes, out: Path, default=None, jobs=1):
     done, stop = [], threading.Event()
     pool = ThreadPoolExecutor(jobs)
     try:
-        futures = [pool.submit(judge.grade, s, secret, default, stop) for s in found]
+        futures = [pool.submit(judge.grade, s, secret, workers, default, stop) for s in found]
         for future in as_completed(futures):
             record = future.result()
             done.append(record)

@@ -11,10 +11,11 @@ from pathlib import Path
 
 from slamlab import __version__
 from slamlab.checks.drives import StudentError
-from slamlab.grading import process, submissions
-from slamlab.grading.client import CannotStart, Client
+from slamlab.grading import submissions
+from slamlab.grading.client import Client
 from slamlab.grading.records import Record
 from slamlab.grading.submissions import Submission, Unreadable
+from slamlab.grading.workers import CannotStart, Workers
 
 SHORTEST_SECRET = 16
 
@@ -49,13 +50,16 @@ def seed_for(secret: bytes, exercise_id: str, sha256: str) -> bytes:
     return hmac.digest(secret, f"{exercise_id} {sha256}".encode(), hashlib.sha256)
 
 
-def grade(submission: Submission, secret: bytes, default=None, stop=None) -> Record:
+def grade(
+    submission: Submission, secret: bytes, workers: Workers, default=None, stop=None
+) -> Record:
     """Grade a submission, whatever it is.
 
     Parameters
     ----------
     submission : Submission
     secret : bytes
+    workers : Workers
     default : str or None, the exercise of notebooks that do not tell it
     stop : threading.Event or None; once it is set, nothing is waited for any more
 
@@ -70,7 +74,7 @@ def grade(submission: Submission, secret: bytes, default=None, stop=None) -> Rec
         exercise = submissions.exercise_of(submission, notebook, default)
         names |= {"exercise": exercise.id}
         seed = seed_for(secret, exercise.id, notebook.sha256)
-        judged = judge(exercise, notebook.cells, seed, stop=stop)
+        judged = judge(exercise, notebook.cells, seed, workers, stop)
         return Record(**names, seed=seed.hex(), **judged)
     except (Unreadable, CannotStart) as error:
         return Record(**names, reason=str(error))
@@ -78,7 +82,7 @@ def grade(submission: Submission, secret: bytes, default=None, stop=None) -> Rec
         return Record(**names, reason=f"the grader failed: {type(error).__name__}: {error}")
 
 
-def judge(exercise, cells, seed: bytes, start=process.Process, stop=None) -> dict:
+def judge(exercise, cells, seed: bytes, workers: Workers, stop=None) -> dict:
     """Judge a notebook's cells with the inputs of a seed.
 
     Parameters
@@ -86,7 +90,7 @@ def judge(exercise, cells, seed: bytes, start=process.Process, stop=None) -> dic
     exercise : Exercise
     cells : (number, source) in order
     seed : bytes
-    start : exercise -> Process
+    workers : Workers
     stop : threading.Event or None
 
     Returns
@@ -98,7 +102,7 @@ def judge(exercise, cells, seed: bytes, start=process.Process, stop=None) -> dic
     CannotStart
     """
     begin, judging = time.monotonic(), time.thread_time()
-    with Client(exercise, cells, start, stop) as client:
+    with Client(exercise, cells, workers.start, stop) as client:
 
         def judge_one(task):
             inputs = task.draw(seed)
@@ -113,7 +117,7 @@ def judge(exercise, cells, seed: bytes, start=process.Process, stop=None) -> dic
     return {
         "verdicts": tuple(verdicts.values()),
         "cells": dict(sorted(client.problems.items())),
-        "isolation": process.ISOLATION,
+        "isolation": workers.level,
         "versions": versions(),
         "seconds": {name: round(value, 3) for name, value in seconds.items()},
         "titles": {task.id: task.title for task in exercise.tasks},

@@ -14,23 +14,31 @@ import time
 import types
 
 from slamlab.checks.drives import StudentError, describe
-from slamlab.grading import wire
+from slamlab.grading import jail, wire
 
-MEMORY = 4 << 30
 MAGICS_THAT_RUN = {"time", "timeit", "capture", "prun"}
 
 
 def main(drives):
-    """Answer frames until the judge hangs up.
+    """Be a worker of its own, where none can be forked: macOS and Windows.
 
     Parameters
     ----------
     drives : str, the module that holds the exercise's DRIVES
     """
-    receiving, sending = _take_streams()
-    _limit_resources()
+    jail.close(jail.NONE)
     threading.Thread(target=_end_with, args=(os.getppid(),), daemon=True).start()
-    drives = importlib.import_module(drives).DRIVES
+    serve(importlib.import_module(drives).DRIVES)
+
+
+def serve(drives):
+    """Answer frames until the judge hangs up.
+
+    Parameters
+    ----------
+    drives : task id to Drive
+    """
+    receiving, sending = _take_streams()
     names = fresh_namespace()
     wire.send(sending, {"ready": True})
     while (frame := wire.receive(receiving)) is not None:
@@ -129,15 +137,6 @@ def _take_streams():
     for number in (0, 1, 2):
         os.dup2(nowhere, number)
     return receiving, sending
-
-
-def _limit_resources():
-    try:
-        import resource
-    except ImportError:  # not on Windows
-        return
-    resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
-    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
 
 
 def _end_with(judge):

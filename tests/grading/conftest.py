@@ -1,11 +1,32 @@
 """Notebooks of the fake exercise, and the catalogue that knows it."""
 
+import functools
 import json
 
 import pytest
 
 from slamlab.checks import catalogue
+from slamlab.grading import isolation, jail
+from slamlab.grading.workers import Workers
 from tests.grading import fake
+
+
+@functools.cache
+def workers():
+    """Workers as bounded as this machine can have them, shared by all tests of a process."""
+    return Workers(next(level for level in reversed(jail.LEVELS) if not lacks(level)), warm=False)
+
+
+@functools.cache
+def lacks(level):
+    """What this machine lacks for a level, None for nothing."""
+    return None if level == jail.NONE else isolation.missing(level)
+
+
+@pytest.fixture(autouse=True, scope="session")
+def _no_zygote_stays():
+    yield
+    workers().close()
 
 
 @pytest.fixture(autouse=True)

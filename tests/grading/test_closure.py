@@ -3,7 +3,7 @@
 import pytest
 
 from slamlab.checks import catalogue
-from slamlab.grading import process
+from slamlab.grading import place
 from slamlab.grading.closure import closure
 
 JUDGE = (
@@ -65,7 +65,7 @@ def within(name, packages):
 def test_a_worker_holds_no_answer_and_nothing_of_the_judge(id):
     exercise = catalogue.exercise(id)
     assert exercise.answers
-    held = process.modules(exercise)
+    held = place.modules(exercise)
     assert [name for name in held if within(name, (*exercise.answers, *JUDGE))] == []
     assert {"slamlab.checks", exercise.drives, *exercise.allows} <= set(held)
 

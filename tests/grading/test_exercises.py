@@ -8,6 +8,7 @@ import pytest
 
 from slamlab.checks import catalogue
 from slamlab.grading import judge, submissions
+from tests.grading.conftest import workers
 
 ROOT = Path(__file__).resolve().parents[2]
 EXERCISES = list(catalogue.EXERCISES)
@@ -17,7 +18,7 @@ def judged(folder, exercise, change=lambda cells: cells):
     data = (ROOT / folder / f"{exercise.notebook}.ipynb").read_bytes()
     notebook = submissions.parse(data)
     assert notebook.exercise == exercise.id
-    return judge.judge(exercise, change(notebook.cells), b"a seed of the suite")
+    return judge.judge(exercise, change(notebook.cells), b"a seed of the suite", workers())
 
 
 @pytest.mark.parametrize("id", EXERCISES)

@@ -1,15 +1,14 @@
 """A score is earned by evidence that crossed to the judge; nothing a submission does ends it."""
 
-import os
 import time
 
 import pytest
 
-from slamlab.grading import client, judge, process, submissions
-from slamlab.grading.client import CannotStart
+from slamlab.grading import client, forked, judge, place, submissions
 from slamlab.grading.submissions import Submission
+from slamlab.grading.workers import CannotStart, Workers
 from tests.grading import fake
-from tests.grading.conftest import notebook
+from tests.grading.conftest import notebook, workers
 
 WRONG = """
 def double(a):
@@ -22,8 +21,8 @@ def total(a):
 FULL = [3, 2, 1.5]
 
 
-def judged(*cells, exercise=fake.EXERCISE):
-    return judge.judge(exercise, list(enumerate(cells, 1)), b"seed")
+def judged(*cells, exercise=fake.EXERCISE, by=None):
+    return judge.judge(exercise, list(enumerate(cells, 1)), b"seed", by or workers())
 
 
 def scores(*cells):
@@ -206,7 +205,7 @@ def test_a_worker_knows_neither_the_project_nor_the_grader_by_its_paths_and_envi
     monkeypatch,
 ):
     monkeypatch.setenv("SLAMLAB_TOKEN", "known to the grader only")
-    monkeypatch.setenv("PYTHONPATH", str(process.__file__))
+    monkeypatch.setenv("PYTHONPATH", str(place.__file__))
     spy = """
 import os, sys, slamlab
 here = os.path.dirname(slamlab.__path__[0])
@@ -219,33 +218,37 @@ raise ValueError(f"{found == [here] == sys.path[:1]} {sorted(os.environ)}")
     assert "PYTHONPATH" not in said
 
 
-@pytest.mark.skipif(not hasattr(os, "killpg"), reason="process groups are POSIX")
 def test_nothing_a_submission_started_outlives_it(tmp_path):
     mark = tmp_path / "alive"
     cell = (
         "import os, time\nif os.fork() == 0:\n"
         f"    while True:\n        open({str(mark)!r}, 'w').close(); time.sleep(0.02)\n"
     )
-    assert scores(cell, fake.SOLUTION) == FULL
-    assert mark.exists()
-    mark.unlink()
-    time.sleep(0.2)
-    assert not mark.exists()
+    with Workers() as unbounded:
+        result = judged(cell, fake.SOLUTION, by=unbounded)["verdicts"]
+        assert [verdict.points for verdict in result] == FULL
+        assert mark.exists()
+        mark.unlink()
+        time.sleep(0.2)
+        assert not mark.exists()
 
 
 def test_temporary_files_are_gone_afterwards(monkeypatch, tmp_path):
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
-    judged("open('here', 'w').write('x')", fake.SOLUTION, "import os; os._exit(0)")
+    with Workers(workers().level, warm=False) as own:
+        cells = "open('here', 'w').write('x')", fake.SOLUTION, "import os; os._exit(0)"
+        assert 1 not in judged(*cells, by=own)["cells"]
     assert list(tmp_path.iterdir()) == []
 
 
 def test_a_worker_that_does_not_start_is_the_graders_problem_and_not_a_score(monkeypatch, tmp_path):
-    monkeypatch.setattr(process, "BOOT", "raise ImportError('no numpy here')")
-    with pytest.raises(CannotStart, match="no numpy here"):
-        judged(fake.SOLUTION)
+    monkeypatch.setattr(forked, "BOOT", "raise ImportError('no numpy here')")
     file = tmp_path / "anna.ipynb"
     file.write_text(notebook(fake.SOLUTION))
-    record = judge.grade(Submission(file.name, "anna", file), b"s" * 16)
+    with Workers() as broken:
+        with pytest.raises(CannotStart, match="no numpy here"):
+            judged(fake.SOLUTION, by=broken)
+        record = judge.grade(Submission(file.name, "anna", file), b"s" * 16, broken)
     assert record.score is None
     assert "no numpy here" in record.reason
 
@@ -254,7 +257,7 @@ def test_a_fault_of_the_graders_own_is_no_score_either(monkeypatch, tmp_path):
     monkeypatch.setattr(submissions, "parse", lambda data: 1 / 0)
     file = tmp_path / "anna.ipynb"
     file.write_text(notebook(fake.SOLUTION))
-    record = judge.grade(Submission(file.name, "anna", file), b"s" * 16)
+    record = judge.grade(Submission(file.name, "anna", file), b"s" * 16, workers())
     assert record.reason == "the grader failed: ZeroDivisionError: division by zero"
 
 
@@ -266,5 +269,6 @@ def test_where_the_package_is_installed_beside_other_libraries_the_worker_sees_o
     (site / "slamlab-0.1.0.dist-info").mkdir()
     (site / "other.py").write_text("")
     monkeypatch.setattr("sys.path", [str(site), str(tmp_path / "absent" / "site-packages")])
-    (view,) = process._libraries(tmp_path)
+    (view,), readable = place.libraries(tmp_path)
     assert [entry.name for entry in view.iterdir()] == ["other.py"]
+    assert readable == [view, site / "other.py"]

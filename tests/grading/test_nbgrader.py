@@ -11,6 +11,7 @@ import pytest
 
 from slamlab.checks import catalogue
 from slamlab.grading import judge, submissions
+from tests.grading.conftest import workers
 from tests.grading.test_exercises import ROOT
 
 NAME = "04_models_and_jacobians"
@@ -74,7 +75,9 @@ def test_nbgrader_scores_each_task_as_the_judge_does(course, student):
 
     exercise = catalogue.exercise("04")
     file = course / "submitted" / student / NAME / f"{NAME}.ipynb"
-    result = judge.judge(exercise, submissions.parse(file.read_bytes()).cells, b"nbgrader")
+    result = judge.judge(
+        exercise, submissions.parse(file.read_bytes()).cells, b"nbgrader", workers()
+    )
     ours = {verdict.task: verdict.points for verdict in result["verdicts"]}
     with Gradebook(f"sqlite:///{course / 'gradebook.db'}") as gradebook:
         submission = gradebook.find_submission(NAME, student)

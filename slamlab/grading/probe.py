@@ -1,0 +1,55 @@
+"""What a worker must not be able to do, tried: a cell that is run in one before any student's is.
+
+It goes the way that every submission goes, so it meets the walls that every submission meets.
+"""
+
+ATTEMPTS = """
+import os, signal, socket, subprocess, sys, threading
+
+def _attempt(what, act):
+    try:
+        act()
+    except BaseException:
+        return
+    _done.append(what)
+
+def _fork():
+    if os.fork() == 0:
+        os._exit(0)
+
+def _other_processes():
+    import time
+    own = {str(os.getpid()), "self", "thread-self"}
+    if not [p for p in os.listdir("/proc") if p.isdigit() and p not in own]:
+        raise OSError
+
+def _much():
+    bytearray(6 << 30)
+
+def _long_file():
+    with open("long", "wb") as file:
+        file.truncate(1 << 30)
+
+_done = []
+_attempt("read a file of the judge's", lambda: open(CANARY).read())
+_attempt("write beside it", lambda: open(CANARY + "-written", "w").close())
+_attempt("read the course's answers", lambda: open(ANSWERS).read())
+_attempt("connect to a server", lambda: socket.create_connection(("127.0.0.1", PORT), 2).close())
+_attempt("open a socket of its own", lambda: socket.socket().bind(("127.0.0.1", 0)))
+_attempt("start a process", _fork)
+_attempt("run a program", lambda: subprocess.run(["/bin/true"], timeout=5))
+_attempt("signal the judge", lambda: os.kill(JUDGE, 0))
+_attempt("signal what started it", lambda: os.kill(os.getppid() or 1, 0))
+_attempt("see other processes", _other_processes)
+_attempt("take 6 GiB of memory", _much)
+_attempt("write a file of 1 GiB", _long_file)
+"""
+"""Source of the cell; CANARY, ANSWERS, PORT and JUDGE are put in front of it."""
+
+OPEN_AT_NONE = ("take 6 GiB of memory", "write a file of 1 GiB")
+"""What even a worker without walls may not do: its limits are always set."""
+
+REPORT = """
+if _done:
+    raise RuntimeError("; ".join(_done))
+"""
