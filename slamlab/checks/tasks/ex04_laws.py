@@ -99,7 +99,7 @@ def sampled(inputs):
 def _sampled(x, P, z, R):
     pose_errors = NARROW * WHITE[:, :3] @ np.linalg.cholesky(P).T
     z_errors = NARROW * WHITE[:, 3:] @ np.linalg.cholesky(R).T
-    landmarks = models.g((x + pose_errors).T, z + z_errors)
+    landmarks = models.g(x + pose_errors, z + z_errors)
     return np.cov(np.hstack([pose_errors, landmarks]).T, bias=True) / NARROW**2
 
 

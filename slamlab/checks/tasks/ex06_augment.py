@@ -32,7 +32,7 @@ def sights(rng):
 
 
 def _place(states, z):
-    p = models.g(states[:3], z.T)
+    p = models.g(states[:3].T, z.T)
     return np.vstack([states + 0 * z[:1], p.T])
 
 
