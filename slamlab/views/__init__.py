@@ -3,6 +3,7 @@
 Drawing takes plain arrays (:mod:`slamlab.layers`): it computes no pose and no map.
 """
 
+from slamlab.views import boxes
 from slamlab.views.compare import cloud, curves
 from slamlab.views.correlation import correlation
 from slamlab.views.figures import COLOURS, axes, chart, panels, png, show
@@ -17,6 +18,7 @@ from slamlab.views.widgets import explore
 __all__ = [
     "COLOURS",
     "axes",
+    "boxes",
     "chart",
     "cloud",
     "correlation",

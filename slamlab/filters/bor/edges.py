@@ -14,7 +14,7 @@ SIDES = (1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)
 
 
 def sighting(heading, z, bounds):
-    """The absolute bearing of a sighting, and its half-width: θ + φ and d_abs = dθ + dφ (5.2.5).
+    """The absolute bearing of a sighting, and its half-width: β + θ, and d_abs = d_β + d_θ (5.2.5).
 
     Parameters
     ----------

@@ -21,7 +21,7 @@ from slamlab.filters.bor.intervals import (
 def moved(robot, heading, way, direction, turn):
     """Where a robot may be after a motion.
 
-    x' = x + w cos(φ + δ),  y' = y + w sin(φ + δ),  φ' = φ + τ; every quantity stands once in each,
+    x' = x + w cos(θ + δ),  y' = y + w sin(θ + δ),  θ' = θ + τ; every quantity stands once in each,
     so the bounds are the tightest there are.
 
     Parameters

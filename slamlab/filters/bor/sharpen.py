@@ -56,9 +56,9 @@ def once(robot, heading, box, z, bounds):
 
 
 def oriented(heading, robot, box, z, bounds):
-    """The heading after a sighting: all bearings between two boxes, turned back by θ ± dθ (5.2.8).
+    """The heading after a sighting: all bearings between two boxes, turned back by β ± d_β (5.2.8).
 
-    φ ∈ bearings − [θ − dθ, θ + dθ]. An intersection of two pieces is enclosed by one interval.
+    θ ∈ bearings − [β − d_β, β + d_β]. An intersection of two pieces is enclosed by one interval.
 
     Parameters
     ----------
