@@ -1,0 +1,382 @@
+"""Pose graphs: the derivation, the optimum, robust edges, files."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.optimize import least_squares
+from scipy.stats import chi2
+
+from slamlab.geometry import between, compose, wrap
+from slamlab.posegraph import PoseGraph, edges, g2o, jacobians, scaling, symbolic
+from slamlab.symbolic import numeric
+from tests.laws import assert_same_pose, finite_differences, poses, same_angle
+
+SIGMA = np.array([0.05, 0.03, 0.02])  # of a measured motion, in its own frame
+INFORMATION = np.diag(SIGMA**-2)
+SIDE = 6
+
+
+def tour(rng, rounds=2, noise=1.0, drift=1.0, robust=False):
+    """A graph of a robot that goes round a square, and the true poses.
+
+    Each pose is tied to the one before, and by a loop's closure to the one a round ago; the guesses
+    are reckoned from motions with their noise.
+    """
+    turn = np.array([*[0.0] * (SIDE - 1), np.pi / 2])
+    motions = np.column_stack([np.ones(4 * SIDE), np.zeros(4 * SIDE), np.tile(turn, 4)])
+    true = [np.zeros(3)]
+    for motion in np.tile(motions, (rounds, 1)):
+        true.append(compose(true[-1], motion))
+    true = np.array(true)
+    graph, guess = PoseGraph(), true[0]
+    graph.add_pose(guess)
+    for k in range(1, len(true)):
+        motion = between(true[k - 1], true[k])
+        guess = compose(guess, motion + drift * SIGMA * rng.standard_normal(3))
+        graph.add_pose(guess)
+        measured = motion + noise * SIGMA * rng.standard_normal(3)
+        graph.add_edge(k - 1, k, measured, INFORMATION)
+        if k >= 4 * SIDE:
+            seen = between(true[k], true[k - 4 * SIDE]) + noise * SIGMA * rng.standard_normal(3)
+            graph.add_edge(k, k - 4 * SIDE, seen, INFORMATION, robust=robust)
+    return graph, true
+
+
+def copied(graph):
+    """A graph with the same poses and edges."""
+    copy = PoseGraph()
+    for pose in graph.poses:
+        copy.add_pose(pose)
+    copy.edges, copy.fixed = list(graph.edges), set(graph.fixed)
+    return copy
+
+
+def whitened(graph, free):
+    """What least_squares takes: residuals of all edges over the poses but the first."""
+    at = np.concatenate([graph.poses[:1], free.reshape(-1, 3)])
+    i, j, measured, information, _ = map(np.array, zip(*graph.edges, strict=True))
+    e = edges.error(at[i], at[j], measured)
+    return np.einsum("mba,mb->ma", np.linalg.cholesky(information), e).ravel()
+
+
+def spread(graph, a, b):
+    """The largest difference between two sets of poses, in standard deviations of the graph."""
+    difference = a - b
+    difference[:, 2] = wrap(difference[:, 2])
+    deviations = np.sqrt(np.diagonal(graph.covariances(), axis1=1, axis2=2))
+    return np.abs(difference[1:] / deviations[1:]).max()
+
+
+@given(poses, poses, poses)
+def test_error_and_jacobians_equal_their_derivation(x_i, x_j, z):
+    arguments = symbolic.x_i, symbolic.x_j, symbolic.z
+    derived = numeric(symbolic.error, *arguments)(x_i, x_j, z)
+    coded = edges.error(x_i, x_j, z)
+    np.testing.assert_allclose(derived[:2], coded[:2], atol=1e-9)
+    assert same_angle(derived[2], coded[2])
+    for name in ("J_i", "J_j"):
+        derived = numeric(getattr(symbolic, name), *arguments)(x_i, x_j, z)
+        np.testing.assert_allclose(derived, getattr(jacobians, name)(x_i, x_j, z), atol=1e-9)
+
+
+@given(poses, poses, poses)
+def test_jacobians_equal_finite_differences(x_i, x_j, z):
+    angular = np.array([False, False, True])
+    slope = finite_differences(lambda x: edges.error(x, x_j, z), x_i, angular)
+    np.testing.assert_allclose(jacobians.J_i(x_i, x_j, z), slope, atol=1e-6)
+    slope = finite_differences(lambda x: edges.error(x_i, x, z), x_j, angular)
+    np.testing.assert_allclose(jacobians.J_j(x_i, x_j, z), slope, atol=1e-6)
+
+
+def test_many_edges_at_once_are_the_same_as_one_by_one():
+    rng = np.random.default_rng(1)
+    many = rng.normal(size=(3, 7, 3))
+    for function in (edges.error, jacobians.J_i, jacobians.J_j):
+        rows = [function(*one) for one in many.transpose(1, 0, 2)]
+        np.testing.assert_allclose(function(*many), rows)
+
+
+@given(st.floats(0, 1e6), st.floats(0.1, 100))
+def test_the_weight_of_scaling_is_the_slope_of_its_cost(value, phi):
+    step = 1e-4 * max(1.0, value)
+    slope = (scaling.cost(value + step, phi) - scaling.cost(value, phi)) / step
+    low, high = scaling.weight(value + step, phi), scaling.weight(value, phi)
+    assert low - 1e-6 <= slope <= high + 1e-6
+    assert scaling.cost(value, phi) <= 3 * phi
+
+
+def test_the_usual_phi_keeps_99_percent_of_true_edges_whole():
+    assert chi2(3).cdf(scaling.PHI) == pytest.approx(0.99, abs=1e-5)
+
+
+@given(st.integers(0, 10**6))
+def test_exact_measurements_bring_back_the_truth_and_cost_nothing(seed):
+    graph, true = tour(np.random.default_rng(seed), noise=0)
+    optimum = graph.optimise()
+    assert optimum.converged and optimum.chi2 < 1e-9
+    assert_same_pose(graph.poses, true, 1e-6)
+
+
+@given(st.integers(0, 10**6))
+def test_at_the_optimum_the_gradient_is_zero(seed):
+    graph, _ = tour(np.random.default_rng(seed))
+    assert graph.optimise().converged
+
+    def cost(free):
+        return np.sum(whitened(graph, free) ** 2)
+
+    free = graph.poses[1:].ravel()
+    # a hundredth of a standard deviation to either side costs the same, and more
+    for direction in np.random.default_rng(seed).normal(size=(20, free.size)):
+        unit = direction / np.sqrt((cost(free + 1e-4 * direction) - cost(free)) / 1e-8)
+        up, down = cost(free + 0.01 * unit), cost(free - 0.01 * unit)
+        assert up - down == pytest.approx(0, abs=1e-4)
+        assert min(up, down) > cost(free)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_the_optimum_is_that_of_scipys_dense_least_squares(seed):
+    graph, _ = tour(np.random.default_rng(seed))
+    reference = least_squares(
+        lambda free: whitened(graph, free), graph.poses[1:].ravel(), method="lm", xtol=1e-12
+    )
+    optimum = graph.optimise()
+    assert optimum.chi2 == pytest.approx(2 * reference.cost, rel=1e-9)
+    found = np.concatenate([graph.poses[:1], reference.x.reshape(-1, 3)])
+    assert spread(graph, graph.poses, found) < 1e-3
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_the_optimum_is_that_of_gtsam(seed):
+    gtsam = pytest.importorskip("gtsam", reason="GTSAM, the reference, is not installed")
+    graph, _ = tour(np.random.default_rng(seed))
+    factors, guesses = gtsam.NonlinearFactorGraph(), gtsam.Values()
+    factors.add(gtsam.NonlinearEqualityPose2(0, gtsam.Pose2(*graph.poses[0])))
+    for k, pose in enumerate(graph.poses):
+        guesses.insert(k, gtsam.Pose2(*pose))
+    for edge in graph.edges:
+        noise = gtsam.noiseModel.Gaussian.Information(edge.information)
+        factors.add(gtsam.BetweenFactorPose2(edge.i, edge.j, gtsam.Pose2(*edge.measured), noise))
+    parameters = gtsam.LevenbergMarquardtParams()
+    parameters.setRelativeErrorTol(1e-12)
+    best = gtsam.LevenbergMarquardtOptimizer(factors, guesses, parameters).optimize()
+    reached = [best.atPose2(k) for k in range(len(graph))]
+    graph.optimise()
+    found = np.array([[pose.x(), pose.y(), pose.theta()] for pose in reached])
+    # GTSAM may measure an error along the group's geodesic: the same to first order
+    assert spread(graph, graph.poses, found) < 0.05
+
+
+@given(st.integers(0, 10**6), poses)
+def test_a_common_motion_of_all_guesses_moves_the_optimum_and_nothing_else(seed, moved):
+    graph, _ = tour(np.random.default_rng(seed), robust=True)
+    other = copied(graph)
+    other.poses = compose(moved, other.poses)
+    first, second = graph.optimise(), other.optimise()
+    assert second.chi2 == pytest.approx(first.chi2, rel=1e-6)
+    graph.poses = compose(moved, graph.poses)
+    graph.fixed = other.fixed
+    assert spread(graph, graph.poses, other.poses) < 0.01
+
+
+def test_the_order_and_direction_of_edges_and_poses_do_not_matter():
+    rng = np.random.default_rng(3)
+    graph, _ = tour(rng)
+    order = np.concatenate([[0], 1 + rng.permutation(len(graph) - 1)])
+    shuffled, place = PoseGraph(), np.argsort(order)
+    for k in order:
+        shuffled.add_pose(graph.poses[k])
+    for k in rng.permutation(len(graph.edges)):
+        edge = graph.edges[k]
+        shuffled.add_edge(place[edge.i], place[edge.j], edge.measured, edge.information)
+    assert shuffled.optimise().chi2 == pytest.approx(graph.optimise().chi2, rel=1e-9)
+    assert spread(graph, graph.poses, shuffled.poses[place]) < 1e-3
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_true_robust_edges_are_kept_however_far_the_guesses_drifted(seed):
+    graph, _ = tour(np.random.default_rng(seed), noise=0.5, drift=3.0, robust=True)
+    trusting, _ = tour(np.random.default_rng(seed), noise=0.5, drift=3.0)
+    optimum = graph.optimise()
+    trusting.optimise()
+    assert optimum.converged and optimum.weights.min() == 1
+    assert spread(graph, graph.poses, trusting.poses) < 0.01
+
+
+@pytest.mark.parametrize("seed", range(20))
+@pytest.mark.parametrize("false", [1, 8])
+def test_false_edges_lose_their_say(seed, false):
+    rng = np.random.default_rng(seed)
+    graph, true = tour(rng, robust=True)
+    without = copied(graph)
+    for _ in range(false):
+        i = int(rng.integers(0, 4 * SIDE))
+        j = int(rng.integers(i + 4, len(graph)))
+        wrong = compose(between(true[i], true[j]), [*rng.choice([-2, 2], 2), 0.5])
+        graph.add_edge(i, j, wrong, INFORMATION, robust=True)
+    weights = graph.optimise().weights
+    without.optimise()
+    assert weights[-false:].max() < 1e-3
+    assert spread(without, graph.poses, without.poses) < 0.2
+
+
+def test_a_trusted_false_edge_bends_the_graph():
+    graph, true = tour(np.random.default_rng(0))
+    without = copied(graph)
+    without.optimise()
+    graph.add_edge(3, 20, compose(between(true[3], true[20]), [2, 2, 0.5]), INFORMATION)
+    graph.optimise()
+    assert spread(without, graph.poses, without.poses) > 5
+
+
+def test_the_covariances_are_those_of_many_runs():
+    exact, true = tour(np.random.default_rng(0), noise=0, drift=0)
+    inverse = np.linalg.inv(exact.covariances()[1:])
+    seen, runs = [], 150
+    for seed in range(runs):
+        graph, _ = tour(np.random.default_rng([7, seed]))
+        graph.optimise()
+        error = (graph.poses - true)[1:]
+        error[:, 2] = wrap(error[:, 2])
+        seen.append(np.einsum("na,nab,nb->n", error, inverse, error))
+    # each pose's NEES has the mean of a χ² of 3 degrees, within what 150 runs can tell
+    assert np.abs(np.mean(seen, axis=0) - 3).max() < 6 * np.sqrt(6 / runs)
+
+
+def test_the_covariances_are_blocks_of_the_dense_inverse():
+    graph, _ = tour(np.random.default_rng(5))
+    graph.optimise()
+    free = graph.poses[1:].ravel()
+    step = 1e-6 * np.eye(free.size)
+    slope = [(whitened(graph, free + d) - whitened(graph, free - d)) / 2e-6 for d in step]
+    P = np.linalg.inv(np.array(slope) @ np.array(slope).T)
+    for k, block in enumerate(graph.covariances()[1:]):
+        np.testing.assert_allclose(
+            block, P[3 * k : 3 * k + 3, 3 * k : 3 * k + 3], rtol=1e-4, atol=1e-9
+        )
+    assert not graph.covariances()[0].any()
+
+
+def test_what_drift_explains_is_no_surprise_and_what_it_does_not_is():
+    surprises, wrong = [], []
+    for seed in range(100):
+        rng = np.random.default_rng([8, seed])
+        graph, true = tour(rng, rounds=1)
+        del graph.edges[4 * SIDE :]  # the loop is not closed yet
+        graph.optimise()
+        seen = between(true[0], true[-1]) + SIGMA * rng.standard_normal(3)
+        both = np.array([seen, compose(seen, [2.0, 2.0, 0.5])])
+        a, b = graph.surprise([0, 0], [4 * SIDE] * 2, both, INFORMATION)
+        assert a == pytest.approx(graph.surprise(0, 4 * SIDE, seen, INFORMATION))
+        surprises.append(a)
+        wrong.append(b)
+    assert np.mean(surprises) == pytest.approx(3, abs=6 * np.sqrt(6 / 100))
+    assert np.median(wrong) > 2 * chi2(3).ppf(0.99)
+
+
+def test_two_fixed_poses_stay_and_the_rest_lies_between():
+    graph = PoseGraph()
+    for x in (0.0, 1.5, 4.0):
+        graph.add_pose([x, 0, 0])
+    graph.fixed = {0, 2}
+    graph.add_edge(0, 1, [1, 0, 0], np.eye(3))
+    graph.add_edge(1, 2, [1, 0, 0], np.eye(3))
+    optimum = graph.optimise()
+    np.testing.assert_allclose(graph.poses, [[0, 0, 0], [2, 0, 0], [4, 0, 0]], atol=1e-9)
+    assert optimum.chi2 == pytest.approx(2)
+
+
+def test_a_lone_pose_is_its_own_optimum():
+    graph = PoseGraph()
+    graph.add_pose([1, 2, 3])
+    optimum = graph.optimise()
+    assert optimum.converged and optimum.chi2 == 0
+
+
+def test_too_few_rounds_are_owned_up_to():
+    graph, _ = tour(np.random.default_rng(0))
+    optimum = graph.optimise(max_rounds=1)
+    assert not optimum.converged and optimum.rounds == 1
+
+
+@pytest.mark.parametrize(
+    ("spoil", "says"),
+    [
+        (lambda g: g.add_pose([0, np.nan, 0]), "a pose is x, y and theta, finite"),
+        (lambda g: g.add_pose([0, 0]), "a pose is x, y and theta"),
+        (lambda g: g.add_edge(0, 99, np.zeros(3), np.eye(3)), "add the poses first"),
+        (lambda g: g.add_edge(1, 1, np.zeros(3), np.eye(3)), "two poses"),
+        (lambda g: g.add_edge(0, 1, [0, 0, np.inf], np.eye(3)), "edge 0 to 1: a motion"),
+        (lambda g: g.add_edge(0, 1, np.zeros(3), np.diag([1, 1, 0])), "singular"),
+        (lambda g: g.add_edge(0, 1, np.zeros(3), -np.eye(3)), "negative"),
+        (lambda g: g.add_edge(0, 1, np.zeros(3), np.triu(np.ones((3, 3)))), "symmetric"),
+        (lambda g: g.add_edge(0, 1, np.zeros(3), np.eye(2)), "3 rows of 3"),
+        (lambda g: (g.add_pose(np.zeros(3)), g.optimise()), "pose 49 first, hang on no chain"),
+        (lambda g: (g.poses.__setitem__((5, 0), np.nan), g.optimise()), "pose 5 is not finite"),
+        (lambda g: (g.fixed.clear(), g.optimise()), "49 of 49 poses"),
+        (lambda g: setattr(g, "poses", np.zeros((2, 3))), "49 poses are needed"),
+    ],
+)
+def test_wrong_use_is_refused_in_words(spoil, says):
+    graph, _ = tour(np.random.default_rng(0))
+    with pytest.raises(ValueError, match=says):
+        spoil(graph)
+
+
+def test_a_g2o_file_brings_back_the_same_graph(tmp_path):
+    graph, _ = tour(np.random.default_rng(4))
+    graph.fixed = {0, 7}
+    g2o.save(graph, tmp_path / "graph.g2o")
+    again = g2o.load(tmp_path / "graph.g2o")
+    assert again.fixed == graph.fixed
+    np.testing.assert_array_equal(again.poses, graph.poses)
+    for a, b in zip(again.edges, graph.edges, strict=True):
+        assert (a.i, a.j) == (b.i, b.j)
+        np.testing.assert_array_equal(a.measured, b.measured)
+        np.testing.assert_array_equal(a.information, b.information)
+
+
+G2O = """# a comment
+EDGE_SE2 10 20 1 0 0.5 4 1 0 5 0 6
+VERTEX_SE2 20 1 2 3
+VERTEX_SE2 10 0 0 0  # the first by its id
+VERTEX_SE2 30 0 0 0
+EDGE_SE2 10 30 1 0 0.5 4 0 0 5 0 6
+"""
+
+
+def test_a_g2o_file_is_read_as_the_format_says(tmp_path):
+    (tmp_path / "graph").write_text(G2O)
+    graph = g2o.load(tmp_path / "graph", robust_loops=True)
+    np.testing.assert_array_equal(graph.poses, [[0, 0, 0], [1, 2, 3], [0, 0, 0]])
+    assert graph.fixed == {0}
+    assert [edge.robust for edge in graph.edges] == [False, True]
+    np.testing.assert_array_equal(graph.edges[0].information, [[4, 1, 0], [1, 5, 0], [0, 0, 6]])
+
+
+@pytest.mark.parametrize(
+    ("line", "says"),
+    [
+        ("VERTEX_SE3:QUAT 1 0 0 0 0 0 0 1", "line 7: VERTEX_SE3:QUAT is none of"),
+        ("VERTEX_SE2 40 1 2", "line 7: VERTEX_SE2 has 4 numbers, not 3"),
+        ("VERTEX_SE2 20 1 2 3", "line 7: vertex 20 was there before"),
+        ("EDGE_SE2 10 50 1 0 0 1 0 0 1 0 1", "line 7: there is no vertex 50"),
+        ("EDGE_SE2 10 20 1 0 0 1 0 0 1 0 0", "line 7: edge 0 to 1: the information is singular"),
+        ("EDGE_SE2 10 20 1 0 nan 1 0 0 1 0 1", "line 7: its numbers are not all finite"),
+        ("FIX first", "line 7: a word where a number belongs"),
+        ("FIX 50", "line 7: there is no vertex 50"),
+    ],
+)
+def test_a_damaged_g2o_file_is_refused_with_its_line(tmp_path, line, says):
+    (tmp_path / "graph").write_text(G2O + line + "\n")
+    with pytest.raises(ValueError, match=says):
+        g2o.load(tmp_path / "graph")
+
+
+def test_a_file_without_vertices_and_one_that_cannot_be_written_are_refused(tmp_path):
+    (tmp_path / "graph").write_text("\n")
+    with pytest.raises(ValueError, match="holds no VERTEX_SE2"):
+        g2o.load(tmp_path / "graph")
+    with pytest.raises(ValueError, match="cannot be written"):
+        g2o.save(PoseGraph(), tmp_path)
