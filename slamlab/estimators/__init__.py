@@ -5,12 +5,14 @@ from slamlab.estimators.bor import BorSlam, bor
 from slamlab.estimators.feet import FootSlam
 from slamlab.estimators.icp import IcpSlam
 from slamlab.estimators.mak import MakSlam, mak
+from slamlab.estimators.montecarlo import CloudSlam, fastslam, montecarlo
 from slamlab.estimators.odometry import Odometry
 from slamlab.estimators.walls import WallSlam, of_scans
 
 __all__ = [
     "NAMES",
     "BorSlam",
+    "CloudSlam",
     "Estimator",
     "FootSlam",
     "IcpSlam",
@@ -27,6 +29,8 @@ MAKERS = {
     "mak": mak,
     "mak-first-estimates": lambda source: mak(source, first_estimates=True),
     "bor": bor,
+    "montecarlo": montecarlo,
+    "fastslam": fastslam,
     "walls": lambda source: of_scans(WallSlam, source),
     "walls-foot": lambda source: of_scans(FootSlam, source),
 }

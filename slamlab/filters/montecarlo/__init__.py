@@ -1,0 +1,1 @@
+"""Beliefs as clouds of weighted samples: localisation, the thesis' sets, FastSLAM (5.3)."""

@@ -1,0 +1,50 @@
+"""Weights of samples, kept as logarithms until they are normalised."""
+
+import numpy as np
+
+
+def normalise(logs):
+    """Weights that sum to one: w_i = exp(l_i − log Σ exp l_j), the largest taken out first.
+
+    Taking the largest out is what keeps likelihoods of e⁻¹⁰⁰⁰⁰⁰ apart from zero.
+
+    Parameters
+    ----------
+    logs : (n,) logarithms of weights up to one constant; −inf is a weight of zero
+
+    Returns
+    -------
+    (n,) weights; equal ones where every weight is zero
+    float, log Σ exp l_i: with weights of the prior and likelihoods in it, how likely the
+        measurement was; −inf says that every weight is zero
+
+    Raises
+    ------
+    ValueError : no samples, NaN or +inf
+    """
+    logs = np.asarray(logs, dtype=float)
+    if logs.ndim != 1 or not len(logs):
+        raise ValueError(f"log weights have shape {logs.shape}, expected (n,) with n above zero")
+    top = logs.max()
+    if not top < np.inf:
+        raise ValueError("a log weight is NaN or +inf: a likelihood is a finite number")
+    if top == -np.inf:
+        return np.full(len(logs), 1 / len(logs)), -np.inf
+    weights = np.exp(logs - top)
+    total = weights.sum()
+    return weights / total, float(top + np.log(total))
+
+
+def effective_size(weights):
+    """How many equal samples a weighted cloud is worth: 1 / Σ w_i², from 1 to n.
+
+    Parameters
+    ----------
+    weights : (n,) that sum to one
+
+    Returns
+    -------
+    float
+    """
+    weights = np.asarray(weights, dtype=float)
+    return float(1 / (weights @ weights))

@@ -1,0 +1,212 @@
+"""Clouds: what they say agrees with the Kalman filter where that is exact, and with plain loops."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
+
+from slamlab import models
+from slamlab.estimators.mak import Q_arc
+from slamlab.filters import linear
+from slamlab.filters.montecarlo import likelihood
+from slamlab.filters.montecarlo.cloud import Cloud, uniform
+from slamlab.filters.montecarlo.localisation import MCL
+from slamlab.filters.montecarlo.motion import moved
+from slamlab.geometry import wrap
+from slamlab.hardware import RobotModel
+from slamlab.simulator import arc
+from tests.filters.textbook import random_covariance
+from tests.laws import points, poses, sightings
+
+R = np.array([[0.01, 0.0005], [0.0005, 0.001]])
+ROBOT = RobotModel(distance_error=0.05, turn_error=0.04, turn_per_metre=0.06, slip=0.02, base=0.3)
+STILL = RobotModel(distance_error=0, turn_error=0, turn_per_metre=0)
+MAP = np.array([[4.0, 1.0], [-2.0, 3.5], [1.0, -5.0], [-3.0, -2.0]])
+
+
+def log_density(v, S):
+    """The textbook's, by matrices."""
+    return -0.5 * (v @ np.linalg.inv(S) @ v + math.log(np.linalg.det(2 * math.pi * S)))
+
+
+@given(st.lists(poses, min_size=1, max_size=4), st.lists(points, min_size=1, max_size=4), sightings)
+def test_a_scan_is_as_likely_as_a_plain_loop_finds_it(x, p, z):
+    x, p = np.array(x), np.array(p)
+    assume(np.min(np.hypot(*(p - x[:, None, :2]).T)) > 0.01)
+    z = np.tile(z, (len(p), 1))
+    noises = np.array([R * (1 + k) for k in range(len(p))])
+    v = z - models.h(x[:, None], p)
+    v[..., 1] = wrap(v[..., 1])
+    # on the seam either way round is as right as the other
+    assume(np.pi - np.abs(v[..., 1]).max() > 1e-6)
+    plain = [sum(log_density(*pair) for pair in zip(row, noises, strict=True)) for row in v]
+    np.testing.assert_allclose(likelihood.of_scan(x, p, z, noises), plain, rtol=1e-9, atol=1e-6)
+    pairs = sum(likelihood.of_pairs(x, p[j], z[j], noises[j]) for j in range(len(p)))
+    np.testing.assert_allclose(pairs, plain, rtol=1e-9, atol=1e-6)
+
+
+def test_more_samples_than_a_block_are_weighed_as_few_are():
+    rng = np.random.default_rng(0)
+    x = rng.uniform(-3, 3, (2 * likelihood.BLOCK + 7, 3))
+    z, noises = models.h(np.zeros(3), MAP), np.tile(R, (4, 1, 1))
+    together = likelihood.of_scan(x, MAP, z, noises)
+    alone = [likelihood.of_scan(x[k : k + 1], MAP, z, noises)[0] for k in (0, 2047, 2048, 4102)]
+    np.testing.assert_allclose(together[[0, 2047, 2048, 4102]], alone, rtol=1e-12)
+
+
+def test_without_names_one_landmark_is_a_named_one_and_more_are_a_mixture():
+    rng = np.random.default_rng(1)
+    x, z = rng.normal(size=(5, 3)) * 0.1, models.h(np.zeros(3), MAP[:1])
+    named = likelihood.of_scan(x, MAP[:1], z, R[None])
+    nameless = likelihood.of_nameless(x, MAP[:1], z, R[None], stray=0)
+    np.testing.assert_allclose(nameless, named, rtol=1e-9)
+    each = [likelihood.of_scan(x, MAP[j : j + 1], z, R[None]) for j in range(4)]
+    mixed = likelihood.of_nameless(x, MAP, z, R[None], stray=0)
+    np.testing.assert_allclose(mixed, np.log(np.mean(np.exp(each), axis=0)), rtol=1e-9)
+
+
+def test_the_posterior_of_a_linear_gaussian_case_is_the_kalman_filters():
+    """Four steps in the plane; bounds are six standard errors of a cloud of its effective size."""
+    rng, n = np.random.default_rng(2), 20_000
+    F, Q, H, R = np.eye(2), random_covariance(rng, 2, 0.1), np.eye(2), random_covariance(rng, 2)
+    exact = linear.belief([0, 0], random_covariance(rng, 2))
+    cloud = Cloud.of(rng.multivariate_normal(exact.x, exact.P, n))
+    for _ in range(4):
+        u, z = rng.normal(size=2), rng.normal(size=2)
+        exact = linear.predict(exact, F, Q, F, u)
+        cloud = Cloud(cloud.rows + u + rng.multivariate_normal([0, 0], Q, n), cloud.weights)
+        innovation, S = z - exact.x, exact.P + R
+        exact, _ = linear.update(exact, z, H, R)
+        cloud, evidence = cloud.weighed(likelihood.log_gauss(z - cloud.rows, R))
+        assert abs(evidence - log_density(innovation, S)) < 0.05
+        sigmas, few = np.sqrt(np.diag(exact.P)), np.sqrt(cloud.effective)
+        assert (np.abs(cloud.moments.x - exact.x) < 6 * sigmas / few).all()
+        off = np.abs(cloud.moments.P - exact.P) / np.outer(sigmas, sigmas)
+        assert (off < 6 * np.sqrt(2) / few).all()
+        cloud = cloud.resampled(rng)
+
+
+def test_moved_samples_spread_as_the_motions_covariance_says():
+    rng, pose = np.random.default_rng(3), np.array([1.0, -2.0, 0.7])
+    odometry = arc(0.15, 0.35, 0.4)
+    cloud = Cloud.of(moved(np.tile(pose, (40_000, 1)), odometry, ROBOT, rng))
+    Q = Q_arc(pose, odometry, ROBOT)
+    scale = np.sqrt(np.outer(np.diag(Q), np.diag(Q)))
+    np.testing.assert_allclose(cloud.moments.P / scale, Q / scale, atol=0.05)
+
+
+@given(poses)
+def test_who_stands_still_stays_and_a_perfect_robot_goes_where_odometry_says(pose):
+    x, rng = np.tile(pose, (3, 1)), np.random.default_rng(0)
+    np.testing.assert_allclose(moved(x, np.zeros(3), ROBOT, rng), np.tile(pose, (3, 1)), atol=1e-12)
+    ends = moved(x, [0.3, -0.1, 0.2], STILL, rng)
+    assert np.ptp(ends, axis=0).max() == 0
+
+
+def test_the_mean_of_headings_round_the_seam_is_on_the_seam():
+    rows = np.zeros((2, 3))
+    rows[:, 2] = np.pi - 0.1, -np.pi + 0.1
+    b = Cloud.of(rows).moments
+    assert np.isclose(abs(b.x[2]), np.pi)
+    assert np.isclose(b.P[2, 2], 0.01)
+
+
+@given(st.integers(0, 2**32), st.floats(0, 1))
+def test_roughening_keeps_mean_and_covariance(seed, share):
+    rng, n = np.random.default_rng(seed), 4000
+    cloud = Cloud.of(rng.multivariate_normal([3, -1], random_covariance(rng, 2), n))
+    after, before = cloud.roughened(share, rng).moments, cloud.moments
+    sigmas = np.sqrt(np.diag(before.P))
+    assert (np.abs(after.x - before.x) < 8 * sigmas / np.sqrt(n)).all()
+    off = np.abs(after.P - before.P) / np.outer(sigmas, sigmas)
+    assert (off < 8 * np.sqrt(3 / n)).all()
+
+
+def watch(mcl, truth, steps, rng, named=True):
+    """Drive a square and look round; the distance of the mean from the truth [m]."""
+    for _ in range(steps):
+        odometry = arc(0.2, 0.3, 0.4)
+        truth = moved(truth[None], odometry, ROBOT, rng)[0]
+        z = models.h(truth, MAP) + rng.multivariate_normal([0, 0], R, len(MAP))
+        mcl.predict(odometry, ROBOT)
+        mcl.update(z, R, range(len(MAP)) if named else None)
+    return np.hypot(*(mcl.cloud.moments.x - truth)[:2])
+
+
+@pytest.mark.parametrize("named", [True, False])
+def test_a_robot_that_knows_nothing_finds_itself_in_its_map(named):
+    for seed in range(3):
+        rng = np.random.default_rng(seed)
+        mcl = MCL(uniform(5000, [-4, -5], [4, 4], rng), MAP, rng)
+        assert watch(mcl, np.array([0.5, -1.0, 2.0]), 12, rng, named) < 0.3
+
+
+def test_the_same_seed_gives_the_same_cloud_and_another_one_another():
+    def rows(seed):
+        rng = np.random.default_rng(seed)
+        mcl = MCL(uniform(300, [-4, -5], [4, 4], rng), MAP, rng)
+        watch(mcl, np.zeros(3), 5, rng)
+        return mcl.cloud.rows
+
+    np.testing.assert_array_equal(rows(5), rows(5))
+    assert not np.array_equal(rows(5), rows(6))
+
+
+def test_a_cloud_of_one_sample_follows_odometry_and_keeps_its_weight():
+    mcl = MCL(Cloud.of(np.zeros((1, 3))), MAP, np.random.default_rng(0))
+    mcl.predict([0.2, 0, 0.1], STILL)
+    mcl.update(models.h(np.array([1.0, 1.0, 0.0]), MAP), R, range(4))
+    np.testing.assert_allclose(mcl.cloud.rows, [[0.2, 0, 0.1]])
+    assert mcl.cloud.weights.tolist() == [1]
+    assert mcl.impossible == mcl.starved == 0
+
+
+def test_a_scan_that_no_sample_can_explain_is_left_out_and_counted(monkeypatch):
+    mcl = MCL(uniform(50, [0, 0], [1, 1], np.random.default_rng(0)), MAP, np.random.default_rng(0))
+    before = mcl.cloud
+    monkeypatch.setattr(likelihood, "of_scan", lambda x, *_: np.full(len(x), -np.inf))
+    assert mcl.update(models.h(np.zeros(3), MAP), R, range(4)) == -np.inf
+    np.testing.assert_array_equal(mcl.cloud.rows, before.rows)
+    assert mcl.impossible == 1
+
+
+def test_a_cloud_where_one_sample_takes_all_is_counted_as_starved():
+    rows = np.zeros((20, 3))
+    rows[1:, 0] = 3.0
+    mcl = MCL(Cloud.of(rows), MAP, np.random.default_rng(0))
+    mcl.update(models.h(np.zeros(3), MAP), R * 1e-3, range(4))
+    assert mcl.starved == 1
+    assert (mcl.cloud.rows == 0).all()
+
+
+def test_strangers_take_places_and_the_weights_stay():
+    rng = np.random.default_rng(0)
+    mcl = MCL(Cloud.of(np.zeros((50, 3))), MAP, rng)
+    mcl.insert(Cloud.of(np.ones((7, 3))))
+    assert (mcl.cloud.rows == 1).all(axis=1).sum() == 7
+    assert np.isclose(mcl.cloud.weights.sum(), 1)
+
+
+@pytest.mark.parametrize(
+    ("call", "says"),
+    [
+        (lambda m: m.predict([0, 0], ROBOT), "odometry has shape"),
+        (lambda m: m.predict([0, 0, np.nan], ROBOT), "odometry holds NaN"),
+        (lambda m: m.update([[1, 0]], R, [0, 1]), "z has shape"),
+        (lambda m: m.update([[np.nan, 0]], R, [0]), "z or R holds NaN"),
+        (lambda m: m.update([[1, 0]], np.diag([0.0, 1]), [0]), "R is singular"),
+        (lambda m: m.update([[1, 0]], np.eye(2), [4]), "no landmark 4"),
+        (lambda m: m.update([[1, 0]], np.eye(2), [-1]), "no landmark -1"),
+        (lambda m: MCL(Cloud.of(np.zeros((3, 2))), MAP, m.rng), "samples of its pose"),
+        (lambda m: Cloud.of(np.zeros((0, 3))), "samples have shape"),
+        (lambda m: Cloud.of([[0, np.inf]]), "samples hold NaN"),
+    ],
+)
+def test_bad_input_is_named_and_changes_nothing(call, says):
+    mcl = MCL(Cloud.of(np.zeros((5, 3))), MAP, np.random.default_rng(0))
+    before = mcl.cloud
+    with pytest.raises(ValueError, match=says):
+        call(mcl)
+    assert mcl.cloud is before
