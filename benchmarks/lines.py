@@ -1,7 +1,6 @@
 """Walls in a scan: how many are found, how many are none, and how long it takes."""
 
 import sys
-from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -11,10 +10,9 @@ from slamlab import worlds
 from slamlab.evaluation import found_metres, seen_metres
 from slamlab.landmarks.fit import Line
 from slamlab.landmarks.ransac import THESIS, Ransac, lines
-from slamlab.sensors import RPLIDAR_A2
+from slamlab.sources.simulation import THESIS_LIDAR as LIDAR
 
 TITLE = "Walls in scans of 400 beams, 1 % noise (CPU time, methods taking turns)"
-LIDAR = replace(RPLIDAR_A2, range_error=0.01)
 PLACES = ("situation-1", "situation-2", "corridor", "room")
 PERIOD = 0.1  # of a scan: the lidar turns ten times a second [s]
 OURS, SMOLEC, PEER = "slamlab", "thesis' parameters", "scikit-learn, line by line"

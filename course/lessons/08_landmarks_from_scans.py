@@ -35,10 +35,9 @@ from slamlab.landmarks.ransac import THESIS, lines
 from slamlab.landmarks.spikes import spikes
 from slamlab.layers import Ellipses, Points, Poses, Segments
 from slamlab.readings import Scan
-from slamlab.sensors import RPLIDAR_A2
+from slamlab.sources.simulation import THESIS_LIDAR as LIDAR  # 1 % noise
 from slamlab.world import World
 
-LIDAR = replace(RPLIDAR_A2, range_error=0.01)  # the 1 % of the thesis
 HOME = np.zeros(3)
 
 

@@ -41,8 +41,8 @@ from slamlab.landmarks.ransac import THESIS, lines
 from slamlab.landmarks.thinned import Thinned
 from slamlab.layers import Points, Poses, Segments
 from slamlab.runner import run
-from slamlab.sensors import RPLIDAR_A2
 from slamlab.sources import simulation
+from slamlab.sources.simulation import THESIS_LIDAR
 from slamlab.world import World
 
 # %% [markdown] slideshow={"slide_type": "slide"}
@@ -919,7 +919,7 @@ for name, source in sources.items():
 # **Predict:** a round tower of 1.5 m radius, passed by the robot. How many "walls" is it?
 
 # %% slideshow={"slide_type": "fragment"}
-tower, lidar = World(circles=np.array([[3.0, 2.0, 1.5]])), replace(RPLIDAR_A2, range_error=0.01)
+tower, lidar = World(circles=np.array([[3.0, 2.0, 1.5]])), THESIS_LIDAR
 flats = {}
 for place in (1.5, 4.5):
     pose, rng = np.array([place, -0.5, 0.0]), np.random.default_rng(2)
