@@ -26,8 +26,8 @@ def add_parser(subparsers):
         description=(
             "Grade every notebook below FOLDER: flat files, STUDENT/EXERCISE folders, nbgrader's "
             "submitted/STUDENT/ASSIGNMENT, or a download from Moodle or Canvas. Writes grades.csv, "
-            "and a record and a feedback page per submission. Student code runs in a process of "
-            "its own with a time limit, but is not kept from this machine's files and network."
+            "and a record and a feedback page per submission. Student code runs in processes of "
+            "its own, kept from this machine's files, network and processes."
         ),
     )
     parser.add_argument("folder", metavar="FOLDER", type=Path, help="where the submissions are")
@@ -50,13 +50,21 @@ def add_parser(subparsers):
         default=os.cpu_count() or 1,
         help="submissions graded at once; default: one a processor",
     )
+    parser.add_argument(
+        "--isolation",
+        choices=("strict", "basic", "none"),
+        default="strict",
+        help="walls round student code. strict: bubblewrap, Landlock, seccomp; basic: the last two "
+        "(Linux, as an ordinary user); none: only limits of time and memory, for notebooks you "
+        "trust. Nothing is graded where the walls asked for cannot be had",
+    )
     parser.set_defaults(run=run)
 
 
 def run(arguments) -> int:
-    """Grade; 0 when every submission was graded or listed, 2 for wrong use."""
+    """Grade; 0 when every submission was graded or listed, 2 for wrong use or no isolation."""
     # imported late: what a help text needs should come at once
-    from slamlab.grading import folder
+    from slamlab.grading import folder, isolation
     from slamlab.grading.submissions import Unreadable
     from slamlab.grading.workers import Workers
 
@@ -67,12 +75,13 @@ def run(arguments) -> int:
             catalogue.exercise(arguments.exercise)
         found, secret = folder.prepare(arguments.folder, arguments.out, arguments.secret)
         jobs = min(arguments.jobs, len(found))
-        with Workers() as workers, _asked_to_end_as_by_a_key():
+        isolation.ensure(arguments.isolation)
+        with Workers(arguments.isolation) as workers, _asked_to_end_as_by_a_key():
             graded = folder.grade_all(
                 found, secret, arguments.out, workers, arguments.exercise, jobs
             )
             records = _with_progress(graded, len(found))
-    except (Unreadable, KeyError) as error:
+    except (Unreadable, isolation.Refused, KeyError) as error:
         print(f"slamlab grade: {error.args[0]}", file=sys.stderr)
         return 2
     except OSError as error:
