@@ -32,7 +32,7 @@ def test_edges_pass_through_their_feet_told_apart_and_leave_the_view_as_it_was()
 def test_the_shade_of_an_edge_lies_on_its_forbidden_side():
     _, ax = views.axes()
     views.boxes.edges(ax, [(0.6, 0.8, 1.0)], ["far"])
-    (shade,) = ax.artists
+    (shade,) = ax.patches
     assert (shade.get_xy() @ [0.6, 0.8]).min() >= 1 - 1e-9
     assert (shade.get_xy() @ [0.6, 0.8]).max() > 1
 
