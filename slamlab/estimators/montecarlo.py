@@ -46,24 +46,28 @@ class CloudSlam(Estimator):
         self.status = f"{len(self.filter.ids)} landmarks, {self.unclear} sightings unclear"
 
     def _take(self, found):
-        named = np.flatnonzero(found.ids >= 0)
-        nameless = np.flatnonzero(found.ids < 0)
-        known = set(self.filter.ids)
-        ids = {k: int(found.ids[k]) for k in named}
-        old, new = ([k for k in ids if (ids[k] in known) == is_old] for is_old in (True, False))
-        if len(nameless):
-            pairs, strange = pair(found.z[nameless], found.R[nameless], self.filter.expected())
-            self.unclear += len(nameless) - len(pairs) - len(strange)
-            for k, j in pairs.items():
-                ids[nameless[k]] = self.filter.ids[j]
-                old.append(nameless[k])
-            for k in strange:
-                ids[nameless[k]] = self._next
-                self._next -= 1
-                new.append(nameless[k])
-        for rows, take in ((old, self.filter.update), (new, self.filter.add)):
+        """Correct by the known among the sightings, add the new ones."""
+        names, known = self._named(found), set(self.filter.ids)
+        for take, is_known in ((self.filter.update, True), (self.filter.add, False)):
+            rows = {k: i for i, k in names.items() if (i in known) == is_known}
             if rows:
-                take([ids[k] for k in rows], found.z[rows], found.R[rows])
+                take(list(rows.values()), found.z[list(rows)], found.R[list(rows)])
+
+    def _named(self, found):
+        """{id: row} of the sightings that are clear: by the source's names, else by pairing."""
+        names = {}
+        for k in np.flatnonzero(found.ids >= 0):
+            names.setdefault(int(found.ids[k]), k)
+        rest = np.flatnonzero(found.ids < 0)
+        if len(rest):
+            pairs, strange = pair(found.z[rest], found.R[rest], self.filter.expected())
+            for k, j in pairs.items():
+                names.setdefault(self.filter.ids[j], rest[k])
+            for k in strange:
+                names[self._next] = rest[k]
+                self._next -= 1
+        self.unclear += len(found.z) - len(names)
+        return names
 
 
 class SampleSlam(CloudSlam):

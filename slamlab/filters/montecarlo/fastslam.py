@@ -7,13 +7,13 @@ between them: the correlations live in the differences between samples (Rao and 
 import numpy as np
 
 from slamlab import jacobians, models
-from slamlab.filters.guards import observations, vector
+from slamlab.filters.guards import vector
 from slamlab.filters.montecarlo.association import Expected, expected
 from slamlab.filters.montecarlo.cloud import ENOUGH, Cloud
 from slamlab.filters.montecarlo.likelihood import log_gauss
-from slamlab.filters.montecarlo.localisation import positive
 from slamlab.filters.montecarlo.motion import moved
 from slamlab.filters.montecarlo.resampling import systematic
+from slamlab.filters.montecarlo.sightings import named
 from slamlab.geometry import wrap
 
 
@@ -58,7 +58,7 @@ class FastSLAM:
 
         Parameters
         ----------
-        ids : (m,) int, new ones
+        ids : (m,) int, new ones, each once
         z : (m, 2) range [m] and bearing [rad]
         R : (2, 2) of each, or (m, 2, 2)
 
@@ -66,14 +66,12 @@ class FastSLAM:
         ------
         ValueError
         """
-        z, R = positive(*observations(z, R, len(ids)))
-        if known := set(self.ids) & set(ids):
-            raise ValueError(f"already there: {sorted(known)}; update them")
+        ids, z, R = named(ids, z, R, self.ids, new=True)
         x = self.robot.rows[:, None]
         J = jacobians.J_z(x, z)
         self.p = np.concatenate([self.p, models.g(x, z)], axis=1)
         self.P = np.concatenate([self.P, J @ R @ J.swapaxes(-1, -2)], axis=1)
-        self.ids += list(ids)
+        self.ids += ids
 
     def update(self, ids, z, R):
         """Weigh every sample by how likely it found the scan, and correct its landmarks.
@@ -88,11 +86,7 @@ class FastSLAM:
         ------
         ValueError
         """
-        z, R = positive(*observations(z, R, len(ids)))
-        if unknown := set(ids) - set(self.ids):
-            raise ValueError(f"not there yet: {sorted(unknown)}; add them first")
-        if len(set(ids)) < len(ids):
-            raise ValueError("a landmark is seen twice in one scan: leave one sighting out")
+        ids, z, R = named(ids, z, R, self.ids, new=False)
         rows = [self.ids.index(i) for i in ids]
         v, S, H = self._innovations(rows, z, R)
         p, P = self.p[:, rows], self.P[:, rows]

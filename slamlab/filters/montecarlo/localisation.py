@@ -2,10 +2,11 @@
 
 import numpy as np
 
-from slamlab.filters.guards import matrix, observations, vector
+from slamlab.filters.guards import matrix, vector
 from slamlab.filters.montecarlo import likelihood
 from slamlab.filters.montecarlo.cloud import ENOUGH, Cloud
 from slamlab.filters.montecarlo.motion import moved
+from slamlab.filters.montecarlo.sightings import positive
 
 
 class MCL:
@@ -64,7 +65,7 @@ class MCL:
         ------
         ValueError
         """
-        z, R = positive(*observations(z, R, None if ids is None else len(ids)))
+        z, R = positive(z, R, None if ids is None else len(ids))
         if ids is None:
             logs = likelihood.of_nameless(self.cloud.rows, self.landmarks, z, R)
         else:
@@ -93,25 +94,3 @@ class MCL:
         if (strange := ids[(ids < 0) | (ids >= len(self.landmarks))]).size:
             raise ValueError(f"no landmark {strange[0]}: the map has {len(self.landmarks)} rows")
         return self.landmarks[ids]
-
-
-def positive(z, R):
-    """Observations whose R has a density, one (2, 2) each, or an error.
-
-    Parameters
-    ----------
-    z : (m, 2)
-    R : (2, 2) or (m, 2, 2) positive semidefinite
-
-    Returns
-    -------
-    z, (m, 2, 2) R
-
-    Raises
-    ------
-    ValueError
-    """
-    R = np.broadcast_to(R, (len(z), 2, 2))
-    if not (R[:, 0, 0] * R[:, 1, 1] > R[:, 0, 1] ** 2).all():
-        raise ValueError("R is singular: samples are weighed by a density, give each variance > 0")
-    return z, R

@@ -5,12 +5,12 @@ from math import log
 import numpy as np
 from scipy.special import logsumexp
 
-from slamlab.filters.guards import observations, vector
+from slamlab.filters.guards import vector
 from slamlab.filters.montecarlo import likelihood
 from slamlab.filters.montecarlo.association import expected
 from slamlab.filters.montecarlo.cloud import ENOUGH, Cloud
-from slamlab.filters.montecarlo.localisation import positive
 from slamlab.filters.montecarlo.motion import moved
+from slamlab.filters.montecarlo.sightings import named
 from slamlab.models import g
 
 
@@ -87,7 +87,7 @@ class SampleSets:
 
         Parameters
         ----------
-        ids : (m,) int, new ones
+        ids : (m,) int, new ones, each once
         z : (m, 2) range [m] and bearing [rad]
         R : (2, 2) of each, or (m, 2, 2)
 
@@ -95,9 +95,7 @@ class SampleSets:
         ------
         ValueError
         """
-        z, R = positive(*observations(z, R, len(ids)))
-        if known := self.objects.keys() & set(ids):
-            raise ValueError(f"already there: {sorted(known)}; update them")
+        ids, z, R = named(ids, z, R, self.ids, new=True)
         n = self.object_samples
         for i, one, noise in zip(ids, z, R, strict=True):
             sightings = one + self.rng.standard_normal((n, 2)) @ np.linalg.cholesky(noise).T
@@ -108,7 +106,7 @@ class SampleSets:
 
         Parameters
         ----------
-        ids : (m,) int, known ones
+        ids : (m,) int, known ones, each once
         z : (m, 2) range [m] and bearing [rad]
         R : (2, 2) of each, or (m, 2, 2)
 
@@ -116,9 +114,7 @@ class SampleSets:
         ------
         ValueError
         """
-        z, R = positive(*observations(z, R, len(ids)))
-        if unknown := set(ids) - self.objects.keys():
-            raise ValueError(f"not there yet: {sorted(unknown)}; add them first")
+        ids, z, R = named(ids, z, R, self.ids, new=False)
         before, logs = self.robot, np.zeros(len(self.robot.rows))
         for i, one, noise in zip(ids, z, R, strict=True):
             seen = self.objects[i]

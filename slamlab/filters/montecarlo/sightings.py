@@ -1,0 +1,58 @@
+"""The guards in front of samples: sightings that have a density, and names that fit."""
+
+import numpy as np
+
+from slamlab.filters.guards import observations
+
+
+def positive(z, R, m=None):
+    """Sightings checked, with a covariance each that has a density.
+
+    Parameters
+    ----------
+    z : (m, 2) range [m] and bearing [rad]
+    R : (2, 2) of each, or (m, 2, 2)
+    m : int or None, for any
+
+    Returns
+    -------
+    (m, 2) z, (m, 2, 2) R
+
+    Raises
+    ------
+    ValueError
+    """
+    z, R = observations(z, R, m)
+    R = np.broadcast_to(R, (len(z), 2, 2))
+    if not (R[:, 0, 0] * R[:, 1, 1] > R[:, 0, 1] ** 2).all():
+        raise ValueError("R is singular: samples are weighed by a density, give each variance > 0")
+    return z, R
+
+
+def named(ids, z, R, known, new):
+    """Sightings of landmarks, all of them known or all of them new, each once.
+
+    Parameters
+    ----------
+    ids : (m,) int
+    z, R : as for :func:`positive`
+    known : ids that are there
+    new : bool, whether these must not be
+
+    Returns
+    -------
+    list of ids, (m, 2) z, (m, 2, 2) R
+
+    Raises
+    ------
+    ValueError
+    """
+    ids = list(ids)
+    z, R = positive(z, R, len(ids))
+    if len(set(ids)) < len(ids):
+        raise ValueError("a landmark is seen twice in one scan: leave one sighting out")
+    if new and (there := set(ids) & set(known)):
+        raise ValueError(f"already there: {sorted(there)}; update them")
+    if not new and (missing := set(ids) - set(known)):
+        raise ValueError(f"not there yet: {sorted(missing)}; add them first")
+    return ids, z, R

@@ -1,0 +1,129 @@
+"""Samples as estimators: they beat odometry with names, without them and on scans."""
+
+import numpy as np
+import pytest
+
+from slamlab import estimators
+from slamlab.estimators.montecarlo import montecarlo
+from slamlab.evaluation import absolute_error
+from slamlab.layers import Ellipses, Points, Poses, Samples
+from slamlab.readings import Observations, Reading
+from slamlab.runner import run
+from slamlab.sources import simulation
+from slamlab.sources.base import Source
+from slamlab.sources.landmarks import LandmarkRun, Loop
+
+NAMES = ["montecarlo", "fastslam"]
+
+
+class Nameless(Source):
+    """A landmark run that keeps the names to itself."""
+
+    name = "nameless"
+
+    def __init__(self, run):
+        super().__init__()
+        self.run, self.robot, self.sensor, self.truth = run, run.robot, run.sensor, run.truth
+
+    def __iter__(self):
+        for reading in self.run:
+            z = reading.observations.z
+            yield Reading(
+                reading.time, reading.odometry, observations=Observations(z, np.full(len(z), -1))
+            )
+
+
+def ratio(name, source):
+    """Error by odometry alone over the estimator's, and the estimator."""
+    result = run(source, estimators.make(name, source))
+    found, naive = (absolute_error(t, source.truth) for t in (result.trajectory, result.naive))
+    return naive.translation / found.translation, result.estimator
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_it_beats_odometry_on_a_loop_and_finds_every_landmark_it_saw(name):
+    source = simulation("landmarks", np.random.default_rng(2))
+    better, slam = ratio(name, source)
+    assert better > 2
+    seen = set(np.concatenate([reading.observations.ids for reading in source]).tolist())
+    assert set(slam.filter.ids) == seen
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_without_names_it_finds_the_landmarks_by_its_own_spread(name):
+    source = Nameless(LandmarkRun(Loop(steps=150, landmarks=8), np.random.default_rng(1)))
+    better, slam = ratio(name, source)
+    assert better > 1.5
+    # sets believe more than they know, and take some of the eight for new ones in the second lap
+    assert 6 <= len(slam.filter.ids) <= (12 if name == "fastslam" else 20)
+    assert max(slam.filter.ids) < 0
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_it_takes_the_corners_of_scans(name):
+    better, slam = ratio(name, simulation("situation-2", np.random.default_rng(1)))
+    assert better > 3
+    assert "landmarks" in slam.status
+
+
+def test_the_same_seed_gives_the_same_run_and_another_one_another():
+    source = LandmarkRun(Loop(steps=20), np.random.default_rng(1))
+    poses = [run(source, montecarlo(source, seed)).trajectory.poses for seed in (0, 0, 1)]
+    np.testing.assert_array_equal(poses[0], poses[1])
+    assert not np.array_equal(poses[0], poses[2])
+
+
+def test_it_draws_samples_with_weights_that_sum_to_one():
+    source = LandmarkRun(Loop(steps=30), np.random.default_rng(1))
+    slam = run(source, montecarlo(source, samples=100, object_samples=30, close=0.3)).estimator
+    loose, frozen, track, robot = slam.layers()
+    assert [type(a) for a in slam.layers()] == [Samples, Points, Poses, Samples]
+    assert len(robot.rows) == 100
+    assert len(frozen.xy) == len(slam.filter.frozen)
+    assert len(loose.rows) == 30 * (len(slam.filter.ids) - len(frozen.xy))
+    for layer in (loose, robot):
+        assert np.isclose(layer.weights.sum(), 1) or not len(layer.weights)
+    assert len(track.rows) == len(source)
+
+
+def test_fastslam_draws_an_ellipse_for_each_landmark():
+    source = LandmarkRun(Loop(steps=30), np.random.default_rng(1))
+    points, ellipses, _, robot = ratio("fastslam", source)[1].layers()
+    assert [type(a) for a in (points, ellipses, robot)] == [Points, Ellipses, Samples]
+    assert len(points.xy) == len(ellipses.covariances) > 3
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_before_anything_is_seen_there_are_samples_of_the_robot_only(name):
+    source = LandmarkRun(Loop(steps=2), np.random.default_rng(1))
+    slam = estimators.make(name, source)
+    slam.step(Reading(0.0, np.array([0.1, 0.0, 0.0])))
+    assert len(slam.layers()) == 4
+    assert slam.filter.ids == []
+    assert abs(slam.pose[0] - 0.1) < 0.05
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_name_seen_twice_in_a_reading_counts_once(name):
+    source = LandmarkRun(Loop(steps=2), np.random.default_rng(1))
+    slam = estimators.make(name, source)
+    for _ in range(2):
+        twice = Observations(np.array([[2.0, 0.1], [2.1, 0.1]]), np.array([4, 4]))
+        slam.step(Reading(0.0, np.zeros(3), observations=twice))
+    assert slam.filter.ids == [4]
+    assert slam.unclear == 2
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_source_without_anything_to_see_is_refused_in_one_line(name):
+    class Blind(Source):
+        name = "blind"
+
+        def __len__(self):
+            return 1
+
+        def __iter__(self):
+            yield Reading(0.0)
+
+    with pytest.raises(ValueError, match=f"blind holds neither landmarks nor scans.*{name}"):
+        estimators.make(name, Blind())
