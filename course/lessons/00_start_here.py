@@ -54,9 +54,10 @@ scan = RPLIDAR_A2.scan(room, pose, rng)
 print(f"{scan.valid.sum()} of {len(scan.ranges)} beams came back")
 
 # %% [markdown]
-# Real lidars of this kind lose two to four beams in a hundred: that was measured, and the simulated
-# one does the same. Everything random in the course comes from a generator `rng` with a
-# written-down seed, so you get the number printed here. Change the 7 and you get another one.
+# Of the surfaces in front of it a real lidar of this kind misses fewer than one in a hundred: that
+# was measured (lesson 02), and the simulated one does the same. Everything random in the course
+# comes from a generator `rng` with a written-down seed, so you get the number printed here. Change
+# the 7 and you get another one.
 #
 # **Predict:** the lidar sees in every direction. Which parts of the room will be missing from the
 # picture?

@@ -373,7 +373,7 @@ views.show(fig, "All three errors fall in the first ten rounds, then stand still
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # **See:** fast at first, then slower and slower. And all three stop above zero: the pairs of the
-# last round are still 15 mm long, because beams hit different spots, and because some walls were
+# last round are still 14 mm long, because beams hit different spots, and because some walls were
 # seen only once.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
@@ -403,9 +403,9 @@ print("change below 0.001 mm:    ", stop(lambda now, before: abs(now - before) <
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # **See:** an absolute bound has to be guessed, and here both guesses are bad: below the noise it
-# is never reached, above it is reached too soon, with 4.5° to go. The change tells when nothing
+# is never reached, above it is reached too soon, with 4.4° to go. The change tells when nothing
 # more is to be had, whatever the noise. But mind its **unit**: the listing's 0.001 are
-# millimetres, as its data are. The same number read as metres stops after 11 rounds, before the
+# millimetres, as its data are. The same number read as metres stops after 10 rounds, before the
 # turn is done.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
