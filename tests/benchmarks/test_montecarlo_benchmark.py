@@ -1,0 +1,32 @@
+"""What the Monte Carlo benchmark times does the same work; how fast is nobody's verdict."""
+
+import numpy as np
+import pytest
+
+from benchmarks import montecarlo as benchmark
+from slamlab.filters.montecarlo.resampling import comb
+
+
+def test_the_loops_weights_are_ours(monkeypatch):
+    x, p, z = benchmark.scene(200)
+    benchmark.same_weights(x, p, z)
+    plain = benchmark.loop_weights
+    monkeypatch.setattr(benchmark, "loop_weights", lambda *scene: [w / 2 for w in plain(*scene)])
+    with pytest.raises(AssertionError):
+        benchmark.same_weights(x, p, z)
+
+
+def test_the_loops_comb_is_ours():
+    weights = np.random.default_rng(0).exponential(size=50)
+    drawn = benchmark.loop_comb(list(range(50)), weights.tolist(), 0.37)
+    assert drawn == comb(weights / weights.sum(), 50, 0.37).tolist()
+
+
+def test_every_method_moves_to_where_the_map_says_the_robot_is():
+    x, p, z = benchmark.scene(2000)
+    ends = [
+        step(x, p, z, np.random.default_rng(1)).mean(axis=0)
+        for step in (benchmark.slamlab_step, benchmark.textbook_step, benchmark.loop_step)
+    ]
+    np.testing.assert_allclose(ends[1], ends[0], atol=0.05)
+    np.testing.assert_allclose(ends[2], ends[0], atol=0.05)
