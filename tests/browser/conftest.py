@@ -7,7 +7,7 @@ import pytest
 
 from benchmarks import live as benchmark
 from course.source import ROOT
-from tests.browser import live
+from tests.browser import editing, live
 from tests.browser.jupyter import Unavailable, Visit, chromium, jupyterlab
 
 
@@ -23,11 +23,11 @@ def browser():
 
 @pytest.fixture(scope="session")
 def lab(tmp_path_factory):
-    """The address of a JupyterLab with all lessons and the notebooks of live views."""
+    """The address of a JupyterLab with all lessons and the notebooks of these tests."""
     home = tmp_path_factory.mktemp("lab")
     notebooks = home / "course" / "notebooks"
     shutil.copytree(ROOT / "notebooks", notebooks)
-    for made in (live, benchmark):
+    for made in (live, benchmark, editing):
         nbformat.write(made.notebook(), notebooks / made.NAME)
     with jupyterlab(home) as address:
         yield address
@@ -36,6 +36,6 @@ def lab(tmp_path_factory):
 @pytest.fixture
 def visit(browser, lab):
     """A fresh page of JupyterLab."""
-    context = browser.new_context(viewport={"width": 1280, "height": 800})
+    context = browser.new_context(viewport={"width": 1280, "height": 800}, has_touch=True)
     yield Visit(context.new_page(), lab)
     context.close()

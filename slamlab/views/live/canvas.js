@@ -1,15 +1,9 @@
 // The browser's side of the live view: keeps the rows that frames bring, draws them on a canvas in
-// equal scale, answers each frame with its number when it is drawn. Nothing is asked of a network.
+// equal scale, answers each frame with its number when it is drawn.
 
 const KEYS = {
   ArrowUp: "forward", ArrowDown: "back", ArrowLeft: "left", ArrowRight: "right", " ": "stop",
 };
-
-function element(tag, style, more = {}) {
-  const made = Object.assign(document.createElement(tag), more);
-  Object.assign(made.style, style);
-  return made;
-}
 
 export default () => {
   const layers = new Layers();
@@ -29,9 +23,8 @@ export default () => {
     },
 
     render({ model, el }) {
-      const text = { font: "13px system-ui, sans-serif", color: "var(--jp-ui-font-color1, #333)" };
-      const head = element("div", { ...text, fontWeight: "600", padding: "2px 0" });
-      const bar = element("div", { ...text, display: "flex", gap: "8px", marginTop: "4px" });
+      const head = element("div", { ...TEXT, fontWeight: "600", padding: "2px 0" });
+      const bar = element("div", { ...TEXT, display: "flex", gap: "8px", marginTop: "4px" });
       const status = element("div", { flex: "1", padding: "4px 0" }, { className: "slamlab-status" });
       const fit = element("button", {
         font: "inherit", color: "inherit", background: "none", padding: "2px 10px", cursor: "pointer",

@@ -8,9 +8,7 @@ import traitlets
 
 from slamlab.views.live.packing import Packer, Scene
 from slamlab.views.live.screen import Screen
-
-# a widget's script is one piece; for readers it is several
-SCRIPTS = ("plane.js", "panels.js", "drawing.js", "canvas.js")
+from slamlab.views.live.scripts import script
 
 # Jupyter's server lets TCP hold a short message back until the one before is acknowledged, which a
 # browser on the same machine does 40 ms later; a message of two of loopback's packets is not held
@@ -29,7 +27,7 @@ class CanvasWidget(anywidget.AnyWidget):
         comes with the widget itself, so that it is there while the kernel does other things
     """
 
-    _esm = "\n".join(Path(__file__).with_name(n).read_text(encoding="utf-8") for n in SCRIPTS)
+    _esm = script(Path(__file__).with_name("canvas.js"))
     alt = traitlets.Unicode().tag(sync=True)
     title = traitlets.Unicode().tag(sync=True)
     width = traitlets.Int(720).tag(sync=True)

@@ -1,0 +1,200 @@
+// A world in the browser: its points are handles, to be dragged or moved by the arrow keys. What is
+// moved is drawn at once; the kernel hears of it and answers with what a scanner sees then.
+
+const SNAP = 0.05, FREE = 0.01; // [m] from a place to the next; with Shift
+const MOST = 200; // handles; more would hide the world
+const PAUSE = 1000; // [ms] between two keys that are two changes
+const ARROWS = { ArrowUp: [0, 1], ArrowDown: [0, -1], ArrowLeft: [-1, 0], ArrowRight: [1, 0] };
+const HINT = "drag a point, or choose it by Tab and move it by the arrow keys; "
+  + `grid ${SNAP} m, finer with Shift; Ctrl+Z: undo`;
+
+const snapped = (value, step) => Number((Math.round(value / step) * step).toFixed(6)) + 0;
+
+// points of a world with what they belong to; ends at the same place are one point
+function points({ walls, circles }) {
+  const found = new Map();
+  walls.forEach((wall, row) => [0, 2].forEach((at) => {
+    const key = `${wall[at]} ${wall[at + 1]}`;
+    if (!found.has(key)) found.set(key, []);
+    found.get(key).push({ kind: "walls", row, at });
+  }));
+  const centres = circles.map((_, row) => [{ kind: "circles", row, at: 0 }]);
+  return [...found.values(), ...centres];
+}
+
+function named(ends) {
+  const numbers = ends.map(({ row }) => row + 1).join(", ");
+  if (ends[0].kind == "circles") return `centre of circle ${numbers}`;
+  return ends.length > 1 ? `corner of walls ${numbers}` : `end of wall ${numbers}`;
+}
+
+function place(world, [{ kind, row, at }]) {
+  return world[kind][row].slice(at, at + 2);
+}
+
+// the world with a point elsewhere, or null where a wall would have no length
+function moved(world, ends, [x, y], edit) {
+  const next = { walls: world.walls.map((row) => [...row]), circles: [...world.circles], edit };
+  for (const { kind, row, at } of ends) {
+    next[kind][row] = [...next[kind][row]];
+    next[kind][row].splice(at, 2, x, y);
+  }
+  const whole = ([x1, y1, x2, y2]) => x1 != x2 || y1 != y2;
+  return next.walls.every(whole) ? next : null;
+}
+
+function layersOf(model, { walls, circles }) {
+  const { walls: grey, scan, robot } = model.get("colours");
+  const rings = circles.map(([x, y, r]) => [x, y, r, r, 0]);
+  const bytes = model.get("scan");
+  const seen = new Float32Array(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.byteLength));
+  const layer = (kind, name, colour, width, rows) =>
+    ({ kind, name, colour, width, rows: Float32Array.from(rows) });
+  return Object.assign(new Layers(), {
+    header: { radius: model.get("radius") },
+    list: [
+      layer("segments", "walls", grey, 4, walls.flat()),
+      layer("ellipses", "walls", grey, 5, rings.flat()),
+      layer("points", "scan", scan, 2, seen),
+      layer("poses", "robot", robot, 3, [0, 0, 0]),
+    ].filter(({ rows }) => rows.length),
+  });
+}
+
+function render({ model, el }) {
+  const width = model.get("width"), height = model.get("height");
+  const canvas = element("canvas", {});
+  const sheet = element("div", {}, { className: "slamlab-board" });
+  const status = element("div", { ...TEXT, padding: "4px 0", minHeight: "2.6em" });
+  const root = element("div", { width: `${width}px`, maxWidth: "100%" });
+  canvas.setAttribute("role", "img");
+  canvas.setAttribute("aria-label", model.get("alt"));
+  sheet.setAttribute("role", "group");
+  sheet.setAttribute("aria-label", "points that can be moved");
+  status.setAttribute("role", "status");
+  status.className = "slamlab-board-status";
+  // the notebook would take the arrow keys for itself
+  root.dataset.lmSuppressShortcuts = "true";
+  sheet.append(canvas);
+  root.append(sheet, status);
+  el.append(root);
+
+  const camera = new Camera(width, height);
+  let world = model.get("world"), handles = [], dragged = null, due = false;
+
+  const paint = () => {
+    due = false;
+    camera.width = canvas.clientWidth || width;
+    camera.height = Math.round(camera.width * height / width);
+    const layers = layersOf(model, world);
+    // a picture that moves while something is dragged would run away with it
+    if (!dragged) camera.follow(layers.bounds(), 0);
+    draw(canvas, camera, layers);
+    for (const { button, ends } of handles) {
+      const [x, y] = place(world, ends), name = named(ends);
+      Object.assign(button.style, { left: `${camera.px(x)}px`, top: `${camera.py(y)}px` });
+      button.title = `${name}: x ${x}, y ${y} m`;
+      button.setAttribute("aria-label", button.title);
+    }
+  };
+  const repaint = () => {
+    if (!due) requestAnimationFrame(paint);
+    due = true;
+  };
+
+  const say = ({ ends }) => {
+    const [x, y] = place(world, ends);
+    status.textContent = `${named(ends)}: x ${x}, y ${y} m`;
+  };
+  const put = (handle, at, edit) => {
+    const next = moved(world, handle.ends, at, edit);
+    if (!next) return;
+    world = next;
+    model.set("world", world);
+    model.save_changes(); // waits by itself until the kernel has taken the one before
+    say(handle);
+    repaint();
+  };
+
+  // one handle a point; points that came to lie on each other are one from now on
+  const arrange = () => {
+    const now = points(world), key = (ends) => ends.map(({ kind, row, at }) => `${kind}${row}.${at}`).join();
+    if (now.length > MOST) now.length = 0;
+    status.textContent = now.length ? HINT : "too many points to drag: change the rows";
+    if (now.map(key).join(";") != handles.map(({ ends }) => key(ends)).join(";")) {
+      handles.forEach(({ button }) => button.remove());
+      handles = now.map(handle);
+    }
+    repaint();
+  };
+
+  const handle = (ends) => {
+    const button = element("button", {}, { className: "slamlab-handle", type: "button" });
+    const made = { button, ends };
+    let edit = 0, last = 0;
+    button.addEventListener("pointerdown", (event) => {
+      if (event.button) return;
+      event.preventDefault(); // no selection of text; so the focus must be set by hand
+      button.focus({ preventScroll: true });
+      button.setPointerCapture(event.pointerId);
+      [dragged, edit] = [made, Date.now()];
+    });
+    button.addEventListener("pointermove", (event) => {
+      if (dragged != made) return;
+      const box = canvas.getBoundingClientRect(), step = event.shiftKey ? FREE : SNAP;
+      const x = camera.wx(event.clientX - box.left), y = camera.wy(event.clientY - box.top);
+      put(made, [snapped(x, step), snapped(y, step)], edit);
+    });
+    for (const end of ["pointerup", "pointercancel"]) {
+      button.addEventListener(end, () => {
+        dragged = null;
+        repaint();
+      });
+    }
+    button.addEventListener("keydown", (event) => {
+      if (!(event.key in ARROWS) || event.ctrlKey || event.altKey || event.metaKey) return;
+      event.preventDefault();
+      event.stopPropagation();
+      const now = Date.now(), step = event.shiftKey ? FREE : SNAP;
+      if (now - last > PAUSE) edit = now;
+      last = now;
+      const at = place(world, ends).map((value, axis) => {
+        const way = ARROWS[event.key][axis];
+        return way ? snapped(value + way * step, step) : value;
+      });
+      put(made, at, edit);
+    });
+    button.addEventListener("focus", () => say(made));
+    // after the focus has gone to where it goes
+    button.addEventListener("blur", () => setTimeout(settle));
+    sheet.append(button);
+    return made;
+  };
+  const settle = () => {
+    if (!sheet.contains(document.activeElement)) arrange();
+  };
+
+  const told = () => {
+    if (model.get("world") === world) return;
+    world = model.get("world");
+    arrange();
+  };
+  root.addEventListener("keydown", (event) => {
+    if (event.key != "z" || !(event.ctrlKey || event.metaKey)) return;
+    event.preventDefault();
+    event.stopPropagation();
+    model.send({ kind: "undo" });
+  });
+  model.on("change:world", told);
+  model.on("change:scan", repaint);
+  const resized = new ResizeObserver(repaint);
+  resized.observe(canvas);
+  arrange();
+  return () => {
+    model.off("change:world", told);
+    model.off("change:scan", repaint);
+    resized.disconnect();
+  };
+}
+
+export default { render };

@@ -1,0 +1,67 @@
+"""The drawing on which the ends of walls and the centres of circles are dragged."""
+
+from pathlib import Path
+
+import anywidget
+import numpy as np
+import traitlets
+
+from slamlab.views.figures import COLOURS
+from slamlab.views.live.scripts import script
+
+HERE = Path(__file__).parent
+
+
+class Board(anywidget.AnyWidget):
+    """A world in the browser: points are dragged, or chosen by Tab and moved by the arrow keys.
+
+    They snap to a grid of 0.05 m; with Shift they are free. What is moved is drawn at once and told
+    to the kernel as fast as it listens.
+
+    Parameters
+    ----------
+    alt : str, what the picture shows, for who cannot see it
+    world : dict of walls (n, 4) and circles (m, 3) as lists [m], and of edit, a number that the
+        moves of one drag have in common
+    scan : bytes, float32 x y of what a scanner sees [m]
+    radius : float, of the robot at the origin [m]
+    width, height : int [CSS pixels]; narrower where the notebook is
+    """
+
+    _esm = script(HERE / "board.js")
+    _css = (HERE / "board.css").read_text(encoding="utf-8")
+    alt = traitlets.Unicode().tag(sync=True)
+    world = traitlets.Dict().tag(sync=True)
+    scan = traitlets.Bytes().tag(sync=True)
+    radius = traitlets.Float(0.15).tag(sync=True)
+    colours = traitlets.Dict(COLOURS).tag(sync=True)
+    width = traitlets.Int(520).tag(sync=True)
+    height = traitlets.Int(450).tag(sync=True)
+
+
+def rows_of(world):
+    """A world as the browser gets it.
+
+    Parameters
+    ----------
+    world : World
+
+    Returns
+    -------
+    dict, see :class:`Board`
+    """
+    return {"walls": world.walls.tolist(), "circles": world.circles.tolist(), "edit": 0}
+
+
+def bytes_of(points):
+    """Points as the browser gets them.
+
+    Parameters
+    ----------
+    points : (n, 2) [m]
+
+    Returns
+    -------
+    bytes
+    """
+    return np.asarray(points, dtype="<f4").tobytes()

@@ -1,0 +1,9 @@
+// Elements of a page, as all widgets make them. Nothing is asked of a network.
+
+const TEXT = { font: "13px system-ui, sans-serif", color: "var(--jp-ui-font-color1, #333)" };
+
+function element(tag, style, more = {}) {
+  const made = Object.assign(document.createElement(tag), more);
+  Object.assign(made.style, style);
+  return made;
+}

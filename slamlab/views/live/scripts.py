@@ -1,0 +1,21 @@
+"""The browser's scripts: what the widgets share, and each one's own, as one piece."""
+
+from pathlib import Path
+
+# a widget's script is one piece; for readers it is several
+SHARED = ("page.js", "plane.js", "panels.js", "drawing.js")
+
+
+def script(path):
+    """A widget's script.
+
+    Parameters
+    ----------
+    path : Path of the piece that exports the widget
+
+    Returns
+    -------
+    str
+    """
+    pieces = [*map(Path(__file__).with_name, SHARED), path]
+    return "\n".join(piece.read_text(encoding="utf-8") for piece in pieces)
