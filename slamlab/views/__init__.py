@@ -12,6 +12,7 @@ from slamlab.views.layers import draw, legend, side_by_side
 from slamlab.views.linked import linked
 from slamlab.views.live import live
 from slamlab.views.overlay import overlay
+from slamlab.views.samples import wheel
 from slamlab.views.sketches import frames
 from slamlab.views.widgets import explore
 
@@ -35,4 +36,5 @@ __all__ = [
     "png",
     "show",
     "side_by_side",
+    "wheel",
 ]
