@@ -1,21 +1,38 @@
 """What a bounded filter looks at: the sector a sighting leaves, its edges, and angles."""
 
-from itertools import cycle
-
 import numpy as np
 from matplotlib.patches import Polygon, Wedge
 
-from slamlab.views.figures import COLOURS, chart
+from slamlab.views.figures import COLOURS, axes, chart
 
 # told apart without colour, too
-_EDGES = [
-    (COLOURS["corrected"], "solid"),
-    (COLOURS["naive"], "dashed"),
-    (COLOURS["landmark"], "dashdot"),
-    (COLOURS["robot"], "dotted"),
-]
-STRIP = 0.12  # how wide the shaded side of an edge is, as a share of the picture
+_EDGES = {
+    "far": (COLOURS["corrected"], "solid"),
+    "near": (COLOURS["naive"], "dashed"),
+    "left": (COLOURS["landmark"], "dashdot"),
+    "right": (COLOURS["robot"], "dotted"),
+}
+STRIP = 0.08  # how wide the shaded side of an edge is, as a share of the picture
 FAR = 100.0  # an edge is a line: this long [m]
+
+
+def scene(title, window, size=(5, 4.2)):
+    """A figure with one map that shows a part of the plane, whatever is drawn in it.
+
+    Parameters
+    ----------
+    title : str or None
+    window : (x_min, x_max, y_min, y_max) [m]
+    size : (width, height) [inch]
+
+    Returns
+    -------
+    (Figure, Axes)
+    """
+    fig, ax = axes(title, size)
+    ax.set_aspect("equal", adjustable="box")
+    ax.set(xlim=window[:2], ylim=window[2:])
+    return fig, ax
 
 
 def sector(ax, origin, ranges, angles, label=None, **style):
@@ -44,26 +61,26 @@ def sector(ax, origin, ranges, angles, label=None, **style):
     return wedge
 
 
-def edges(ax, half_planes, names, size=1.0):
+def edges(ax, half_planes, names):
     """Lines with their forbidden sides shaded.
 
     Parameters
     ----------
     ax : Axes
     half_planes : (a, b, c) each, allowed where a x + b y ≤ c
-    names : str each, for the legend
-    size : float, of the picture [m]
+    names : str each: far, near, left or right
 
     Returns
     -------
     list of Line2D
     """
-    lines = []
-    for (a, b, c), name, (colour, dash) in zip(half_planes, names, cycle(_EDGES), strict=False):
+    lines, strip_width = [], STRIP * np.ptp(ax.get_ylim())
+    for (a, b, c), name in zip(half_planes, names, strict=True):
+        colour, dash = _EDGES[name]
         foot, along = c * np.array([a, b]), np.array([-b, a])
         lines.append(ax.axline(foot, foot + along, color=colour, linestyle=dash, label=name))
         ends = np.array([foot - FAR * along, foot + FAR * along])
-        strip = np.concatenate([ends, ends[::-1] + STRIP * size * np.array([a, b])])
+        strip = np.concatenate([ends, ends[::-1] + strip_width * np.array([a, b])])
         shade = Polygon(strip, facecolor=colour, alpha=0.15, linewidth=0)
         ax.add_artist(shade)  # an artist leaves the limits alone, a patch does not
         shade.set_clip_path(ax.patch)

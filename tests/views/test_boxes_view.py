@@ -17,15 +17,14 @@ def test_a_sector_is_drawn_between_its_ranges_and_angles():
 
 
 def test_edges_pass_through_their_feet_told_apart_and_leave_the_view_as_it_was():
-    _, ax = views.axes()
-    ax.set(xlim=(-3, 3), ylim=(-3, 3))
+    _, ax = views.boxes.scene("edges", (-3, 3, -2, 2))
     half_planes = [(1, 0, 2.0), (0, -1, 1.0), (0.6, 0.8, -1.0)]
     lines = views.boxes.edges(ax, half_planes, ["far", "near", "left"])
     assert len({(to_hex(line.get_color()), line.get_linestyle()) for line in lines}) == 3
     for line, (a, b, c) in zip(lines, half_planes, strict=True):
         for x, y in (line.get_xy1(), line.get_xy2()):
             assert np.isclose(a * x + b * y, c)
-    assert ax.get_xlim() == (-3, 3)
+    assert (*ax.get_xlim(), *ax.get_ylim()) == (-3, 3, -2, 2)
     assert [text.get_text() for text in ax.legend().get_texts()] == ["far", "near", "left"]
 
 
