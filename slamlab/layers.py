@@ -55,4 +55,17 @@ class Samples:
     weights: np.ndarray
 
 
-Layer = Points | Segments | Poses | Ellipses | Boxes | Samples
+@dataclass(frozen=True)
+class Grid:
+    """(rows, columns) probabilities that cells of a side [m] are occupied; row 0 lies lowest.
+
+    ``origin`` (2,) is the lower left corner of the cell in row 0, column 0 [m]; 0.5 is unknown.
+    """
+
+    name: str
+    cells: np.ndarray
+    origin: np.ndarray
+    side: float
+
+
+Layer = Points | Segments | Poses | Ellipses | Boxes | Samples | Grid

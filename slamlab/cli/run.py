@@ -153,7 +153,7 @@ def picture(result):
     -------
     Figure
     """
-    from slamlab.layers import Ellipses, Points, Poses
+    from slamlab.layers import Ellipses, Grid, Points, Poses
     from slamlab.views import COLOURS, draw, legend, panels
 
     layers = result.estimator.layers()
@@ -164,7 +164,8 @@ def picture(result):
     for ax, (title, group) in zip(all_axes, shown, strict=True):
         for layer in group:
             around = f"{layer.name} 95 %"
-            what = {Points: "map", Poses: "track", Ellipses: around}.get(type(layer), layer.name)
+            kinds = {Points: "map", Grid: "map", Poses: "track", Ellipses: around}
+            what = kinds.get(type(layer), layer.name)
             colour = (
                 COLOURS["robot"] if what == "track" else COLOURS.get(layer.name, COLOURS[title])
             )

@@ -2,16 +2,19 @@
 
 import numpy as np
 from matplotlib.collections import LineCollection, PatchCollection
+from matplotlib.colors import to_rgb
 from matplotlib.lines import Line2D
 from matplotlib.markers import MarkerStyle
 from matplotlib.patches import Ellipse, Rectangle
 from matplotlib.path import Path
 
-from slamlab.layers import Boxes, Ellipses, Points, Poses, Samples, Segments
+from slamlab.layers import Boxes, Ellipses, Grid, Points, Poses, Samples, Segments
 from slamlab.views.figures import COLOURS, panels
 
 # 95 % of a Gaussian in the plane lies within this Mahalanobis distance: √χ²(0.95, 2)
 SIGMAS_95 = 2.4477
+UNKNOWN = np.array([0.85, 0.85, 0.85])  # the grey of cells of which nothing is known
+SEEN = 400  # cells of a grid in a row; of more a picture would lose some
 # an arrow head that points along +x
 ROBOT = Path([(1.0, 0.0), (-0.7, 0.65), (-0.4, 0.0), (-0.7, -0.65), (1.0, 0.0)])
 
@@ -169,6 +172,34 @@ def _samples(ax, layer, style):
     ]
 
 
+def _grid(ax, layer, style):
+    """Free cells white, unknown ones grey, occupied ones in the layer's colour."""
+    p, side = _pooled(np.asarray(layer.cells, dtype=float), layer.side)
+    colour, label = style.pop("color"), style.pop("label")
+    towards = np.where(p[..., None] > 0.5, to_rgb(colour), 1.0)
+    rgb = UNKNOWN + np.abs(2 * p[..., None] - 1) * (towards - UNKNOWN)
+    (x, y), (rows, columns) = layer.origin, p.shape
+    extent = (x, x + columns * side, y, y + rows * side)
+    shown = {"origin": "lower", "extent": extent, "interpolation": "nearest", "zorder": 0} | style
+    square = {"marker": "s", "linestyle": "none", "markeredgecolor": COLOURS["walls"], "mew": 0.5}
+    return [
+        ax.imshow(rgb, **shown),
+        *ax.plot([], [], color=colour, label=label, **square),
+        *ax.plot([], [], color=tuple(UNKNOWN), label="unknown", **square),
+    ]
+
+
+def _pooled(p, side):
+    """Fewer, larger cells where there are too many to see; one wall in it makes a cell wall."""
+    k = max(1, -(-max(p.shape) // SEEN))
+    rows, columns = (-(-n // k) * k for n in p.shape)
+    padded = np.full((rows, columns), 0.5)
+    padded[: p.shape[0], : p.shape[1]] = p
+    blocks = padded.reshape(rows // k, k, columns // k, k)
+    most = blocks.max(axis=(1, 3))
+    return np.where(most > 0.5, most, blocks.mean(axis=(1, 3))), k * side
+
+
 _KINDS = {
     Points: (_points, "scan"),
     Segments: (_segments, "walls"),
@@ -176,4 +207,5 @@ _KINDS = {
     Ellipses: (_ellipses, "landmark"),
     Boxes: (_boxes, "box"),
     Samples: (_samples, "sample"),
+    Grid: (_grid, "map"),
 }
