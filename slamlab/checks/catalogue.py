@@ -40,14 +40,14 @@ def exercise(id) -> Exercise:
 
     Parameters
     ----------
-    id : str such as "04"
+    id : str such as "04" or "4"
 
     Raises
     ------
     KeyError : with a message that names the exercises there are
     """
     try:
-        return EXERCISES[id]
+        return EXERCISES[id.zfill(2)]
     except KeyError:
         raise KeyError(f"no exercise {id!r}; there are {', '.join(EXERCISES)}") from None
 

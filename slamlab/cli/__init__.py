@@ -1,6 +1,6 @@
 """The command line: ``slamlab COMMAND``; each command is a module with ``add_parser``.
 
-Exit codes: 0 done, 2 wrong use or unreadable input, 130 interrupted.
+Exit codes: 0 done, 1 a task that is not passed, 2 wrong use or unreadable input, 130 interrupted.
 """
 
 import argparse

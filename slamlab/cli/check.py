@@ -15,14 +15,20 @@ def add_parser(subparsers):
             "Run a notebook's cells in order in a fresh process and all tasks of its exercise on "
             "the functions they define, as grading does, with the inputs that check() uses."
         ),
+        epilog=(
+            "Exit code: 0 when all tasks are passed, 1 when one is not, 2 when the notebook cannot "
+            "be checked."
+        ),
     )
     parser.add_argument("notebook", metavar="NOTEBOOK", type=Path)
-    parser.add_argument("--exercise", metavar="ID", help="where the notebook does not tell it")
+    parser.add_argument(
+        "--exercise", metavar="ID", help="where the notebook does not tell it, such as 04 or 4"
+    )
     parser.set_defaults(run=run)
 
 
 def run(arguments) -> int:
-    """Check; 0 when there is a verdict, 2 when the notebook cannot be read."""
+    """Check; 0 when all tasks are passed, 1 when one is not, 2 when it cannot be checked."""
     from slamlab.checks import OPEN_SEED, catalogue
     from slamlab.grading import judge, submissions
     from slamlab.grading.submissions import Submission, Unreadable
@@ -48,4 +54,4 @@ def run(arguments) -> int:
         print(say(task, verdict))
     earned = sum(verdict.points for verdict in result["verdicts"])
     print(f"{number(earned)} of {points(exercise.points)}")
-    return 0
+    return 0 if all(verdict.full for verdict in result["verdicts"]) else 1
