@@ -26,8 +26,9 @@ def add_parser(subparsers):
         description=(
             "Grade every notebook below FOLDER: flat files, STUDENT/EXERCISE folders, nbgrader's "
             "submitted/STUDENT/ASSIGNMENT, or a download from Moodle or Canvas. Writes grades.csv, "
-            "and a record and a feedback page per submission. Student code runs in processes of "
-            "its own, kept from this machine's files, network and processes."
+            "a feedback page per submission and a gradebook: started again, it goes on. Student "
+            "code runs in processes of its own, kept from this machine's files, network and "
+            "processes."
         ),
     )
     parser.add_argument("folder", metavar="FOLDER", type=Path, help="where the submissions are")
@@ -58,6 +59,16 @@ def add_parser(subparsers):
         "(Linux, as an ordinary user); none: only limits of time and memory, for notebooks you "
         "trust. Nothing is graded where the walls asked for cannot be had",
     )
+    parser.add_argument(
+        "--db",
+        metavar="URL",
+        help="the gradebook, a database that SQLAlchemy speaks to; default: DIR/grades.db, SQLite",
+    )
+    parser.add_argument(
+        "--regrade",
+        action="store_true",
+        help="grade again what the gradebook knows; points set by hand stay",
+    )
     parser.set_defaults(run=run)
 
 
@@ -65,6 +76,7 @@ def run(arguments) -> int:
     """Grade; 0 when every submission was graded or listed, 2 for wrong use or no isolation."""
     # imported late: what a help text needs should come at once
     from slamlab.grading import folder, isolation
+    from slamlab.grading.gradebook import Gradebook, NoGradebook
     from slamlab.grading.submissions import Unreadable
     from slamlab.grading.workers import Workers
 
@@ -76,12 +88,18 @@ def run(arguments) -> int:
         found, secret = folder.prepare(arguments.folder, arguments.out, arguments.secret)
         jobs = min(arguments.jobs, len(found))
         isolation.ensure(arguments.isolation)
-        with Workers(arguments.isolation) as workers, _asked_to_end_as_by_a_key():
+        with (
+            Gradebook(arguments.db or f"sqlite:///{arguments.out / 'grades.db'}") as book,
+            Workers(arguments.isolation) as workers,
+            _asked_to_end_as_by_a_key(),
+        ):
+            if arguments.regrade:
+                book.forget([submission.name for submission in found])
             graded = folder.grade_all(
-                found, secret, arguments.out, workers, arguments.exercise, jobs
+                found, secret, arguments.out, book, workers, arguments.exercise, jobs
             )
             records = _with_progress(graded, len(found))
-    except (Unreadable, isolation.Refused, KeyError) as error:
+    except (Unreadable, NoGradebook, isolation.Refused, KeyError) as error:
         print(f"slamlab grade: {error.args[0]}", file=sys.stderr)
         return 2
     except OSError as error:
@@ -134,7 +152,7 @@ def _table(records):
 def _closing(records, out):
     missing = sum(not record.graded for record in records)
     lost = f", {missing} could not be graded" if missing else ""
-    return f"{len(records) - missing} graded{lost}: {out / 'grades.csv'}, records/, feedback/"
+    return f"{len(records) - missing} graded{lost}: {out / 'grades.csv'}, grades.db, feedback/"
 
 
 def _line(text):

@@ -38,14 +38,17 @@ def prepare(folder: Path, out: Path, secret: Path | None = None):
     return found, judge.secret_from(secret or out / "secret", make=secret is None)
 
 
-def grade_all(found, secret: bytes, out: Path, workers, default=None, jobs=1):
+def grade_all(found, secret: bytes, out: Path, book, workers, default=None, jobs=1):
     """Grade submissions side by side; records come as they are done, already written.
+
+    What the gradebook knows is not graded again.
 
     Parameters
     ----------
     found : list of Submission
     secret : bytes
     out : Path
+    book : Gradebook
     workers : Workers
     default : str or None, the exercise of notebooks that do not tell it
     jobs : int, how many at once
@@ -54,20 +57,23 @@ def grade_all(found, secret: bytes, out: Path, workers, default=None, jobs=1):
     ------
     Record
     """
-    done, stop = [], threading.Event()
+    done, stop, known = [], threading.Event(), book.known()
     pool = ThreadPoolExecutor(jobs)
     try:
-        futures = [pool.submit(judge.grade, s, secret, workers, default, stop) for s in found]
+        futures = [
+            pool.submit(judge.grade, s, secret, workers, default, known, stop) for s in found
+        ]
         for future in as_completed(futures):
             record = future.result()
             done.append(record)
-            records.write_json(out, record)
+            if not record.failed:
+                book.add(record)
             feedback.write_page(out, record)
-            records.write_csv(out, done, tasks_of(done, default))
             yield record
     finally:
         stop.set()
         pool.shutdown(cancel_futures=True)
+        records.write_csv(out, done, tasks_of(done, default))
 
 
 def tasks_of(done, default=None):

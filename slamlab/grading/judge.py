@@ -13,6 +13,7 @@ from slamlab import __version__
 from slamlab.checks.drives import StudentError
 from slamlab.grading import submissions
 from slamlab.grading.client import Client
+from slamlab.grading.gradebook import key
 from slamlab.grading.records import Record
 from slamlab.grading.submissions import Submission, Unreadable
 from slamlab.grading.workers import CannotStart, Workers
@@ -51,7 +52,7 @@ def seed_for(secret: bytes, exercise_id: str, sha256: str) -> bytes:
 
 
 def grade(
-    submission: Submission, secret: bytes, workers: Workers, default=None, stop=None
+    submission: Submission, secret: bytes, workers: Workers, default=None, known=None, stop=None
 ) -> Record:
     """Grade a submission, whatever it is.
 
@@ -61,6 +62,7 @@ def grade(
     secret : bytes
     workers : Workers
     default : str or None, the exercise of notebooks that do not tell it
+    known : attempt's key to Record, which are not graded again; None for none
     stop : threading.Event or None; once it is set, nothing is waited for any more
 
     Returns
@@ -68,18 +70,22 @@ def grade(
     Record, with a reason where it could not be graded
     """
     names = {"submission": submission.name, "student": submission.student}
+    known = known or {}
     try:
         notebook = submissions.read(submission)
         names |= {"sha256": notebook.sha256, "notes": notebook.notes}
         exercise = submissions.exercise_of(submission, notebook, default)
-        names |= {"exercise": exercise.id}
         seed = seed_for(secret, exercise.id, notebook.sha256)
-        judged = judge(exercise, notebook.cells, seed, workers, stop)
-        return Record(**names, seed=seed.hex(), **judged)
-    except (Unreadable, CannotStart) as error:
+        names |= {"exercise": exercise.id, "seed": seed.hex()}
+        before = known.get(key(submission.name, notebook.sha256, names["seed"]))
+        return before or Record(**names, **judge(exercise, notebook.cells, seed, workers, stop))
+    except Unreadable as error:
         return Record(**names, reason=str(error))
+    except CannotStart as error:
+        return Record(**names, reason=str(error), failed=True)
     except Exception as error:  # a fault of the grader's own must not end the class
-        return Record(**names, reason=f"the grader failed: {type(error).__name__}: {error}")
+        reason = f"the grader failed: {type(error).__name__}: {error}"
+        return Record(**names, reason=reason, failed=True)
 
 
 def judge(exercise, cells, seed: bytes, workers: Workers, stop=None) -> dict:

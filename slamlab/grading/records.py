@@ -1,13 +1,12 @@
-"""What is known of each submission, written as soon as it is known."""
+"""What is known of each submission, and the table of grades."""
 
 import csv
 import hashlib
 import io
-import json
 import os
 import re
 import tempfile
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from slamlab.checks.report import number
@@ -34,6 +33,7 @@ class Record:
     versions : of what graded
     seconds : wall and CPU time [s] by stage
     titles : task id to title
+    failed : bool, whether it was the grader that failed: not kept, but tried again
     """
 
     submission: str
@@ -49,6 +49,7 @@ class Record:
     versions: dict[str, str] = field(default_factory=dict)
     seconds: dict[str, float] = field(default_factory=dict)
     titles: dict[str, str] = field(default_factory=dict)
+    failed: bool = False
 
     @property
     def graded(self):
@@ -86,16 +87,6 @@ class Record:
 
 def _broken(verdict):
     return "broken: " + ", ".join(law.name for law in verdict.laws if law.failed)
-
-
-def write_json(out: Path, record: Record):
-    """Write a record to ``out/records``."""
-    content = {"state": "graded" if record.graded else "not graded"}
-    content |= {"score": record.score, "max_score": record.max_score} | asdict(record)
-    titles = content.pop("titles")
-    content["tasks"] = [{"title": titles[v["task"]]} | v for v in content.pop("verdicts")]
-    text = json.dumps(content, indent=1, ensure_ascii=False)
-    write(out / "records" / f"{record.stem}.json", text)
 
 
 def write_csv(out: Path, records, tasks):

@@ -1,0 +1,145 @@
+"""The gradebook: what was graded stays, nothing stands twice, whatever the database."""
+
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from slamlab.checks.verdict import LawResult, Verdict
+from slamlab.grading.gradebook import Gradebook, NoGradebook
+from slamlab.grading.records import Record
+from tests.grading import fake
+from tests.grading.conftest import notebook
+
+LAW = LawResult("twice", "is twice as large", 0.0, 2.0, 3, 20)
+VERDICT = Verdict("99-double", 1.0, 3.0, (LAW,), "square", "you squared")
+ODD = "Zoë \0 \udce9 'quoted' \"twice\"\n=1+1"
+
+
+def record(name="anna.ipynb", sha="a" * 64, **more):
+    made = {"exercise": "99", "verdicts": (VERDICT,), "sha256": sha, "seed": "b" * 64}
+    made |= {"cells": {3: "ValueError: x"}, "notes": ("odd",), "titles": {"99-double": "Double"}}
+    return Record(name, "anna", **(made | more))
+
+
+def programs_of_postgres():
+    found = sorted(Path("/usr/lib/postgresql").glob("*/bin/initdb"))
+    at = shutil.which("initdb") or (found[-1] if found else None)
+    return Path(at).parent if at else None
+
+
+@pytest.fixture(scope="module")
+def postgres(tmp_path_factory):
+    """The URL of a server of PostgreSQL that runs for these tests."""
+    programs = programs_of_postgres()
+    if programs is None:
+        pytest.skip("no PostgreSQL server here (initdb not found)")
+    folder = tmp_path_factory.mktemp("postgres")
+    # it refuses to run as root
+    user = {"user": 65534, "group": 65534, "extra_groups": []} if os.geteuid() == 0 else {}
+    if user:
+        folder = Path("/tmp") / f"slamlab-postgres-{os.getpid()}"
+        folder.mkdir(mode=0o700)
+        os.chown(folder, 65534, 65534)
+    run = {"check": True, "capture_output": True, "cwd": "/", **user}
+    try:
+        subprocess.run(
+            [programs / "initdb", "-D", folder / "data", "-U", "me", "-A", "trust"], **run
+        )
+        options = f"-k {folder} -c listen_addresses= -c fsync=off"
+        control = [programs / "pg_ctl", "-D", folder / "data", "-w", "-l", folder / "log"]
+        subprocess.run([*control, "-o", options, "start"], **run)
+    except (OSError, subprocess.CalledProcessError) as error:
+        pytest.skip(f"PostgreSQL does not start here: {getattr(error, 'stderr', error)}")
+    yield f"postgresql+psycopg://me@/postgres?host={folder}"
+    subprocess.run([*control, "-m", "immediate", "stop"], **run)
+    shutil.rmtree(folder, ignore_errors=True)
+
+
+@pytest.fixture(params=["sqlite", "postgresql"])
+def book(request, tmp_path):
+    if request.param == "sqlite":
+        url = f"sqlite:///{tmp_path / 'grades.db'}"
+    else:
+        url = request.getfixturevalue("postgres")
+    with Gradebook(url) as opened:
+        opened.forget([r.submission for r in opened.latest()])
+        yield opened
+
+
+def test_what_goes_in_comes_out(book):
+    assert book.add(record())
+    assert book.latest() == [record()]
+    assert list(book.known().values()) == [record()]
+
+
+def test_the_same_content_with_the_same_inputs_stands_once(book):
+    assert [book.add(record()), book.add(record())] == [True, False]
+    assert len(book.known()) == 1
+
+
+def test_a_new_version_is_a_new_attempt_and_counts(book):
+    newer = record(sha="c" * 64, verdicts=())
+    book.add(record())
+    book.add(newer)
+    assert len(book.known()) == 2
+    assert book.latest() == [newer]
+
+
+def test_what_could_not_be_graded_is_known_by_its_reason(book):
+    unread = Record("b.ipynb", "b", reason="not a notebook")
+    book.add(unread)
+    book.add(unread)
+    assert book.latest() == [unread]
+
+
+def test_names_may_hold_anything(book):
+    book.add(record(ODD, cells={1: ODD}))
+    (found,) = book.latest()
+    assert found.submission.startswith("Zoë \\x00 \\udce9")
+    assert book.adjust(ODD, "99", "99-double", 2, ODD) is None
+    assert (found.submission, "99-double") in book.adjustments()
+
+
+def test_points_set_by_hand_outlive_grading_again(book):
+    book.add(record())
+    book.adjust("anna.ipynb", "99", "99-double", 2, "half right")
+    book.adjust("anna.ipynb", "99", "99-double", 2.5, "more than half")
+    book.forget(["anna.ipynb"])
+    assert book.latest() == []
+    assert book.adjustments()["anna.ipynb", "99-double"] == (2.5, "more than half")
+
+
+@pytest.mark.parametrize("url", ["nonsense", "sqlite:////nowhere/at/all.db", "oracle://x"])
+def test_a_database_that_cannot_be_opened_is_told_in_one_line(url):
+    with pytest.raises(NoGradebook, match="the gradebook cannot be opened") as told:
+        Gradebook(url)
+    assert "\n" not in str(told.value)
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(os.name != "posix", reason="signals of POSIX")
+def test_a_grader_killed_at_any_moment_loses_nothing_and_doubles_nothing(tmp_path):
+    folder, out = tmp_path / "class", tmp_path / "out"
+    folder.mkdir()
+    names = [f"s{i:02}_04.ipynb" for i in range(30)]
+    for i, name in enumerate(names):
+        (folder / name).write_text(notebook(f"x = {i}", fake.SOLUTION, exercise="04"))
+    start = "import sys; from slamlab.cli import main; sys.exit(main())"
+    command = [sys.executable, "-c", start, "grade", folder, "--out", out, "--isolation", "none"]
+    for kill in range(20):
+        grading = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        time.sleep(0.6 + 0.33 * kill)  # from before the first to long after
+        grading.send_signal(signal.SIGKILL)
+        grading.wait()
+    assert subprocess.run(command, stdout=subprocess.DEVNULL).returncode == 0
+    with Gradebook(f"sqlite:///{out / 'grades.db'}") as opened:
+        assert [r.submission for r in opened.latest()] == names
+        assert len(opened.known()) == len(names)
+    assert len((out / "grades.csv").read_text().splitlines()) == len(names) + 1
+    assert len(list((out / "feedback").iterdir())) == len(names)
