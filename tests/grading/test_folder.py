@@ -9,6 +9,7 @@ import stat
 import subprocess
 import sys
 import time
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -16,6 +17,7 @@ import pytest
 from slamlab.checks.verdict import LawResult, Verdict
 from slamlab.cli import main
 from slamlab.grading import feedback, jail, judge, records
+from slamlab.grading.gradebook import Gradebook
 from slamlab.grading.records import Record
 from tests.grading import fake
 from tests.grading.conftest import lacks, notebook, workers
@@ -32,6 +34,12 @@ def command(verb, *arguments):
 def table(out):
     with open(out / "grades.csv", encoding="utf-8", newline="") as file:
         return {row["submission"]: row for row in csv.DictReader(file)}
+
+
+def book(out):
+    """What the gradebook says of each submission."""
+    with Gradebook(f"sqlite:///{out / 'grades.db'}") as opened:
+        return {record.submission: record for record in opened.latest()}
 
 
 @pytest.fixture(scope="module")
@@ -83,8 +91,10 @@ def test_a_class_is_graded_and_everyone_is_listed(class_folder, tmp_path, capsys
         assert rows[name]["note"].startswith("could not be graded: ")
     said = capsys.readouterr().out
     assert "5 graded, 4 could not be graded" in said
-    assert len(list((out / "records").iterdir())) == len(list((out / "feedback").iterdir())) == 9
-    assert {path.name for path in out.iterdir()} == {"grades.csv", "records", "feedback", "secret"}
+    assert len(book(out)) == len(list((out / "feedback").iterdir())) == 9
+    assert {path.name for path in out.iterdir()} == {
+        "grades.csv", "grades.db", "feedback", "secret",
+    }  # fmt: skip
 
 
 def test_a_record_holds_what_defends_a_grade(class_folder, tmp_path):
@@ -92,41 +102,35 @@ def test_a_record_holds_what_defends_a_grade(class_folder, tmp_path):
     secret = tmp_path / "kept"
     secret.write_bytes(b"0123456789abcdef")
     command("grade", class_folder, "--out", out, "--secret", secret, "--exercise", "99")
-    found = {
-        content["submission"]: content
-        for content in (json.loads(p.read_text("utf-8")) for p in (out / "records").iterdir())
-    }
+    found = book(out)
     full, silent = found["full.ipynb"], found["silent.ipynb"]
-    assert (full["state"], full["score"], full["exercise"], full["student"]) == (
-        "graded", 6.5, "99", "full",
-    )  # fmt: skip
-    assert len(full["sha256"]) == 64
-    seed = judge.seed_for(b"0123456789abcdef", "99", full["sha256"])
-    assert full["seed"] == seed.hex()
-    assert set(full["versions"]) == {"slamlab", "python", "numpy", "sympy"}
-    assert full["isolation"] == workers().level
-    assert [task["task"] for task in full["tasks"]] == ["99-double", "99-turn", "99-total"]
-    assert [law["points"] for law in full["tasks"][0]["laws"]] == [1, 2]
-    assert set(full["seconds"]) == {"wall", "judge_cpu", "worker_cpu"}
-    assert silent["state"] == "graded"
-    assert found["cut.ipynb"]["state"] == "not graded"
-    assert found["cut.ipynb"]["score"] is None
+    assert (full.graded, full.score, full.exercise, full.student) == (True, 6.5, "99", "full")
+    assert len(full.sha256) == 64
+    assert full.seed == judge.seed_for(b"0123456789abcdef", "99", full.sha256).hex()
+    assert set(full.versions) == {"slamlab", "python", "numpy", "sympy"}
+    assert full.isolation == workers().level
+    assert [verdict.task for verdict in full.verdicts] == ["99-double", "99-turn", "99-total"]
+    assert [law.points for law in full.verdicts[0].laws] == [1, 2]
+    assert set(full.seconds) == {"wall", "judge_cpu", "worker_cpu"}
+    assert silent.graded
+    assert not found["cut.ipynb"].graded
+    assert found["cut.ipynb"].score is None
     assert not (out / "secret").exists()
 
 
 def test_grading_again_gives_the_same_and_a_new_secret_other_inputs(class_folder, tmp_path):
-    def seeds(out):
-        command("grade", class_folder, "--out", out)
-        paths = sorted((out / "records").iterdir())
-        found = [json.loads(path.read_text("utf-8")) for path in paths]
-        for content in found:
-            content.pop("seconds")
-        return found
+    def graded(out, *more):
+        command("grade", class_folder, "--out", out, *more)
+        return [replace(record, seconds={}) for record in book(out).values()]
 
-    first, again, other = (seeds(tmp_path / name) for name in ("a", "a", "b"))
+    first, again, other = (
+        graded(tmp_path / "a"),
+        graded(tmp_path / "a", "--regrade"),
+        graded(tmp_path / "b"),
+    )
     assert first == again
-    assert [r["seed"] for r in first] != [r["seed"] for r in other]
-    assert [r["score"] for r in first] == [r["score"] for r in other]
+    assert [r.seed for r in first] != [r.seed for r in other]
+    assert [r.score for r in first] == [r.score for r in other]
     if os.name == "posix":
         assert stat.S_IMODE((tmp_path / "a" / "secret").stat().st_mode) == 0o600
 
