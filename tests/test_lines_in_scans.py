@@ -67,6 +67,39 @@ def test_points_that_a_second_wall_wants_are_left_to_neither():
     assert 0.8 * low < nees(np.array(errors), np.array(P)).mean() < 1.2 * high
 
 
+def test_points_chosen_by_their_line_make_it_no_surer_than_it_is():
+    """A tight band moves with the line and keeps what agrees; R has to say what that costs."""
+    world, rng, errors, P = World([(2.0, -1.5, 2.0, 1.0)]), RNG(8), [], []
+    for _ in range(400):
+        scan = LIDAR.scan(world, np.zeros(3), rng)
+        best, *_ = lines(scan, LIDAR.model, rng, Ransac(sigmas=2.0))
+        errors.append(best.z - [2.0, 0.0])
+        P.append(best.R)
+    low, high = band(2, 400, 0.9999)
+    assert low < nees(np.array(errors), np.array(P)).mean() < high
+
+
+def test_a_wall_goes_on_behind_a_leg_but_not_across_a_door():
+    pillar = World([(2.0, -2.0, 2.0, 2.0)], [(0.8, 0.0, 0.1)])
+    door = World([(2.0, -2.0, 2.0, -0.4), (2.0, 0.4, 2.0, 2.0), (4.0, -2.0, 4.0, 2.0)])
+    for seed in range(5):
+        rng = RNG(seed)
+        found = lines(LIDAR.scan(pillar, np.zeros(3), rng), LIDAR.model, rng)
+        assert max(line.length for line in found) > 3.6
+        found = lines(LIDAR.scan(door, np.zeros(3), rng), LIDAR.model, rng)
+        assert sum(1.2 < line.length < 1.8 for line in found if line.z[0] < 3) == 2
+
+
+def test_a_wall_is_found_to_its_end_though_its_neighbour_wants_the_corner():
+    world, length = World(worlds.box((0, 0), (4.0, 3.0))), []
+    for seed in range(10):
+        rng = RNG(seed)
+        found = lines(LIDAR.scan(world, np.zeros(3), rng), LIDAR.model, rng)
+        assert len(found) == 4
+        length += [line.length for line in found]
+    assert np.sum(length) / 10 == pytest.approx(14, abs=0.4)
+
+
 def scans(name, count, seed=1):
     """Scans of a world from free places, with the poses they were taken from."""
     world, rng = worlds.by_name(name), np.random.default_rng(seed)

@@ -83,12 +83,16 @@ class WallSlam(Estimator):
     def walls(self):
         """(k, 4) the pieces of wall that were seen, doors left open: rows x1 y1 x2 y2 [m]."""
         rows = []
-        for i, (rho, alpha) in zip(self.filter.ids, self.filter.landmarks(), strict=True):
+        for i, (rho, alpha) in self._in_map().items():
             normal, way = (np.array([np.cos(a), np.sin(a)]) for a in (alpha, alpha + np.pi / 2))
             rows += [
                 [*(rho * normal + a * way), *(rho * normal + b * way)] for a, b in self.seen[i]
             ]
         return np.array(rows).reshape(-1, 4)
+
+    def _in_map(self):
+        """The walls of the filter as they are believed now: id to (ρ, α)."""
+        return dict(zip(self.filter.ids, self.filter.landmarks(), strict=True))
 
     def _associated(self, found):
         """Sightings of walls in the filter, as id to Line, and those of none."""
@@ -96,17 +100,13 @@ class WallSlam(Estimator):
             return {}, found
         z, R = (np.array([getattr(line, name) for line in found]) for name in "zR")
         d2 = squared_distances(self.filter, z, R)
-        ids, lines_of = (
-            self.filter.ids,
-            dict(zip(self.filter.ids, self.filter.landmarks(), strict=True)),
-        )
-        known, new = {}, []
+        walls, known, new = self._in_map(), {}, []
         for line, row in sorted(zip(found, d2, strict=True), key=lambda pair: pair[1].min()):
             ends = transform(self.filter.pose, line.ends)
             near = [
                 (distance, i)
-                for distance, i in zip(row, ids, strict=True)
-                if distance < DOUBT and overlap(_hull(self.seen[i]), stretch(lines_of[i], ends))
+                for distance, i in zip(row, walls, strict=True)
+                if distance < DOUBT and overlap(_hull(self.seen[i]), stretch(walls[i], ends))
             ]
             distance, i = min(near, default=(np.inf, None))
             if i is None:
@@ -130,11 +130,11 @@ class WallSlam(Estimator):
                 i = len(self.seen)
                 self.filter.add([i], line.z[None], line.R)
                 known[i], self.seen[i] = line, np.empty((0, 2))
-        lines_of = dict(zip(self.filter.ids, self.filter.landmarks(), strict=True))
+        walls = self._in_map()
         for i, line in known.items():
             r, beta = scan.ranges[line.beams], scan.angles[line.beams] + pose[2]
             hits = pose[:2] + r[:, None] * np.column_stack([np.cos(beta), np.sin(beta)])
-            along = hits @ [-np.sin(lines_of[i][1]), np.cos(lines_of[i][1])]
+            along = hits @ [-np.sin(walls[i][1]), np.cos(walls[i][1])]
             self.seen[i] = union(self.seen[i], pieces(along))
 
 

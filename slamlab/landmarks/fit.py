@@ -46,7 +46,7 @@ class Cloud:
     points : (n, 2) in the robot's frame, in the order of the beams [m]
     angles, ranges : (n,) [rad], [m]
     beams : (n,) int, each point's beam in the scan
-    total : int, beams of the scan
+    total : int, beams of a whole turn
     sensor : SensorModel
     floor : float, least standard deviation of a point: walls are not that flat [m]
     """
@@ -68,12 +68,11 @@ class Cloud:
         Noise grows with the range, so it is taken at the range where the beam meets the line: at
         the measured one, what happens to be too short would count for more.
         """
-        s, turn = self.sensor, self.angles[rows] - alpha
-        c2 = np.cos(turn) ** 2
+        c = np.cos(self.angles[rows] - alpha)
         # a beam along the line, or from behind it, meets it nowhere near
-        r = np.clip(rho / np.maximum(np.cos(turn), 1e-3), 0, 1.2 * self.ranges[rows])
-        along = (s.range_error * r) ** 2 + s.range_sigma**2
-        return along * c2 + (s.bearing_sigma * r) ** 2 * (1 - c2) + self.floor**2
+        r = np.minimum(max(rho, 0.0) / np.maximum(c, 1e-3), 1.2 * self.ranges[rows])
+        along, across = self.sensor.sigma(r), self.sensor.bearing_sigma * r
+        return (along * c) ** 2 + across**2 * (1 - c * c) + self.floor**2
 
 
 def cloud(scan, sensor, floor=0.002):
@@ -91,7 +90,9 @@ def cloud(scan, sensor, floor=0.002):
     """
     beams = np.flatnonzero(scan.valid)
     angles, ranges = scan.angles[beams], scan.ranges[beams]
-    return Cloud(scan.points(), angles, ranges, beams, len(scan.ranges), sensor, floor)
+    steps = np.abs(np.diff(scan.angles))
+    total = max(len(scan.angles), round(2 * np.pi / steps.mean()) if len(steps) else 1)
+    return Cloud(scan.points(), angles, ranges, beams, total, sensor, floor)
 
 
 def total_least_squares(points):
@@ -111,16 +112,18 @@ def total_least_squares(points):
     return _outward(centre[0] * np.cos(alpha) + centre[1] * np.sin(alpha), alpha)
 
 
-def fit(cloud, rows):
+def fit(cloud, rows, start=None, rounds=ROUNDS):
     """The likeliest line through some points of a scan, each weighed by its own noise.
 
-    From total least squares by Gauss and Newton. A point errs along its beam, so it slides along a
-    slanting wall as it leaves it; where on the wall it belongs its beam tells, not its range.
+    By Gauss and Newton. A point errs along its beam, so it slides along a slanting wall as it
+    leaves it; where on the wall it belongs its beam tells, not its range.
 
     Parameters
     ----------
     cloud : Cloud
     rows : (n,) int, at least two
+    start : (2,) ρ, α to begin with, by default that of total least squares
+    rounds : int, at least one
 
     Returns
     -------
@@ -128,8 +131,8 @@ def fit(cloud, rows):
     R : (2, 2) its covariance, the inverse of Σ J Jᵀ / σ² with J = [1, −t]
     """
     points, angles = cloud.points[rows], cloud.angles[rows]
-    rho, alpha = total_least_squares(points)
-    for _ in range(ROUNDS):
+    rho, alpha = total_least_squares(points) if start is None else start
+    for _ in range(rounds):
         c, s = np.cos(alpha), np.sin(alpha)
         weights = 1 / cloud.variance(rows, rho, alpha)
         off, t = points @ [c, s] - rho, points @ [-s, c]

@@ -8,13 +8,13 @@ default the band is the noise's own, and a wall grows from its first points alon
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.special import gammainc
 
 from slamlab.landmarks.fit import Line, cloud, fit, total_least_squares
 
-MOST_MISSES = 25  # guesses in a row that show no wall
+MOST_MISSES = 40  # guesses in a row that show no wall
 GROWTHS = 8  # rounds of growing at most; a wall grows to its ends in three or four
-EDGE = 0.2  # m, beyond its ends a wall still claims points
-FAR_APART = 2  # beams: far readings of a wall seen at a slant are metres apart, yet neighbours
+EMPTY = 3  # empty beams in a row that happen by chance; more are a view into nothing
 
 
 @dataclass(frozen=True)
@@ -29,7 +29,8 @@ class Ransac:
     sigmas : float
     roughness : float, largest mean square residual in units of its variance, when band is None
     grow : bool, whether the wall goes on beyond the window
-    gap : float, largest hole in a wall that grows [m]
+    gap : float, widest hole of a wall that grows, if a beam goes through it [m]
+    hidden : float, widest piece of a wall that things before it may hide [m]
     shortest : float, least length of a wall [m]
     """
 
@@ -40,6 +41,7 @@ class Ransac:
     roughness: float = 1.6
     grow: bool = True
     gap: float = 0.4
+    hidden: float = 1.0
     shortest: float = 0.3
 
     def __post_init__(self):
@@ -78,99 +80,116 @@ def lines(scan, sensor, rng, ransac=None):
             continue
         misses = 0
         free[rows] = False
-        if line.length >= ransac.shortest:
-            found.append((line, rows))
+        found.append((line, rows))
+    found.sort(key=lambda pair: -len(pair[1]))
     if ransac.grow:
-        found = _settled(points, found, ransac)
-    return [line for line, _ in sorted(found, key=lambda pair: -len(pair[1]))]
+        walls = _settled(points, found, ransac)
+    else:
+        walls = [_line(points, line, rows, rows, ransac) for line, rows in found]
+    return [wall for wall in walls if wall.length >= ransac.shortest]
 
 
 def _guess(points, free, rng, ransac):
-    """A wall round a random point and the rows on it, or two None."""
+    """A line (ρ, α) round a random point and the rows on it, or two None."""
     rows = np.flatnonzero(free)
     middle = rng.integers(len(rows))
     # readings are neighbours round the whole turn
-    window = rows[(middle + np.arange(ransac.window) - ransac.window // 2) % len(rows)]
-    inside = window[_inside(points, window, total_least_squares(points.points[window]), ransac)]
-    if len(inside) >= ransac.needed and ransac.grow:
-        inside = _grown(points, rows, middle, inside, ransac)
-    if len(inside) < ransac.needed:
+    rows = rows[(middle + np.arange(ransac.window) - ransac.window // 2) % len(rows)]
+    middle, line = rows[ransac.window // 2], total_least_squares(points.points[rows])
+    off, band = _off(points, rows, line, ransac)
+    rows = rows[np.abs(off) <= band]
+    for _ in range(GROWTHS if ransac.grow else 0):
+        if len(rows) < ransac.needed:
+            break
+        before, (line, _) = rows, fit(points, rows, line, rounds=1)
+        rows = _reached(points, free, line, middle, ransac)
+        if np.array_equal(rows, before):
+            break
+    if len(rows) < ransac.needed:
         return None, None
-    line = _line(points, inside)
-    if ransac.band is None and _roughness(points, inside, line.z) > ransac.roughness:
-        return None, None
-    return line, inside
+    if ransac.band is None:
+        off, band = _off(points, rows, line, ransac)
+        if np.mean((off / band) ** 2) * ransac.sigmas**2 > ransac.roughness:
+            return None, None
+    return line, rows
 
 
-def _inside(points, rows, line, ransac):
-    """Which of some points lie in the band round a line (ρ, α)."""
-    rho, alpha = line
-    off = np.abs(points.points[rows] @ [np.cos(alpha), np.sin(alpha)] - rho)
-    if ransac.band is not None:
-        return off <= ransac.band
-    return off <= ransac.sigmas * np.sqrt(points.variance(rows, rho, alpha))
-
-
-def _roughness(points, rows, line):
-    """Mean square distance of points from their line, in units of its variance."""
+def _off(points, rows, line, ransac):
+    """How far points are off a line (ρ, α), outward, and how far they may be: (k,), (k,) [m]."""
     rho, alpha = line
     off = points.points[rows] @ [np.cos(alpha), np.sin(alpha)] - rho
-    return np.mean(off**2 / points.variance(rows, rho, alpha))
+    if ransac.band is not None:
+        return off, np.full(len(off), ransac.band)
+    return off, ransac.sigmas * np.sqrt(points.variance(rows, rho, alpha))
 
 
-def _grown(points, rows, middle, inside, ransac):
-    """The wall both ways from its middle as far as no hole interrupts it; fitted anew each time."""
-    turned = np.roll(rows, len(rows) // 2 - middle)  # the middle of the scan is the wall's
-    for _ in range(GROWTHS):
-        before, (line, _) = inside, fit(points, inside)
-        way = np.array([-np.sin(line[1]), np.cos(line[1])])
-        on = turned[_inside(points, turned, line, ransac)]
-        along, start = points.points[on] @ way, points.points[rows[middle]] @ way
-        holes = (np.abs(np.diff(along)) > ransac.gap) & (_apart(points, on) > FAR_APART)
-        pieces = np.split(np.arange(len(on)), np.flatnonzero(holes) + 1)
-        nearest = [np.abs(along[piece] - start).min() if len(piece) else np.inf for piece in pieces]
-        inside = on[pieces[int(np.argmin(nearest))]]
-        if len(inside) < ransac.needed or np.array_equal(inside, before):
-            break
-    return inside
+def _reached(points, free, line, middle, ransac):
+    """The free points on a line both ways from a middle one, in the order of the beams.
+
+    The wall ends where beams go through it. Where something stands before it, or nothing came
+    back, it may go on.
+    """
+    beams = points.beams
+    opposite = np.searchsorted(beams, (beams[middle] + points.total // 2) % points.total)
+    order = np.roll(np.arange(len(points)), -opposite)  # no wall reaches round the robot to there
+    off, band = _off(points, order, line, ransac)
+    on = np.flatnonzero((np.abs(off) <= band) & free[order])
+    if not len(on):
+        return on
+    along = points.points[order] @ [-np.sin(line[1]), np.cos(line[1])]
+    through = off > band
+    through[1:] |= np.diff(beams[order]) % points.total > EMPTY + 1
+    seen_through = np.diff(np.cumsum(through)[on]) > 0
+    apart = np.abs(np.diff(along[on]))
+    neighbours = np.diff(on) == 1
+    holes = seen_through & (apart > ransac.gap) | ~neighbours & (apart > ransac.hidden)
+    ends = np.flatnonzero(holes)
+    nearest = np.abs(on - (middle - opposite) % len(points)).argmin()
+    k = np.searchsorted(ends, nearest)
+    first = ends[k - 1] + 1 if k else 0
+    last = ends[k] + 1 if k < len(ends) else len(on)
+    return order[on[first:last]]
 
 
 def _settled(points, found, ransac):
-    """The walls without the points that may be another's: near a corner, two walls want them.
+    """The walls, each fitted without points that may be another's.
 
-    Who came first has taken some of its neighbour's points, always on the same side, and is turned
-    by them in every scan alike; that error would never average out.
+    Near a corner two walls want the same points. Who took them first would be turned by them, in
+    every scan alike; that error would never average out. So they tell where a wall ends, but not
+    how it stands. What wants hardly a point of its own is a wall that was found before.
     """
-    if len(found) < 2:
-        return found
-    off = np.full((len(found), len(points)), np.inf)
-    for row, (line, _) in zip(off, found, strict=True):
-        rho, alpha = line.z
-        way = np.array([-np.sin(alpha), np.cos(alpha)])
-        low, high = line.ends @ way
-        along = points.points @ way
-        near = np.flatnonzero((along > low - EDGE) & (along < high + EDGE))
-        across = points.points[near] @ [np.cos(alpha), np.sin(alpha)] - rho
-        row[near] = across**2 / points.variance(near, rho, alpha)
-    wanted = off <= ransac.sigmas**2
-    settled = []
-    for mine in wanted & (wanted.sum(axis=0) == 1):
-        rows = np.flatnonzero(mine)
-        if len(rows) >= ransac.needed:
-            settled.append((_line(points, rows), rows))
-    return settled
+    everyone, kept, wanted = np.ones(len(points), dtype=bool), [], []
+    for line, rows in found:
+        mine = np.zeros(len(points), dtype=bool)
+        mine[_reached(points, everyone, line, rows[len(rows) // 2], ransac)] = True
+        if np.count_nonzero(mine & ~np.any(wanted, axis=0)) >= ransac.needed:
+            kept.append(line)
+            wanted.append(mine)
+    once = np.sum(wanted, axis=0) == 1
+    return [
+        _line(points, line, np.flatnonzero(mine & once), np.flatnonzero(mine), ransac)
+        for line, mine in zip(kept, wanted, strict=True)
+        if np.count_nonzero(mine & once) >= ransac.needed
+    ]
 
 
-def _apart(points, rows):
-    """Beams between a reading and the next of some, round the turn."""
-    steps = np.abs(np.diff(points.beams[rows]))
-    return np.minimum(steps, points.total - steps)
-
-
-def _line(points, rows):
-    z, R = fit(points, rows)
+def _line(points, start, rows, extent, ransac):
+    """A wall by the rows that are its own, as far as the points of its extent go."""
+    z, R = fit(points, rows, start, rounds=2)
     rho, alpha = z
     normal, way = (np.array([np.cos(a), np.sin(a)]) for a in (alpha, alpha + np.pi / 2))
-    along = points.points[rows] @ way
+    along = points.points[extent] @ way
     ends = rho * normal + np.outer([along.min(), along.max()], way)
+    if ransac.band is None:
+        R = R * _cost_of_choice(ransac.sigmas)
     return Line(z, R, ends, points.beams[np.sort(rows)])
+
+
+def _cost_of_choice(c):
+    """By how much choosing its points makes a fit worse: P(χ²₁ < c²) / P(χ²₃ < c²).
+
+    The band of c σ goes with the line, so the points it gains on one side and loses on the other
+    pull the line further to where it errs. As for every Σ ψ(e/σ) = 0 the variance is that of ψ over
+    the square of its mean slope; for ψ(e) = e in the band both are P(|e| < c) − 2 c φ(c).
+    """
+    return gammainc(0.5, c * c / 2) / gammainc(1.5, c * c / 2)
