@@ -29,6 +29,12 @@ def add_parser(subparsers):
     )
     parser.add_argument("--out", metavar="DIR", type=Path, help="a folder for the results")
     parser.add_argument(
+        "--tum",
+        metavar="FILE",
+        type=Path,
+        help="where to write the trajectory as TUM text, which evo reads",
+    )
+    parser.add_argument(
         "--relations",
         metavar="FILE",
         help="trusted relative poses to judge by, lines of t1 t2 x y z roll pitch yaw",
@@ -52,10 +58,14 @@ def run(arguments) -> int:
             estimator = estimators.make(arguments.estimator, source)
             if arguments.out is not None:
                 arguments.out.mkdir(parents=True, exist_ok=True)
+            if arguments.tum is not None:
+                arguments.tum.touch()
             result = _with_progress(source, estimator)
         summary = summarise(result, arguments.estimator, relations)
         if arguments.out is not None:
             write(result, summary, arguments.out)
+        if arguments.tum is not None:
+            evaluation.save_tum(result.trajectory, arguments.tum)
     except OSError as error:
         where = error.filename or arguments.out
         what = "a file, not a folder" if isinstance(error, FileExistsError) else error.strerror
@@ -68,6 +78,8 @@ def run(arguments) -> int:
     print(f"{result.skipped} of {result.frames} readings skipped{damage_line(source)}")
     if arguments.out is not None:
         print(f"written to {arguments.out}: trajectory.csv, map.png, summary.json")
+    if arguments.tum is not None:
+        print(f"written to {arguments.tum}: the trajectory as TUM text")
     return 0
 
 

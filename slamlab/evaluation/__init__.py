@@ -4,6 +4,7 @@ from slamlab.evaluation.consistency import Consistency, band, consistency, nees,
 from slamlab.evaluation.correlation import correlation
 from slamlab.evaluation.relations import Relations, RelationsError, load_relations, relations_error
 from slamlab.evaluation.trajectory import TrajectoryError, absolute_error, relative_error
+from slamlab.evaluation.tum import load_tum, save_tum
 from slamlab.evaluation.walls import found_metres, seen_metres
 
 __all__ = [
@@ -17,9 +18,11 @@ __all__ = [
     "correlation",
     "found_metres",
     "load_relations",
+    "load_tum",
     "nees",
     "nis",
     "relations_error",
     "relative_error",
+    "save_tum",
     "seen_metres",
 ]
