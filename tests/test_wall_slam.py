@@ -99,6 +99,16 @@ def test_a_leg_across_the_seam_of_a_turn_is_one_spike():
     assert abs(wrap(z[1] - angles[0])) < 1e-9
 
 
+def test_empty_beams_make_no_spikes_and_a_leg_before_an_open_view_is_one():
+    angles = np.linspace(-np.pi, np.pi, 400, endpoint=False)
+    smooth, open_view = np.full(400, 3.0), np.full(400, np.nan)
+    smooth[[50, 53, 60, 61, 64, 65]] = np.nan
+    assert len(spikes(Scan(angles, smooth)).z) == 0
+    open_view[100:104] = 1.5
+    ((r, bearing),) = spikes(Scan(angles, open_view)).z
+    assert r == 1.5 and bearing == pytest.approx(angles[100:104].mean())
+
+
 def test_corners_stand_where_walls_meet_and_err_as_they_say():
     world, errors, P = worlds.situation_2(), [], []
     rng = np.random.default_rng(3)

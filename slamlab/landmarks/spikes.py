@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from slamlab.geometry import wrap
 from slamlab.readings import Observations
 
 
@@ -22,21 +23,24 @@ def spikes(scan, jump=0.5, widest=0.25):
     Observations without ids: range [m] and bearing [rad] of each
     """
     valid = scan.valid
-    far = np.where(valid, scan.ranges, np.inf)  # nothing came back: as far as one can tell, free
-    before = np.roll(far, 1)
-    falls = valid & (before - far > jump)
-    whole_turn = np.isclose(np.diff(scan.angles).mean() * len(far), 2 * np.pi, rtol=1e-3)
+    # one empty beam is chance and says nothing; one among empty ones looks into the open
+    open_view = ~(valid | np.roll(valid, 1) | np.roll(valid, -1))
+    beams = np.flatnonzero(valid | open_view)
+    far = np.where(valid, scan.ranges, np.inf)[beams]
+    step = abs(np.diff(scan.angles).mean())
+    whole_turn = np.isclose(step * len(valid), 2 * np.pi, rtol=1e-3)
+    falls = np.roll(far, 1) > far + jump
     found = []
     for start in np.flatnonzero(falls):
         rows = _object(far, start, jump, whole_turn)
         if rows is None or (start == 0 and not whole_turn):
             continue
-        r = far[rows].mean()
+        r, first, last = far[rows].mean(), beams[rows[0]], beams[rows[-1]]
         # as many steps apart as beams: safe where the object lies across the seam of a turn
-        width = r * abs(np.diff(scan.angles).mean()) * len(rows)
-        if width <= widest:
-            middle = scan.angles[rows[len(rows) // 2]] if len(rows) % 2 else _between(scan, rows)
-            found.append((r, middle))
+        across = step * ((last - first) % len(valid) + 1)
+        if r * across <= widest:
+            turn = wrap(scan.angles[last] - scan.angles[first])
+            found.append((r, wrap(scan.angles[first] + turn / 2)))
     z = np.array(found).reshape(-1, 2)
     return Observations(z, np.full(len(z), -1))
 
@@ -55,9 +59,3 @@ def _object(far, start, jump, whole_turn):
             return None  # something stands before it: its own spike, perhaps
         rows.append(here % n)
     return None
-
-
-def _between(scan, rows):
-    """The bearing between the two middle beams."""
-    first, second = scan.angles[rows[len(rows) // 2 - 1]], scan.angles[rows[len(rows) // 2]]
-    return np.angle(np.exp(1j * first) + np.exp(1j * second))
