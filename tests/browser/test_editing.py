@@ -53,6 +53,18 @@ def test_a_corner_that_is_dragged_moves_both_walls_in_python_and_undo_moves_them
     editor.until_drawn(picture)
 
 
+def test_a_point_that_was_dragged_is_moved_on_by_keys_that_the_notebook_would_take(editor):
+    drag(editor, "corner of walls 2, 3", -61, 43)
+    editor.until("2.0 -1.0 2.0 1.0\n", there=False)
+    walls, _ = editor.kernel()
+    x, y = walls[1][2:]
+    drag(editor, "corner of walls 2, 3", 0, 0)
+    editor.page.keyboard.press("ArrowDown")
+    editor.until(f"2.0 -1.0 {x!r} {round(y - 0.05, 6)!r}\n")
+    editor.page.keyboard.press("Control+z")
+    editor.until(f"2.0 -1.0 {x!r} {y!r}\n")
+
+
 def test_with_shift_a_point_is_put_between_the_lines_of_the_grid(editor):
     drag(editor, "centre of circle 1", -14, 9, keys=["Shift"])
     editor.until("1.0 0.5 0.2", there=False)

@@ -73,8 +73,6 @@ function render({ model, el }) {
   sheet.setAttribute("aria-label", "points that can be moved");
   status.setAttribute("role", "status");
   status.className = "slamlab-board-status";
-  // the notebook would take the arrow keys for itself
-  root.dataset.lmSuppressShortcuts = "true";
   sheet.append(canvas);
   root.append(sheet, status);
   el.append(root);
@@ -130,6 +128,8 @@ function render({ model, el }) {
 
   const handle = (ends) => {
     const button = element("button", {}, { className: "slamlab-handle", type: "button" });
+    // the notebook would take the arrow keys for itself
+    button.dataset.lmSuppressShortcuts = "true";
     const made = { button, ends };
     let edit = 0, last = 0;
     button.addEventListener("pointerdown", (event) => {
