@@ -1,28 +1,26 @@
-"""Scan matching against the thesis' way: nearest neighbours refitted in every round."""
+"""Scan matching against the thesis' way, and against small_gicp and Open3D where they are."""
 
 import sys
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
 
-from benchmarks.common import Missing, cpu_times, main, row, speed_rows
+from benchmarks import icp_peers
+from benchmarks.common import cpu_times, main, row, speed_rows
 from slamlab.geometry import between, transform
-from slamlab.scanmatching import point_to_line, point_to_point, rigid_fit
+from slamlab.scanmatching import match, point_to_line, point_to_point, rigid_fit, surface
+from slamlab.sensors import RPLIDAR_A2
 from slamlab.sources.simulation import POLYGON_WRONG_STEPS, simulation, turn_then_drive
 
 TITLE = "Scan matching on the polygon, wrong odometry as the guess (CPU time, methods taking turns)"
 TOLERANCE = 1e-6  # the thesis' 0.001 mm
-
-
-def sklearn_neighbours():
-    """scikit-learn's NearestNeighbors, which only this benchmark needs."""
-    try:
-        from sklearn.neighbors import NearestNeighbors
-    except ImportError:
-        raise Missing(
-            "compares with scikit-learn, which is not here: python -m pip install scikit-learn"
-        ) from None
-    return NearestNeighbors
+NOISE, HARD = 0.0075, 0.01  # of the range: the lidar's data sheet, and Smolec's
+TIGHT, FOUND = (0.015, np.radians(0.5)), (0.05, np.radians(2))  # [m, rad]
+BASINS = {  # turns [°] and ways [m] of the guess from the truth
+    "0–45°, 0–0.6 m": ((0, 15, 30, 45), (0.0, 0.2, 0.4, 0.6)),
+    "60–90°, 0–1 m": ((60, 75, 90), (0.0, 0.33, 0.67, 1.0)),
+}
 
 
 def thesis_way(neighbours, source, target, guess):
@@ -38,11 +36,12 @@ def thesis_way(neighbours, source, target, guess):
     return rigid_fit(source, moved)
 
 
-def problems(count):
+def problems(count, noise=NOISE):
     """Pairs of scans with their guess and true motion: (source, target, guess, true)."""
     guesses, found = turn_then_drive(POLYGON_WRONG_STEPS), []
+    lidar = replace(RPLIDAR_A2, range_error=noise)
     for seed in range(count):
-        run = simulation("polygon-wrong", np.random.default_rng(seed))
+        run = simulation("polygon-wrong", np.random.default_rng(seed), lidar)
         clouds = [reading.scan.points() for reading in run]
         poses = run.truth.poses
         for i, guess in enumerate(guesses):
@@ -51,27 +50,56 @@ def problems(count):
     return found
 
 
+def errors(method, cases):
+    """(n, 2) distance and turn of a method's poses from the true ones [m, rad]."""
+    e = np.array([between(true, method(*clouds, guess)) for *clouds, guess, true in cases])
+    return np.column_stack([np.hypot(e[:, 0], e[:, 1]), np.abs(e[:, 2])])
+
+
+def share(found, limits):
+    """Share of errors within limits [1]."""
+    return float((found < limits).all(axis=1).mean())
+
+
 def run(quick):
-    """Rows of time and of error."""
-    cases = problems(2 if quick else 10)
+    """Rows of time, of error, of success, and of the basin."""
     methods = {
-        "thesis' way": partial(thesis_way, sklearn_neighbours()),
+        "thesis' way": partial(thesis_way, icp_peers.sklearn_neighbours()),
         "point to point": lambda *case: point_to_point(*case, tolerance=TOLERANCE).pose,
         "point to line": lambda *case: point_to_line(*case).pose,
+        "match": lambda *case: match(*case).pose,
+        **icp_peers.peers(),
     }
-    errors = {
-        name: np.array([between(true, match(*clouds, guess)) for *clouds, guess, true in cases])
-        for name, match in methods.items()
-    }
-    np.testing.assert_allclose(errors["point to point"], errors["thesis' way"], atol=1e-3)
-    calls = {name: partial(each, match, cases[:3]) for name, match in methods.items()}
-    times = {name: t / 3 for name, t in cpu_times(calls, quick, seconds=12.0).items()}
-    rows = speed_rows("a match", times)
-    for label, size, unit, scale in (
-        ("position error", lambda e: np.hypot(e[:, 0], e[:, 1]), "mm", 1e3),
-        ("heading error", lambda e: np.abs(e[:, 2]), "deg", np.degrees(1)),
+    cases = problems(4 if quick else 30)
+    found = {name: errors(method, cases) for name, method in methods.items()}
+    np.testing.assert_allclose(found["point to point"], found["thesis' way"], atol=1e-3)
+    return [
+        *of_time(methods, cases[:6], quick),
+        *of_error(found),
+        *of_success(methods, quick),
+        *of_basin(methods, problems(4), quick),
+    ]
+
+
+def of_time(methods, cases, quick):
+    """CPU time of a match; of ``match`` also with both clouds made ready before, as SLAM has it."""
+    ready = [(surface(source), surface(target), *rest) for source, target, *rest in cases]
+    calls = {name: partial(each, method, cases) for name, method in methods.items()}
+    calls["match, clouds made ready"] = partial(each, methods["match"], ready)
+    times = cpu_times(calls, quick, seconds=20.0)
+    times = {name: t / len(cases) for name, t in times.items()}
+    peers = [("match", name) for name in methods if name not in ("thesis' way", "match")]
+    return speed_rows("a match", times, peers)
+
+
+def of_error(found):
+    """Median errors of position and of heading."""
+    rows = []
+    for label, column, unit, scale in (
+        ("position error", 0, "mm", 1e3),
+        ("heading error", 1, "deg", np.degrees(1)),
     ):
-        median = {name: scale * np.median(size(e)) for name, e in errors.items()}
+        median = {name: scale * np.median(e[:, column]) for name, e in found.items()}
         reference = median["thesis' way"]
         rows += [
             row(f"{label}: {name}", m, unit, "thesis' way", reference / m)
@@ -80,10 +108,54 @@ def run(quick):
     return rows
 
 
-def each(match, cases):
+def of_success(methods, quick):
+    """Shares of results within 15 mm and 0.5° at 1 % noise."""
+    cases = problems(7 if quick else 200, HARD)
+    shares = {"match": share(errors(methods["match"], cases), TIGHT)}
+    few = cases[: 21 if quick else 60]
+    shares["thesis' way"] = share(errors(methods["thesis' way"], few), TIGHT)
+    return [
+        row(f"tight at 1 % noise: {name}", 100 * s, "%", "all", s) for name, s in shares.items()
+    ]
+
+
+def of_basin(methods, cases, quick):
+    """Shares of guesses far off that lead home, and what such a match costs beside a near one."""
+    tried = {
+        "point to point": methods["point to point"],
+        "match, no search": lambda *case: match(*case, search=0).pose,
+        "match": methods["match"],
+        "match, search asked for": lambda *case: match(*case, search=np.pi).pose,
+    }
+    rows = []
+    for label, (turns, ways) in BASINS.items():
+        far = astray(cases, turns, ways, 1 if quick else 12)
+        for name, method in tried.items():
+            home = share(errors(method, far), FOUND)
+            rows.append(row(f"basin {label}: {name}", 100 * home, "%", "all", home))
+        calls = {name: partial(each, tried[name], far[:24]) for name in ("match", *tried)}
+        times = {name: t / 24 for name, t in cpu_times(calls, quick, seconds=6.0).items()}
+        rows += speed_rows(f"basin {label}", times)
+    return rows
+
+
+def astray(cases, turns, ways, each_cell):
+    """Problems with guesses that far off the truth, to either side and in any direction."""
+    rng, found = np.random.default_rng(0), []
+    for turn in np.radians(turns):
+        for way in ways:
+            for k in rng.integers(len(cases), size=each_cell):
+                source, target, _, true = cases[k]
+                where = rng.uniform(-np.pi, np.pi)
+                off = [way * np.cos(where), way * np.sin(where), rng.choice([-turn, turn])]
+                found.append((source, target, true + off, true))
+    return [found[i] for i in rng.permutation(len(found))]
+
+
+def each(method, cases):
     """Match every case once."""
     for source, target, guess, _ in cases:
-        match(source, target, guess)
+        method(source, target, guess)
 
 
 if __name__ == "__main__":

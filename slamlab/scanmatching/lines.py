@@ -3,9 +3,9 @@
 import numpy as np
 
 from slamlab.geometry import transform, wrap
-from slamlab.scanmatching.match import Match, Round, checked, limits
 from slamlab.scanmatching.nearest import Nearest
 from slamlab.scanmatching.normals import normals
+from slamlab.scanmatching.result import Match, Round, checked, limits
 
 STILL = "the steps are below the tolerance"
 LOST = "too few pairs agree: too little overlap or too poor a first guess"

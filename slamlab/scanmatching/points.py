@@ -3,8 +3,8 @@
 import numpy as np
 
 from slamlab.geometry import compose, transform
-from slamlab.scanmatching.match import Match, Round, checked, limits
 from slamlab.scanmatching.nearest import Nearest
+from slamlab.scanmatching.result import Match, Round, checked, limits
 
 
 def rigid_fit(source, target):

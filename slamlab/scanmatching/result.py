@@ -63,10 +63,16 @@ def checked(source, target, initial):
     ------
     ValueError : what is wrong with which of them
     """
+    initial = checked_pose(initial)
+    return cloud(source, "source"), cloud(target, "target"), initial
+
+
+def checked_pose(initial):
+    """The first guess as a float array (3,) of its own; ValueError where it is no finite pose."""
     initial = np.array(initial, dtype=float)
     if initial.shape != (3,) or not np.isfinite(initial).all():
         raise ValueError(f"initial must be a finite pose [x, y, theta], got {initial.tolist()}")
-    return cloud(source, "source"), cloud(target, "target"), initial
+    return initial
 
 
 def cloud(points, name):

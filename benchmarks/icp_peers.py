@@ -1,0 +1,109 @@
+"""Other people's scan matchers, set to their best in the plane, where they are installed."""
+
+import sys
+
+import numpy as np
+
+from benchmarks.common import Missing
+from slamlab.geometry import from_matrix
+from slamlab.scanmatching import normals
+
+FAR = 1.0  # longest pair [m]; with less, their basins are narrower
+ROUNDS = 100
+
+
+def sklearn_neighbours():
+    """scikit-learn's NearestNeighbors, which the thesis' way needs."""
+    try:
+        from sklearn.neighbors import NearestNeighbors
+    except ImportError:
+        raise Missing(
+            "compares with scikit-learn, which is not here: python -m pip install scikit-learn"
+        ) from None
+    return NearestNeighbors
+
+
+def peers():
+    """{name: method(source, target, guess) -> pose} of those that are here; the others are named
+    on the error stream."""
+    found = {}
+    for package, methods in (("small_gicp", small_gicp), ("open3d", open3d)):
+        try:
+            found |= methods()
+        except ImportError as error:
+            print(f"left out: {package}: {error}: python -m pip install {package}", file=sys.stderr)
+    return found
+
+
+def small_gicp():
+    """small_gicp's ICP and GICP; its own normals need a third dimension: no point to line."""
+    import small_gicp as package
+
+    def method(kind):
+        def matched(source, target, guess):
+            result = package.align(
+                solid(target),
+                solid(source),
+                matrix_of(guess),
+                registration_type=kind,
+                max_correspondence_distance=FAR,
+                downsampling_resolution=1e-3,
+                num_threads=1,
+                max_iterations=ROUNDS,
+            )
+            return planar(result.T_target_source)
+
+        return matched
+
+    return {"small_gicp ICP": method("ICP"), "small_gicp GICP": method("GICP")}
+
+
+def open3d():
+    """Open3D's ICP, point to point and, with our normals, point to line."""
+    from open3d import geometry, utility
+    from open3d.pipelines import registration
+
+    def cloud(points, with_normals=False):
+        made = geometry.PointCloud(utility.Vector3dVector(solid(points)))
+        if with_normals:
+            known = np.nan_to_num(normals(points), nan=0.0)
+            made.normals = utility.Vector3dVector(solid(known))
+        return made
+
+    def method(estimation, with_normals):
+        def matched(source, target, guess):
+            result = registration.registration_icp(
+                cloud(source),
+                cloud(target, with_normals),
+                FAR,
+                matrix_of(guess),
+                estimation,
+                registration.ICPConvergenceCriteria(max_iteration=ROUNDS),
+            )
+            return planar(result.transformation)
+
+        return matched
+
+    kinds = registration
+    return {
+        "Open3D point to point": method(kinds.TransformationEstimationPointToPoint(), False),
+        "Open3D point to line": method(kinds.TransformationEstimationPointToPlane(), True),
+    }
+
+
+def solid(points):
+    """(n, 3) the points in the plane z = 0."""
+    return np.column_stack([points, np.zeros(len(points))])
+
+
+def matrix_of(pose):
+    """(4, 4) the pose as a homogeneous matrix."""
+    c, s = np.cos(pose[2]), np.sin(pose[2])
+    T = np.eye(4)
+    T[:2, :2], T[:2, 3] = [[c, -s], [s, c]], pose[:2]
+    return T
+
+
+def planar(T):
+    """(3,) the pose of a homogeneous matrix in space."""
+    return from_matrix(T[np.ix_([0, 1, 3], [0, 1, 3])])

@@ -1,0 +1,344 @@
+"""Laws of the matcher: how near, how far, how sure, and when it says no."""
+
+from functools import cache
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from slamlab import worlds
+from slamlab.geometry import between, compose, inverse, transform, wrap
+from slamlab.scanmatching import match, surface
+from slamlab.scanmatching.coarse import candidates
+from slamlab.scanmatching.fits import noise, ordered_fits
+from slamlab.sensors import RPLIDAR_A2, Scanner
+from slamlab.world import World
+from slamlab.worlds import ring
+
+seeds = st.integers(0, 2**32 - 1)
+poses = st.tuples(st.floats(-5, 5), st.floats(-5, 5), st.floats(-3.1, 3.1)).map(np.array)
+PAIR = np.array([0.25, -0.15, 0.2])  # a motion between two scans
+
+
+def scans(world, motion, rng, lidar=RPLIDAR_A2, place=(0.2, 0.1, 0.3)):
+    """The cloud after a motion and the one before it."""
+    return [lidar.scan(world, compose(place, m), rng).points() for m in (motion, np.zeros(3))]
+
+
+@cache
+def room_pairs(count):
+    """Scans of the room with the true motion between them and a guess off by 0.1 m and 0.1 rad."""
+    world, found = worlds.room(), []
+    for seed in range(count):
+        rng = np.random.default_rng(seed)
+        true, place = (
+            rng.normal(0, [0.2, 0.2, 0.2]),
+            [*rng.uniform(-0.5, 0.5, 2), rng.uniform(0, 3)],
+        )
+        source, target = scans(world, true, rng, place=place)
+        found.append((source, target, true, true + rng.normal(0, 0.1, 3)))
+    return found
+
+
+def apart(a, b):
+    """Distance [m] and turn [rad] between two poses."""
+    d = between(a, b)
+    return np.hypot(d[0], d[1]), abs(d[2])
+
+
+def squared(error, covariance):
+    """eᵀ P⁻¹ e, its turn wrapped."""
+    error = np.array([*error[:2], wrap(float(error[2]))])
+    return error @ np.linalg.solve(covariance, error)
+
+
+def test_true_motions_are_recovered_within_the_covariance_that_is_told():
+    nees = []
+    for source, target, true, guess in room_pairs(120):
+        found = match(source, target, guess)
+        assert found.good
+        assert not found.searched
+        nees.append(squared(found.pose - true, found.covariance))
+    # χ² of 3 degrees has the mean 3; lines bent at corners cost some of it
+    assert 2.2 < np.mean(nees) < 4.5
+    assert np.mean(np.array(nees) > 11.34) < 0.08  # where 1 % should be
+
+
+def test_a_covariance_grows_with_the_noise_of_the_scans():
+    sizes = []
+    for sigma in (0.002, 0.004, 0.016):
+        lidar = Scanner(range_error=0.0, range_sigma=sigma)
+        clouds = scans(worlds.room(), PAIR, np.random.default_rng(1), lidar)
+        sizes.append(np.sqrt(np.diag(match(*clouds, PAIR).covariance)))
+    assert (sizes[0] < 0.8 * sizes[1]).all()
+    assert (sizes[1] < 0.5 * sizes[2]).all()
+
+
+@settings(max_examples=25)
+@given(seeds, st.floats(-3.1, 3.1))
+def test_turning_both_clouds_turns_the_result(seed, turn):
+    source, target = scans(worlds.room(), PAIR, np.random.default_rng(seed))
+    frame = np.array([0.0, 0.0, turn])
+    plain = match(source, target, PAIR * 0.8)
+    guess = compose(compose(frame, PAIR * 0.8), inverse(frame))
+    turned = match(transform(frame, source), transform(frame, target), guess)
+    back = compose(compose(inverse(frame), turned.pose), frame)
+    assert np.allclose(apart(back, plain.pose), 0, atol=2e-4)
+
+
+@settings(max_examples=15)
+@given(seeds, poses)
+def test_moving_both_clouds_moves_the_result_within_its_covariance(seed, frame):
+    # seen from elsewhere the clouds are no scans any more: the tree has to do
+    source, target = scans(worlds.room(), PAIR, np.random.default_rng(seed))
+    plain = match(source, target, PAIR)
+    guess = compose(compose(frame, PAIR), inverse(frame))
+    moved = match(transform(frame, source), transform(frame, target), guess)
+    back = compose(compose(inverse(frame), moved.pose), frame)
+    assert np.linalg.norm(apart(back, PAIR)) < 0.015
+    assert squared(back - plain.pose, plain.covariance) < 40
+
+
+def test_exchanging_source_and_target_inverts_the_result_within_its_covariance():
+    differences = []
+    for source, target, _, guess in room_pairs(40):
+        there, back = match(source, target, guess), match(target, source, inverse(guess))
+        differences.append(squared(inverse(back.pose) - there.pose, there.covariance))
+    # the same noise is in both; with noise of their own they would differ by 6
+    assert np.mean(differences) < 3
+
+
+@settings(max_examples=20)
+@given(seeds, st.integers(1, 350), st.booleans())
+def test_a_scan_may_start_at_any_beam_and_go_round_either_way(seed, first, clockwise):
+    source, target = scans(worlds.room(), PAIR, np.random.default_rng(seed))
+    other = np.roll(target, -first, axis=0)[:: -1 if clockwise else 1]
+    one, two = (match(source, cloud, PAIR * 0.9, history=True) for cloud in (target, other))
+    assert np.allclose(one.pose, two.pose, atol=1e-9)
+    assert np.allclose(
+        target[one.history[-1].pairs[:, 1]], other[two.history[-1].pairs[:, 1]], atol=1e-12
+    )
+
+
+def test_a_shuffled_cloud_is_no_scan_and_matches_as_well():
+    for source, target, true, guess in room_pairs(12):
+        rng = np.random.default_rng(0)
+        found = match(rng.permutation(source), rng.permutation(target), guess)
+        assert surface(rng.permutation(source)).bearings is None
+        assert np.linalg.norm(apart(found.pose, true)) < 0.015
+        assert found.good
+
+
+@pytest.mark.parametrize("beams", [90, 400, 3600])
+@pytest.mark.parametrize("field", [180, 240, 360])
+@pytest.mark.parametrize("scale", [0.5, 10.0])
+def test_few_beams_and_many_narrow_fields_and_wide_small_rooms_and_halls(beams, field, scale):
+    room = worlds.room()
+    world = World(room.walls * scale, room.circles * scale)
+    lidar = Scanner(
+        beams, 0.01, 100.0, np.radians(field), range_error=0.0, range_sigma=0.003 * scale
+    )
+    motion = PAIR * [scale, scale, 1]
+    for seed in range(3):
+        clouds = scans(
+            world, motion, np.random.default_rng(seed), lidar, [0.2 * scale, 0.1 * scale, 0.3]
+        )
+        found = match(*clouds, motion * 0.6)
+        distance, turn = apart(found.pose, motion)
+        assert found.good
+        assert distance < 0.015 * scale
+        assert turn < 0.01
+
+
+@pytest.mark.parametrize("heading", [0.0, 0.5, -1.2])
+def test_a_bare_corridor_slides_along_itself_and_the_matcher_says_so(heading):
+    walls = World([[-60, -1, 60, -1], [-60, 1.2, 60, 1.2]])
+    lidar = Scanner(range_error=0.005)
+    true, guess = np.array([0.3, 0.05, 0.04]), np.array([0.1, 0.0, 0.0])
+    place = np.array([0.0, 0.0, heading])
+    frame = inverse(place)  # the corridor as the robot sees it
+    motion = compose(compose(frame, [*true[:2], true[2] + heading]), np.zeros(3))
+    start = compose(frame, [*guess[:2], guess[2] + heading])
+    found = match(*scans(walls, motion, np.random.default_rng(3), lidar, place), start)
+    seen = found.observability
+    assert found.good
+    assert seen.fixed.tolist() == [False, True, True]
+    along = np.array([np.cos(heading), -np.sin(heading), 0.0])
+    assert abs(seen.directions[:, 0] @ along) > 0.99
+    assert f"slides along {np.degrees(-heading) % 180:.0f}°" in found.verdict or heading == 0.0
+    assert "slides along" in found.verdict
+    # across and in turn it is right, along it stays where the guess was, and it knows
+    error = transform(place, [found.pose[:2]])[0] - [0.0, true[1]]
+    assert abs(error[1]) < 0.01
+    assert abs(error[0] - guess[0]) < 0.03
+    assert abs(found.pose[2] - true[2]) < 0.01
+    assert along[:2] @ found.covariance[:2, :2] @ along[:2] > 0.5
+
+
+def test_a_round_room_leaves_the_turn_open_and_a_corner_nothing():
+    lidar = Scanner(range_error=0.004)
+    silo = World(circles=[(0.0, 0.0, 3.0)])
+    clouds = scans(silo, [0.2, 0.1, 0.4], np.random.default_rng(0), lidar, [0, 0, 0])
+    turning = match(*clouds)
+    assert "turns freely" in turning.verdict
+    assert abs(turning.pose[2]) < 0.03
+    # round the middle of the room, where the first scan was taken
+    assert np.hypot(*turning.pose[:2]) == pytest.approx(np.hypot(0.2, 0.1), abs=0.005)
+    hall = World(ring([(-3, -2), (4, -2), (4, 3), (-3, 3)]))
+    cornered = match(*scans(hall, [0.2, 0.1, 0.1], np.random.default_rng(0), lidar))
+    assert cornered.verdict == "fits"
+    assert cornered.observability.fixed.all()
+
+
+def test_scans_of_different_places_are_refused():
+    lidar, refused = RPLIDAR_A2, 0
+    names = ["room", "corridor", "situation-2", "polygon"]
+    clouds = [lidar.scan(worlds.by_name(n), [0, 0, 0.2], np.random.default_rng(0)) for n in names]
+    for a in clouds:
+        for b in clouds:
+            if a is not b:
+                found = match(a.points(), b.points())
+                assert not found.good
+                assert found.verdict.startswith(("poor", "lost", "still"))
+                refused += 1
+    assert refused == 12
+
+
+def test_clouds_that_share_too_little_are_refused():
+    source, target = scans(worlds.room(), PAIR, np.random.default_rng(0))
+    found = match(source + 50, target, search=0)
+    assert not found.good
+    assert not match(source[:40], source[200:240], search=0).good
+
+
+@settings(max_examples=30)
+@given(seeds, st.floats(-np.pi, np.pi), st.floats(-1, 1), st.floats(-1, 1))
+def test_a_poor_first_result_is_searched_for_and_found(seed, turn, x, y):
+    source, target = scans(worlds.room(), PAIR, np.random.default_rng(seed))
+    found = match(source, target, PAIR + np.array([x, y, turn]))
+    assert found.good
+    distance, turn = apart(found.pose, PAIR)
+    assert distance < 0.015
+    assert turn < 0.01
+
+
+def test_the_search_is_left_when_told_to_and_kept_within_its_angle():
+    source, target = scans(worlds.room(), PAIR, np.random.default_rng(0))
+    lost = match(source, target, [0, 0, 2.6], search=0)
+    assert not lost.searched
+    assert not lost.good
+    assert match(source, target, [0, 0, 2.6], search=1.0).searched
+    assert not match(source, target, [0, 0, 2.6], search=1.0).good
+    assert match(source, target, [0, 0, 2.6], search=3.0).good
+
+
+@settings(max_examples=20)
+@given(seeds, st.floats(-np.pi, np.pi))
+def test_the_coarse_search_finds_the_place_to_a_cell_whatever_the_turn(seed, turn):
+    true = np.array([0.5, -0.4, turn])
+    source, target = scans(worlds.room(), true, np.random.default_rng(seed))
+    found = candidates(surface(source), surface(target), np.zeros(3))
+    cell = 4 * np.quantile(np.hypot(*target.T), 0.95) / 64
+    off = between(true, found)
+    assert ((np.hypot(off[:, 0], off[:, 1]) < 2.5 * cell) & (np.abs(off[:, 2]) < 0.15)).any()
+
+
+def test_in_a_room_that_looks_the_same_from_two_sides_the_guess_decides():
+    hall = World(ring([(-3, -2), (3, -2), (3, 2), (-3, 2)]))
+    clouds = scans(hall, [0.0, 0.0, 0.0], np.random.default_rng(2), place=[0, 0, 0])
+    for near in (0.0, np.pi):
+        found = match(*clouds, [0.3, 0.2, near - 0.3], search=np.pi / 2)
+        assert abs(wrap(found.pose[2] - near)) < 0.02
+
+
+@pytest.mark.parametrize("sigma", [0.002, 0.01, 0.03])
+def test_a_scans_noise_is_read_off_the_scan_itself(sigma):
+    hall = World(ring([(-3, -2), (4, -2), (4, 3), (-3, 3)]))
+    lidar = Scanner(range_error=0.0, range_sigma=sigma)
+    step, told = 2 * np.pi / lidar.beams, []
+    for seed in range(10):
+        scan = lidar.scan(hall, [0, 0, 0.1], np.random.default_rng(seed))
+        told.append(noise(scan.ranges, step))
+    assert np.mean(told) == pytest.approx(sigma, rel=0.15)
+
+
+def test_lines_of_a_scan_lie_in_its_walls_and_none_spans_a_jump():
+    # a wall 2 m ahead, and behind a door's edge one 4 m ahead
+    bearings = np.radians(np.arange(-60, 60))
+    depth = np.where(bearings < 0, 2.0, 4.0)
+    x, y = depth, depth * np.tan(bearings)
+    fits, _ = ordered_fits(x, y, np.hypot(x, y), np.radians(1), closed=False)
+    assert np.allclose(np.abs(fits.nx[fits.good]), 1)
+    assert np.allclose(np.abs(fits.offset[fits.good]), depth[fits.good])
+    assert fits.good.mean() > 0.9
+
+
+def test_ready_surfaces_give_what_their_clouds_give():
+    for source, target, _, guess in room_pairs(5):
+        plain = match(source, target, guess)
+        ready = match(surface(source), surface(target), guess)
+        assert np.array_equal(plain.pose, ready.pose)
+        assert np.array_equal(plain.covariance, ready.covariance)
+
+
+def test_history_runs_from_the_guess_to_the_result():
+    source, target, _, guess = room_pairs(1)[0]
+    found = match(source, target, guess, history=True)
+    assert len(found.history) == found.rounds + 1
+    assert np.allclose(found.history[0].pose, guess)
+    assert np.array_equal(found.history[-1].pose, found.pose)
+    assert len(found.history[-1].pairs) == round(found.share * len(source))
+    assert match(source, target, guess).history == ()
+
+
+@settings(max_examples=80)
+@given(
+    seeds,
+    st.integers(3, 40),
+    st.integers(3, 40),
+    st.floats(-6, 6),
+    st.sampled_from(["any", "one point", "line", "scan"]),
+)
+def test_whatever_the_clouds_the_pose_is_finite_and_the_verdict_is_said(seed, n, m, scale, kind):
+    rng = np.random.default_rng(seed)
+    source, target = rng.normal(size=(n, 2)) * 10**scale, rng.normal(size=(m, 2))
+    if kind == "one point":
+        source[:] = source[0]
+    if kind == "line":
+        target[:] = np.outer(target[:, 0], [0.6, 0.8])
+    if kind == "scan":
+        source, target = (c[np.argsort(np.arctan2(c[:, 1], c[:, 0]))] for c in (source, target))
+    found = match(source, target, rng.normal(size=3))
+    assert np.isfinite(found.pose).all()
+    assert np.isfinite(found.covariance).all()
+    assert wrap(float(found.pose[2])) == pytest.approx(found.pose[2])
+    assert found.verdict
+    assert 0 <= found.share <= 1
+
+
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        ((np.zeros((2, 2)), np.ones((9, 2))), "source has 2 points"),
+        ((np.ones((9, 2)), np.zeros((0, 2))), "target has 0 points"),
+        ((np.ones(9), np.ones((9, 2))), r"source must have shape \(n, 2\)"),
+        ((np.ones((9, 2)), np.full((9, 2), np.nan)), "target holds NaN"),
+        ((np.ones((9, 2)), np.ones((9, 2)), [0, np.inf, 0]), "initial"),
+    ],
+)
+def test_bad_clouds_and_guesses_get_a_clear_error(arguments, says):
+    with pytest.raises(ValueError, match=says):
+        match(*arguments)
+
+
+def test_a_senseless_limit_gets_a_clear_error():
+    with pytest.raises(ValueError, match="max_rounds"):
+        match(np.eye(2)[[0, 1, 0]], np.eye(2)[[0, 1, 0]], max_rounds=0)
+
+
+def test_matching_leaves_its_inputs_alone():
+    source, target, _, guess = (np.array(a) for a in room_pairs(1)[0])
+    before = source.copy(), target.copy(), guess.copy()
+    match(source, target, guess)
+    assert all(np.array_equal(*pair) for pair in zip((source, target, guess), before, strict=True))
