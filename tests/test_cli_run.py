@@ -82,7 +82,7 @@ def test_relations_are_judged_and_stand_in_the_summary(tmp_path):
         (["run", "/nowhere/log"], "no such file"),
         (["run", "sim:atlantis"], "there are: room"),
         (["run", "sim:polygon", "--estimator", "magic"], "there are: odometry"),
-        (["run", "sim:polygon", "--estimator", "mak"], "no landmark observations"),
+        (["run", "sim:landmarks", "--estimator", "walls"], "holds no scans"),
         (["run", "sim:polygon", "--seed", "-1"], "--seed"),
         (["run", "sim:polygon", "--relations", "/nowhere"], "no such file"),
         (["convert", "/nowhere/log", "x"], "no such file"),

@@ -1,5 +1,7 @@
 """MAK as an estimator: it beats odometry, believes no more than it knows, draws what it has."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -12,7 +14,7 @@ from slamlab.layers import Ellipses, Points, Poses
 from slamlab.readings import Observations, Reading
 from slamlab.runner import run
 from slamlab.simulator import arc
-from slamlab.sources import simulation
+from slamlab.sources import Source, simulation
 from slamlab.sources.landmarks import LandmarkRun, Loop
 
 BRIEF = Loop(steps=60, landmarks=12)
@@ -88,13 +90,37 @@ def test_it_draws_landmarks_an_ellipse_for_each_and_for_the_robot_and_the_track(
         assert np.linalg.eigvalsh(P).min() > 0
 
 
-def test_sightings_without_an_id_are_left_out_and_counted():
-    source = LandmarkRun(BRIEF, np.random.default_rng(1))
+def without_names(reading):
+    seen = reading.observations
+    return replace(reading, observations=Observations(seen.z, np.full(len(seen.ids), -1)))
+
+
+def test_without_names_it_pairs_by_distance_and_finds_the_same_map_where_landmarks_stand_apart():
+    precise = replace(BRIEF, landmarks=8, range_sigma=0.01, omega_sigma=0.002)
+    source = LandmarkRun(precise, np.random.default_rng(1))
+    named = after(source).estimator
     slam = MakSlam(source.robot, source.sensor)
-    seen = next(iter(source)).observations
-    slam.step(Reading(0.0, observations=Observations(seen.z, np.full(len(seen.ids), -1))))
-    assert slam.filter.ids == []
-    assert f"{len(seen.ids)} sightings without an id" in slam.status
+    for reading in source:
+        slam.step(without_names(reading))
+    assert slam.names.unclear == 0
+    assert all(i < 0 for i in slam.filter.ids)
+    np.testing.assert_allclose(slam.filter.x, named.filter.x, atol=1e-12)
+
+
+def test_a_sighting_between_known_and_new_is_left_out_and_counted():
+    slam = MakSlam(RobotModel(), replace(Loop().sensor, range_sigma=0.1, bearing_sigma=0.01))
+    see = [Observations(np.array([[r, 0.5]]), np.array([-1])) for r in (2.0, 2.7, 4.0)]
+    for k, observations in enumerate(see):  # 0, 5 and 14 standard deviations off
+        slam.step(Reading(float(k), observations=observations))
+    assert len(slam.filter.ids) == 2 and slam.names.unclear == 1
+    assert "2 landmarks, 1 sightings unclear" in slam.status
+
+
+def test_two_sightings_of_one_reading_are_never_one_landmark():
+    slam = MakSlam(RobotModel(), Loop().sensor)
+    for k, z in enumerate(([[2.0, 0.5]], [[2.0, 0.5], [2.01, 0.5]])):
+        slam.step(Reading(float(k), observations=Observations(np.array(z), np.full(len(z), -1))))
+    assert len(slam.filter.ids) == 1 and slam.names.unclear == 1
 
 
 def steps_apart(smoothing, seed):
@@ -130,6 +156,16 @@ def test_before_anything_is_seen_there_is_a_robot_and_no_landmark():
     assert around.covariances.shape == (0, 2, 2)
 
 
-def test_a_source_without_landmarks_is_refused_in_one_line():
-    with pytest.raises(ValueError, match="sim:polygon holds no landmark observations"):
-        estimators.make("mak", simulation("polygon", np.random.default_rng(0)))
+class Blind(Source):
+    name = "blind"
+
+    def __len__(self):
+        return 3
+
+    def __iter__(self):
+        return (Reading(float(k)) for k in range(3))
+
+
+def test_a_source_with_neither_landmarks_nor_scans_is_refused_in_one_line():
+    with pytest.raises(ValueError, match="blind holds neither landmarks nor scans"):
+        estimators.make("mak", Blind())

@@ -1,16 +1,20 @@
-"""EKF-SLAM as an estimator: odometry predicts, landmarks with known ids correct."""
+"""EKF-SLAM as an estimator: odometry predicts, landmarks correct, named ones or corners."""
 
 import numpy as np
 
 from slamlab import noise
 from slamlab.estimators.base import Estimator
+from slamlab.estimators.seen import Names, seen
+from slamlab.filters.association import paired, squared_distances
 from slamlab.filters.mak import MAK
 from slamlab.geometry import compose, wrap
 from slamlab.layers import Ellipses, Points, Poses
 
 
 class MakSlam(Estimator):
-    """The MAK filter on a source's landmark observations.
+    """The MAK filter on a source's landmarks: those it names, else the corners of its scans.
+
+    A landmark without a name is the nearest one by Mahalanobis distance, if it is inside the gate.
 
     Parameters
     ----------
@@ -19,20 +23,22 @@ class MakSlam(Estimator):
     first_estimates : bool, take every Jacobian at the first estimate, see :class:`MAK`
     smoothing : float from 0 to below 1, share of the last shown pose that the next one keeps: the
         recursive filter behind the update of the EKF note. The filter's own state is left alone.
+    rng : numpy.random.Generator, for RANSAC; seed 0 when None
 
     Raises
     ------
     ValueError : a smoothing outside
     """
 
-    def __init__(self, robot, sensor, first_estimates=False, smoothing=0.0):
+    def __init__(self, robot, sensor, first_estimates=False, smoothing=0.0, rng=None):
         super().__init__()
         if not 0 <= smoothing < 1:
             raise ValueError(f"smoothing is from 0 (none) to below 1, not {smoothing}")
         self.robot, self.sensor, self.smoothing = robot, sensor, smoothing
         # the first pose is where the map's frame is laid: nothing about it is uncertain
         self.filter = MAK(np.zeros(3), np.zeros((3, 3)), first_estimates=first_estimates)
-        self.unknown = 0
+        self.rng = np.random.default_rng(0) if rng is None else rng
+        self.names = Names()
 
     def step(self, reading):
         """Take a reading in: predict by odometry, correct by landmarks, add the new ones.
@@ -42,11 +48,12 @@ class MakSlam(Estimator):
         reading : Reading
         """
         odometry = predict(self.filter, reading, self.robot)
-        if reading.observations is not None:
-            self._see(reading.observations)
+        found = seen(reading, self.sensor, self.rng)
+        if len(found.z):
+            self._see(found)
         self.pose = self._smoothed(odometry)
         self.record(reading.time)
-        self.status = f"{len(self.filter.ids)} landmarks, {self.unknown} sightings without an id"
+        self.status = f"{len(self.filter.ids)} landmarks, {self.names.unclear} sightings unclear"
 
     def layers(self):
         """Landmarks, their 95 % ellipses and the robot's, the track."""
@@ -59,13 +66,18 @@ class MakSlam(Estimator):
             Ellipses("robot", self.pose[None, :2], P_rr[None, :2, :2]),
         ]
 
-    def _see(self, seen):
-        ids = np.asarray(seen.ids)
-        self.unknown += int(np.sum(ids < 0))
-        new = ~np.isin(ids, self.filter.ids)
-        for rows, take in ((~new, self.filter.update), (new & (ids >= 0), self.filter.add)):
-            if rows.any():
-                take(ids[rows].tolist(), seen.z[rows], noise.R_of(self.sensor, seen.z[rows, 0]))
+    def _see(self, found):
+        """Correct by the known among the sightings, add the new ones."""
+        names = self.names.of(found, self.filter.ids, self._paired)
+        known = set(self.filter.ids)
+        for take, is_known in ((self.filter.update, True), (self.filter.add, False)):
+            ids = [i for i in names if (i in known) == is_known]
+            if ids:
+                rows = [names[i] for i in ids]
+                take(ids, found.z[rows], found.R[rows])
+
+    def _paired(self, z, R):
+        return paired(squared_distances(self.filter, z, R))
 
     def _smoothed(self, odometry):
         """The pose to show: s ← s ⊕ odometry, then (1 − smoothing) of the way to the estimate."""
@@ -134,11 +146,12 @@ def mak(source, first_estimates=False):
 
     Raises
     ------
-    ValueError : no reading holds landmark observations
+    ValueError : no reading holds landmarks or a scan
     """
     # a source that goes on for ever, such as a robot, has no length and is not run through
-    if len(source) and all(reading.observations is None for reading in source):
+    if len(source) and all(r.observations is None and r.scan is None for r in source):
         raise ValueError(
-            f"{source.name} holds no landmark observations, which mak needs; sim:landmarks does"
+            f"{source.name} holds neither landmarks nor scans, of which mak needs one; "
+            "sim:landmarks has landmarks"
         )
     return MakSlam(source.robot, source.sensor, first_estimates)

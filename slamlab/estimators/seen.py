@@ -6,7 +6,13 @@ import numpy as np
 
 from slamlab import noise
 from slamlab.landmarks.corners import corners
-from slamlab.landmarks.ransac import lines
+from slamlab.landmarks.ransac import Ransac, lines
+
+SHORT_SIGHTED = 1.0  # m, a sensor that reaches less far sees walls of a few centimetres
+CLOSE = Ransac(window=6, needed=5, gap=0.05, shortest=0.05)
+CLOSE_REACH = 0.04  # m, beyond a wall's seen end
+"""For the infrared scanner: at most 0.28 m away its readings are 3 to 20 mm apart on a wall. Beyond
+4 cm a line meets the wrong one: one corner in thirty is then none."""
 
 
 @dataclass(frozen=True)
@@ -33,7 +39,7 @@ def seen(reading, sensor, rng, ransac=None):
     reading : Reading
     sensor : SensorModel
     rng : numpy.random.Generator, for RANSAC; alike generators find alike corners
-    ransac : Ransac, its defaults when None
+    ransac : Ransac; when None its defaults, or ``CLOSE`` for a sensor that reaches less than 1 m
 
     Returns
     -------
@@ -42,6 +48,51 @@ def seen(reading, sensor, rng, ransac=None):
     if reading.observations is not None:
         z = np.asarray(reading.observations.z, dtype=float).reshape(-1, 2)
         return Seen(z, noise.R_of(sensor, z[:, 0]), np.asarray(reading.observations.ids))
-    found = [] if reading.scan is None else corners(lines(reading.scan, sensor, rng, ransac))
+    found = [] if reading.scan is None else _corners(reading.scan, sensor, rng, ransac)
     z, R = ([getattr(corner, name) for corner in found] for name in "zR")
     return Seen(np.reshape(z, (-1, 2)), np.reshape(R, (-1, 2, 2)), np.full(len(found), -1))
+
+
+class Names:
+    """Which landmark each sighting is: as the source names it, else a known one near it, else new.
+
+    ``unclear`` counts the sightings that were left out: they may be a known landmark or a new one,
+    or a second sighting of one. Names of our own are negative: a source's never are.
+    """
+
+    def __init__(self):
+        self.unclear = 0
+        self._next = -1
+
+    def of(self, found, ids, pair):
+        """Name the sightings of one reading.
+
+        Parameters
+        ----------
+        found : Seen
+        ids : list of N, the known landmarks'
+        pair : callable(z, R) -> ({row of z: which of the N}, rows of z that are new)
+
+        Returns
+        -------
+        {id: row of found.z}, a landmark at most once
+        """
+        names: dict[int, int] = {}
+        for k in np.flatnonzero(found.ids >= 0).tolist():
+            names.setdefault(int(found.ids[k]), k)
+        rest = np.flatnonzero(found.ids < 0)
+        if len(rest):
+            pairs, new = pair(found.z[rest], found.R[rest])
+            for k, j in pairs.items():
+                names.setdefault(ids[j], int(rest[k]))
+            for k in new:
+                names[self._next] = int(rest[k])
+                self._next -= 1
+        self.unclear += len(found.z) - len(names)
+        return names
+
+
+def _corners(scan, sensor, rng, ransac):
+    if sensor.range_max >= SHORT_SIGHTED:
+        return corners(lines(scan, sensor, rng, ransac))
+    return corners(lines(scan, sensor, rng, ransac or CLOSE), reach=CLOSE_REACH)

@@ -46,6 +46,32 @@ def squared_distances(mak, z, R):
     return (d * r * r - 2 * b * r * beta + a * beta * beta) / (a * d - b * b)
 
 
+def paired(d2, gate=13.8, doubt=4 * 13.8):
+    """Pair sightings with landmarks, the nearest first, a landmark with one sighting at most.
+
+    Inside the gate of a landmark it is that landmark, beyond the doubt of all it is new; between
+    the two it could be either and is neither.
+
+    Parameters
+    ----------
+    d2 : (m, N) squared Mahalanobis distances, see :func:`squared_distances`
+    gate : float; χ² of 2 degrees: a true pairing fails 13.8 once in a thousand
+    doubt : float
+
+    Returns
+    -------
+    {row: column}
+    list of rows that are new
+    """
+    pairs, left = {}, np.array(d2, dtype=float)
+    new = np.flatnonzero(left.min(axis=1, initial=np.inf) > doubt).tolist()
+    while left.size and left.min() <= gate:
+        row, column = (int(k) for k in np.unravel_index(left.argmin(), left.shape))
+        pairs[row] = column
+        left[row], left[:, column] = np.inf, np.inf
+    return pairs, new
+
+
 def nearest(mak, z, R, probability=0.99):
     """For each observation the nearest landmark within the gate, or None.
 

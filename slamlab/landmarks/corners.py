@@ -65,4 +65,5 @@ def _seen(p, P):
     """A place in the robot's frame as range and bearing."""
     r2, r = p @ p, np.hypot(*p)
     J = np.array([[p[0] / r, p[1] / r], [-p[1] / r2, p[0] / r2]])
-    return Corner(np.array([r, np.arctan2(p[1], p[0])]), J @ P @ J.T)
+    R = J @ P @ J.T
+    return Corner(np.array([r, np.arctan2(p[1], p[0])]), (R + R.T) / 2)  # rounding aside, its own

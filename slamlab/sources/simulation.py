@@ -10,6 +10,7 @@ from slamlab.hardware import RobotModel
 from slamlab.readings import Reading, Trajectory
 from slamlab.sensors import RPLIDAR_A2
 from slamlab.simulator import DifferentialDrive, Simulator, follow
+from slamlab.sources.arena import ArenaRun
 from slamlab.sources.base import Source, SourceError
 from slamlab.sources.landmarks import LandmarkRun, Loop
 
@@ -173,14 +174,14 @@ def simulation(world_name, rng, lidar=None, robot=None, tour=True):
     world_name : str, one of NAMES
     rng : numpy.random.Generator
     lidar : Scanner, by default an RPLIDAR_A2, for the situations THESIS_LIDAR; among landmarks
-        there is nothing to scan
+        there is nothing to scan, the arena's robot has a scanner of its own
     robot : DifferentialDrive, by default ROBOT, for the situations THESIS_ROBOT; only the tours
         use it, the other runs have odometry of their own
     tour : bool; False starts with one reading and waits for ``drive``
 
     Returns
     -------
-    Source, a Simulation or a LandmarkRun
+    Source, a Simulation, a LandmarkRun or an ArenaRun
 
     Raises
     ------
@@ -190,6 +191,8 @@ def simulation(world_name, rng, lidar=None, robot=None, tour=True):
         raise SourceError(f"no simulation {world_name!r}; there are: {', '.join(NAMES)}")
     if world_name == LANDMARKS:
         return LandmarkRun(Loop(), rng)
+    if world_name in ARENA:
+        return ArenaRun(rng, snagged=world_name == SNAGGED)
     thesis = world_name.startswith("situation")
     lidar = lidar or (THESIS_LIDAR if thesis else RPLIDAR_A2)
     robot = robot or (THESIS_ROBOT if thesis else ROBOT)
@@ -220,4 +223,6 @@ def _toured(name, rng, lidar, robot, tour):
 
 POLYGON_RUNS = {"polygon": POLYGON_TRUE_STEPS, "polygon-wrong": POLYGON_WRONG_STEPS}
 LANDMARKS = "landmarks"
-NAMES = (*TOURS, *POLYGON_RUNS, LANDMARKS)
+SNAGGED = "arena-snagged"
+ARENA = "arena", SNAGGED
+NAMES = (*TOURS, *POLYGON_RUNS, LANDMARKS, *ARENA)
