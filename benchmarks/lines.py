@@ -7,13 +7,13 @@ import numpy as np
 
 from benchmarks.common import Missing, cpu_times, main, row, speed_rows
 from slamlab import worlds
-from slamlab.evaluation import found_metres, seen_metres
+from slamlab.evaluation import precision_metres, recall_metres
 from slamlab.landmarks.fit import Line
 from slamlab.landmarks.ransac import THESIS, Ransac, lines
 from slamlab.sources.simulation import THESIS_LIDAR as LIDAR
 
 TITLE = "Walls in scans of 400 beams, 1 % noise (CPU time, methods taking turns)"
-PLACES = ("situation-1", "situation-2", "corridor", "room")
+PLACES = ("situation-1", "situation-2", "corridor", "room", "table-legs", "polygon")
 PERIOD = 0.1  # of a scan: the lidar turns ten times a second [s]
 OURS, SMOLEC, PEER = "slamlab", "thesis' parameters", "scikit-learn, line by line"
 
@@ -67,12 +67,12 @@ def scenes(name, count):
 
 def shares(method, cases):
     """Share of the wall metres seen that are found, share of the metres found that are none."""
-    seen = on = off = 0
+    sums = np.zeros(4)
     for world, pose, scan in cases:
-        right, wrong = found_metres(world, pose, method(scan, np.random.default_rng(0)))
-        seen, on, off = seen + seen_metres(world, pose, scan), on + right, off + wrong
-    # lines may overlap and reach a little beyond what was seen: more than all is not found
-    return min(on / seen, 1.0), off / max(on + off, 1e-9)
+        walls = method(scan, np.random.default_rng(0))
+        sums += *recall_metres(world, pose, scan, walls), *precision_metres(world, pose, walls)
+    seen, found, right, wrong = sums
+    return found / seen, wrong / max(right + wrong, 1e-9)
 
 
 def run(quick):

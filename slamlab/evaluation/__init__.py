@@ -5,7 +5,7 @@ from slamlab.evaluation.correlation import correlation
 from slamlab.evaluation.relations import Relations, RelationsError, load_relations, relations_error
 from slamlab.evaluation.trajectory import TrajectoryError, absolute_error, relative_error
 from slamlab.evaluation.tum import load_tum, save_tum
-from slamlab.evaluation.walls import found_metres, seen_metres
+from slamlab.evaluation.walls import precision_metres, recall_metres
 
 __all__ = [
     "Consistency",
@@ -16,13 +16,13 @@ __all__ = [
     "band",
     "consistency",
     "correlation",
-    "found_metres",
     "load_relations",
     "load_tum",
     "nees",
     "nis",
+    "precision_metres",
+    "recall_metres",
     "relations_error",
     "relative_error",
     "save_tum",
-    "seen_metres",
 ]
