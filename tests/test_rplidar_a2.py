@@ -1,6 +1,6 @@
 """The simulated RPLIDAR A2 does what three recordings of a real one do, measured by the same means.
 
-The recordings are taken as they are, the simulated device stands in square rooms of many sizes.
+The recordings are taken as they are, the simulated device stands in rooms of many sizes.
 """
 
 from dataclasses import replace
@@ -16,7 +16,7 @@ from slamlab.worlds import box
 
 TURNS = 20
 RANGES = [(2.0, 2.5), (2.5, 3.0), (3.0, 4.0), (6.0, 8.0), (10.0, 11.5), (11.5, 13.0)]  # m
-SLANTS = [(0.0, 0.3), (0.3, 0.6), (0.6, 1.0)]  # tan of the angle of incidence
+SLANTS = [(0.0, 0.3), (0.3, 0.6), (0.6, 1.0), (1.0, 1.5)]  # tan of the angle of incidence
 TOLERANCE = 0.2  # of σ; the median of 250 readings is good to a tenth
 
 
@@ -36,9 +36,9 @@ def real(recorded):
     return np.vstack([errors(turns) for turns in recorded])
 
 
-def simulated(distance):
-    """Scans from the middle of a square room, its walls at that distance [m]."""
-    room, rng = World(box((0, 0), (2 * distance, 2 * distance))), np.random.default_rng(11)
+def simulated(beside, ahead):
+    """Scans from the middle of a room, its walls at these distances [m]."""
+    room, rng = World(box((0, 0), (2 * ahead, 2 * beside))), np.random.default_rng(11)
     far = replace(RPLIDAR_A2, range_max=20.0)  # the real one reports up to 15 m
     return [far.scan(room, np.zeros(3), rng) for _ in range(TURNS)]
 
@@ -88,7 +88,8 @@ def lost(turns):
 def test_its_spread_at_every_range_is_that_of_the_real_one(real, low, high):
     rows = real[(low <= real[:, 0]) & (real[:, 0] < high) & (real[:, 2] < 0.5)]
     assert len(rows) > 200
-    ours = errors(simulated(np.median(rows[:, 0])))
+    distance = np.median(rows[:, 0])
+    ours = errors(simulated(distance, distance))
     ours = ours[ours[:, 2] < 0.5]
     assert spread(ours[:, 1]) == pytest.approx(spread(rows[:, 1]), rel=TOLERANCE)
 
@@ -97,7 +98,9 @@ def test_its_spread_at_every_range_is_that_of_the_real_one(real, low, high):
 def test_its_spread_at_every_slant_is_that_of_the_real_one(real, low, high):
     rows = real[(low <= real[:, 2]) & (real[:, 2] < high)]
     rows = rows[(rows[:, 0] > 2.5) & (rows[:, 0] < 4)]
-    ours = errors(simulated(2.7))
+    distance = np.median(rows[:, 0]) / np.hypot(1, (low + high) / 2)
+    ours = errors(simulated(distance, 9.0))
+    ours = ours[(ours[:, 0] > 2.5) & (ours[:, 0] < 4)]
     ours = ours[(low <= ours[:, 2]) & (ours[:, 2] < high)]
     assert spread(ours[:, 1]) == pytest.approx(spread(rows[:, 1]), rel=TOLERANCE)
 
@@ -106,7 +109,7 @@ def test_its_dropouts_lie_between_what_the_real_one_surely_and_at_most_loses(rec
     at_most, surely = np.mean([lost(turns) for turns in recorded], axis=0)
     assert surely < 0.8 * RPLIDAR_A2.dropouts
     assert RPLIDAR_A2.dropouts < at_most
-    assert lost(simulated(3.0)) == pytest.approx([RPLIDAR_A2.dropouts] * 2, rel=0.3)
+    assert lost(simulated(3.0, 3.0)) == pytest.approx([RPLIDAR_A2.dropouts] * 2, rel=0.3)
 
 
 def test_it_has_as_many_beams_as_the_real_one_at_some_speed_of_its_motor(recorded):
