@@ -7,7 +7,7 @@ import pytest
 
 from benchmarks import live as benchmark
 from course.source import ROOT
-from tests.browser import editing, live
+from tests.browser import editing, live, waiting
 from tests.browser.jupyter import Unavailable, Visit, chromium, jupyterlab
 
 
@@ -22,14 +22,19 @@ def browser():
 
 
 @pytest.fixture(scope="session")
-def lab(tmp_path_factory):
-    """The address of a JupyterLab with all lessons and the notebooks of these tests."""
-    home = tmp_path_factory.mktemp("lab")
-    notebooks = home / "course" / "notebooks"
+def lab_folder(tmp_path_factory):
+    """The folder with all lessons and the notebooks of these tests."""
+    notebooks = tmp_path_factory.mktemp("lab") / "course" / "notebooks"
     shutil.copytree(ROOT / "notebooks", notebooks)
-    for made in (live, benchmark, editing):
+    for made in (live, waiting, editing, benchmark):
         nbformat.write(made.notebook(), notebooks / made.NAME)
-    with jupyterlab(home) as address:
+    return notebooks
+
+
+@pytest.fixture(scope="session")
+def lab(lab_folder):
+    """The address of a JupyterLab with that folder."""
+    with jupyterlab(lab_folder.parent.parent) as address:
         yield address
 
 

@@ -43,12 +43,12 @@ class Editor:
 
     Parameters
     ----------
-    page : Page of Playwright
+    visit : Visit
     """
 
-    def __init__(self, page):
-        self.page, cells = page, page.locator(".jp-Cell")
-        self.cell, self._telling = cells.nth(0), cells.nth(1)
+    def __init__(self, visit):
+        self._visit, self.page = visit, visit.page
+        self.cell = self.page.locator(".jp-Cell").nth(0)
         self.canvas = self.cell.locator(".slamlab-board canvas")
         self.rows = self.cell.locator("textarea")
 
@@ -86,8 +86,5 @@ class Editor:
 
     def kernel(self):
         """Walls and circles that the kernel has."""
-        self._telling.locator(".cm-content").click()
-        self.page.keyboard.press("Control+Enter")
-        self.page.wait_for_timeout(100)
-        self.page.get_by_text("| Idle").wait_for()
-        return json.loads(self._telling.locator(".jp-OutputArea-output").text_content())
+        told = self._visit.run(1).locator(".jp-OutputArea-output")
+        return json.loads(told.text_content())

@@ -119,6 +119,24 @@ class Visit:
         self.page.get_by_role("menuitem", name="Run", exact=True).click()
         self.page.get_by_text("Run All Cells", exact=True).click()
 
+    def run(self, cell):
+        """Run a cell, given by its position, and wait until it is done.
+
+        Returns
+        -------
+        Locator of the cell
+        """
+        place = self.page.locator(".jp-Cell").nth(cell)
+        prompt = place.locator(".jp-InputPrompt")
+        before = prompt.text_content()
+        place.locator(".cm-content").click()
+        self.page.keyboard.press("Control+Enter")
+        self.page.wait_for_function(
+            "([prompt, before]) => ![before, '[*]:'].includes(prompt.textContent)",
+            arg=[prompt.element_handle(), before],
+        )
+        return place
+
     def _heard(self, message):
         if message.type == "error":
             self.errors.append(message.text)

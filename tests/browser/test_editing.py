@@ -10,7 +10,7 @@ def editor(visit):
     """The editor of the notebook, just run."""
     visit.open(NAME)
     visit.run_all()
-    shown = Editor(visit.page)
+    shown = Editor(visit)
     shown.handle("centre of circle 1").wait_for()
     visit.page.get_by_text("| Idle").wait_for()
     yield shown

@@ -13,7 +13,8 @@ def views(visit):
     visit.run_all()
     shown = View(visit.page, 1), View(visit.page, 2)
     for view in shown:
-        view.root.and_(visit.page.locator("[data-frame]")).wait_for()
+        view.root.wait_for()
+        view.wait(1)  # frame 0 came with the widget
     yield shown
     assert visit.errors == []
     assert visit.abroad == []
