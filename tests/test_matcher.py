@@ -84,7 +84,8 @@ def test_turning_both_clouds_turns_the_result(seed, turn):
     guess = compose(compose(frame, PAIR * 0.8), inverse(frame))
     turned = match(transform(frame, source), transform(frame, target), guess)
     back = compose(compose(inverse(frame), turned.pose), frame)
-    assert np.allclose(apart(back, plain.pose), 0, atol=2e-4)
+    # sectors of the round are where they were: pairs differ by a beam here and there
+    assert squared(back - plain.pose, plain.covariance) < 0.5
 
 
 @settings(max_examples=15)

@@ -10,6 +10,7 @@ from slamlab.scanmatching.align import paired
 ON = 3.0  # standard deviations within which a point lies on a line
 BEFORE = 4.0  # standard deviations by which a point stands before what was seen behind it
 OVERLAP = 0.3  # least share of the source's points that must lie on the target
+PLENTY = 0.7  # share of the points on the target that leaves nothing to ask the target's points
 AGREEMENT = 0.8  # least share of these among them and the points that contradict
 
 
@@ -21,8 +22,8 @@ class Fit:
     ----------
     inliers : (n,) bool, the source's points that lie on the target
     overlap : float, their share of the source's points [1]
-    agreement : float, their share of themselves and of the points of either that contradict: that
-        stand where the other's scanner looked through [1]
+    agreement : float, their share of themselves and of the points that contradict: that stand where
+        the other's scanner looked through; of the target's only where the overlap is not plenty [1]
     """
 
     inliers: np.ndarray
@@ -63,7 +64,7 @@ def fit(source, target, pairs):
     """
     inliers = pairs.seen & (np.abs(pairs.residuals) < ON * np.sqrt(pairs.variance))
     hits, against = np.count_nonzero(inliers), contradictions(pairs, target)
-    if source.bearings is not None:
+    if source.bearings is not None and hits < PLENTY * len(inliers):
         against += contradictions(paired(target, source, inverse(pairs.pose)), source)
     return Fit(inliers, hits / len(inliers), hits / max(hits + against, 1))
 
