@@ -1,7 +1,9 @@
 """The judge's end: asks a worker for cells and tasks, each with a time limit of its own."""
 
+import builtins
 import contextlib
 import queue
+import re
 import threading
 import time
 
@@ -14,6 +16,8 @@ CELL_SECONDS = 10.0
 TOTAL_SECONDS = 300.0
 GLANCE = 0.2
 """How often it is looked whether to stop [s]."""
+_RAISED = re.compile(r"(\w+): .*?( \(line \d{1,6} of the cell(?:, in \w{1,60})?\))?", re.S)
+_NUMBER = re.compile(r"\d*\.\d+|\d{5,}")
 KINDS = {"missing", "not attempted", "raised", "malformed"}
 
 
@@ -77,8 +81,8 @@ class Client:
             self._end()
             raise StudentError(gone.kind, _say(gone.kind, task.drive.seconds)) from None
         if head.get("problem") is not None:
-            kind = head.get("kind")
-            raise StudentError(kind if kind in KINDS else "raised", _text(head["problem"]))
+            kind = head.get("kind") if head.get("kind") in KINDS else "raised"
+            raise StudentError(kind, _without_inputs(kind, _text(head["problem"])))
         return arrays
 
     def load(self):
@@ -180,6 +184,16 @@ def _say(kind, seconds):
     if kind == "time":
         return f"still running after {seconds:g} s"
     return "ended the whole Python process"
+
+
+def _without_inputs(kind, problem):
+    """What a worker says of a task, without what its functions may have put in of their inputs."""
+    if kind != "raised":
+        return _NUMBER.sub("…", problem[:200])
+    name, where = _RAISED.fullmatch(problem).groups() if _RAISED.fullmatch(problem) else ("", "")
+    if not isinstance(getattr(builtins, name, None), type):
+        name = "an exception of its own"
+    return f"raised {name}{where or ''}; check(…) in the notebook shows what it says"
 
 
 def _text(value):

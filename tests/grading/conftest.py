@@ -31,6 +31,11 @@ def _no_zygote_stays():
 
 @pytest.fixture(autouse=True)
 def _fake_exercise_is_known(monkeypatch):
+    know_the_fake(monkeypatch)
+
+
+def know_the_fake(monkeypatch):
+    """Put the fake exercise into the catalogue."""
     known = {id: catalogue.EXERCISES for id in catalogue.EXERCISES}
     monkeypatch.setattr(catalogue, "EXERCISES", _Known(known))
 

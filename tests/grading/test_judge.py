@@ -1,5 +1,6 @@
 """A score is earned by evidence that crossed to the judge; nothing a submission does ends it."""
 
+import re
 import time
 
 import pytest
@@ -67,20 +68,20 @@ def test_the_same_seed_gives_the_same_verdicts_and_secrets_differ():
         ("import os; os._exit(0)", "died", "ended the whole Python process"),
         ("import os, signal; os.kill(os.getpid(), signal.SIGKILL)", "died", "ended the whole"),
         ("import os; os.closerange(3, 50)", "died", "ended the whole"),
-        ("import sys; sys.exit(0)", "raised", "SystemExit: 0"),
+        ("import sys; sys.exit(0)", "raised", "raised SystemExit (line"),
         ("raise KeyboardInterrupt", "raised", "KeyboardInterrupt"),
         ("return turn(*args)", "raised", "RecursionError"),
         ("import sys; sys.setrecursionlimit(10**9); return turn(*args)", None, ""),
-        ("return np.zeros(10**7)", "malformed", "too many"),
+        ("return np.zeros(10**7)", "malformed", "returned … numbers: too many"),
         ("return np.ones(10**10)", "raised", "MemoryError"),
         ("return [0.0] * 10**6", "malformed", "too many"),
         ("return bytearray(10**10)", "raised", "MemoryError"),
         ("return 'x' * 10**8", "malformed", "returned str"),
-        ("raise ValueError('x' * 10**8)", "raised", "ValueError: xxx"),
+        ("raise ValueError('x' * 10**8)", "raised", "raised ValueError (line"),
         ("return {'x': 1}", "malformed", "returned dict"),
         ("return np.array([1, 2], dtype='datetime64[s]')", "malformed", "no array of real numbers"),
         ("return np.float64('nan') * args[0]", "malformed", "NaN"),
-        ("raise type('<script>', (Exception,), {})('<b>')", "raised", "<script>: <b>"),
+        ("raise type('<script>', (Exception,), {})('<b>')", "raised", "raised an exception"),
     ],
 )  # fmt: skip
 def test_what_one_function_does_loses_that_task_only(body, kind, said):
@@ -114,6 +115,19 @@ def test_a_cell_that_fails_is_noted_and_the_others_run(cell):
     assert [verdict.points for verdict in result["verdicts"]] == FULL
     assert list(result["cells"]) == [2]
     assert 0 < len(result["cells"][2]) <= 500
+
+
+def test_what_is_said_of_a_failure_tells_nothing_of_the_inputs():
+    result = judged(
+        fake.SOLUTION,
+        "def double(a):\n    raise ValueError(f'the input was {a}')",
+        "def turn(v, angle):\n    return type(f'x{angle}', (), {})()",
+        "def total(a):\n    raise type('I' + str(a[0]).replace('.', '_'), (Exception,), {})",
+    )["verdicts"]
+    said = " ".join(verdict.problem for verdict in result)
+    assert "raised ValueError (line 2 of the cell, in double)" in said
+    assert "input" not in said
+    assert not re.search(r"\d[._]\d", said)
 
 
 def test_a_cell_that_hangs_is_left_out(monkeypatch):

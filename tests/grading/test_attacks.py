@@ -1,0 +1,146 @@
+"""A hostile class: nothing forged, leaked or harmed, and the honest get their marks."""
+
+import os
+import socket
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from slamlab.cli import main
+from slamlab.grading import client, jail
+from slamlab.grading.gradebook import Gradebook
+from tests.grading import attacks, fake
+from tests.grading.conftest import know_the_fake, lacks, notebook
+from tests.grading.test_folder import processes_of
+
+ROOT = Path(__file__).resolve().parents[2]
+SECRET = "the canary sings"
+ODD_NAMES = ["with space", "quo'te\"d", "line\nbreak", "Zoë", "=1+1", "-rf", "$(touch x)", "04"]
+
+
+def submissions():
+    """Name to the text or bytes of every notebook of the class."""
+    honest = notebook(fake.SOLUTION)
+    made = {"honest": honest}
+    for name, cell in attacks.FORGERIES.items():
+        made[f"forges {name}"] = notebook("import numpy as np", attacks.WRONG, cell)
+    for name, cell in attacks.SPIES.items():
+        made[f"spies {name}"] = notebook("TOLD", attacks.LEAK, cell, attacks.WRONG)
+    for name, cell in attacks.HARMS.items():
+        made[f"harms {name}"] = notebook("TOLD", attacks.HARM, fake.SOLUTION, cell)
+    for name, damage in attacks.DAMAGED.items():
+        made[f"damaged {name}"] = damage(honest)
+    for name in ODD_NAMES:
+        made[name] = honest
+    return made
+
+
+@pytest.fixture(scope="module")
+def graded(tmp_path_factory):
+    """The class as graded, with what to look at afterwards; at the strict level."""
+    if lacks(jail.STRICT):
+        pytest.skip(lacks(jail.STRICT))
+    folder, out, judges = (tmp_path_factory.mktemp(n) for n in ("class", "out", "judges"))
+    temporary = tmp_path_factory.mktemp("temporary")
+    canary = judges / "canary"
+    canary.write_text(SECRET)
+    with socket.socket() as server, pytest.MonkeyPatch.context() as patch:
+        server.bind(("127.0.0.1", 0))
+        server.listen()
+        server.settimeout(0.2)
+        told = {"CANARY": str(canary), "OUT": str(out), "CLASS": str(folder), "ROOT": str(ROOT)}
+        told |= {"JUDGE": os.getpid(), "PORT": server.getsockname()[1]}
+        head = "\\n".join(f"{name} = {value!r}" for name, value in told.items())
+        for name, content in submissions().items():
+            if isinstance(content, str):
+                content = content.replace("TOLD", head).encode()
+            (folder / f"{name}.ipynb").write_bytes(content)
+        know_the_fake(patch)
+        patch.setattr(client, "CELL_SECONDS", 3.0)
+        patch.setattr("tempfile.tempdir", str(temporary))
+        words = [str(folder), "--out", str(out), "--jobs", "2", "--exercise", "99"]
+        code = main(["grade", *words])
+        heard = True
+        try:
+            server.accept()
+        except TimeoutError:
+            heard = False
+    with Gradebook(f"sqlite:///{out / 'grades.db'}") as book:
+        records = {record.submission.removesuffix(".ipynb"): record for record in book.latest()}
+    return {"code": code, "records": records, "out": out, "canary": canary, "heard": heard,
+            "temporary": temporary}  # fmt: skip
+
+
+def of(graded, kind):
+    return {name: r for name, r in graded["records"].items() if name.startswith(kind + " ")}
+
+
+def test_the_class_is_graded_to_its_end_and_everybody_is_listed(graded):
+    assert graded["code"] == 0
+    assert len(graded["records"]) == len(submissions()) > 40
+    assert {record.isolation for record in graded["records"].values()} <= {jail.STRICT, None}
+
+
+def test_no_point_is_forged(graded):
+    forged = {name: r.score for name, r in of(graded, "forges").items() if r.score}
+    assert forged == {}
+    assert len(of(graded, "forges")) == len(attacks.FORGERIES)
+
+
+def test_nothing_is_leaked(graded):
+    spied = of(graded, "spies")
+    told = {name: r.cells for name, r in spied.items() if "LEAKED" in str(r.cells)}
+    assert told == {}
+    written = [path for path in graded["out"].rglob("*") if path.is_file()]
+    found = [p.name for p in written if p.name != "secret" and SECRET.encode() in p.read_bytes()]
+    assert found == []
+
+
+def test_spies_and_vandals_are_graded_like_anybody(graded):
+    assert {name: r.score for name, r in of(graded, "spies").items() if r.score != 0} == {}
+    lost = {name: r.score for name, r in of(graded, "harms").items() if r.score != 6.5}
+    # whose process is gone in the middle of a cell has lost no more than that cell
+    assert lost == {}
+
+
+def test_nothing_outside_is_touched(graded):
+    assert graded["canary"].read_text() == SECRET
+    assert [path.name for path in graded["canary"].parent.iterdir()] == ["canary"]
+    assert {path.name for path in graded["out"].iterdir()} == {
+        "grades.csv", "grades.db", "feedback", "secret",
+    }  # fmt: skip
+    assert not Path("/tmp/forged-by-a-student").exists()
+    assert not graded["heard"]
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="looks into /proc")
+def test_no_process_and_no_file_is_left(graded):
+    time.sleep(0.3)
+    assert processes_of(graded["temporary"], "") == []
+    assert list(graded["temporary"].iterdir()) == []
+
+
+def test_the_honest_get_full_marks_whatever_their_files_are_called(graded):
+    for name in ("honest", *ODD_NAMES):
+        (score,) = {r.score for n, r in graded["records"].items() if same(n, name)}
+        assert score == 6.5, name
+
+
+def same(name, wanted):
+    return name.replace("\\n", "\n") == wanted
+
+
+def test_the_damaged_are_graded_or_listed_with_their_reason(graded):
+    damaged = of(graded, "damaged")
+    assert len(damaged) == len(attacks.DAMAGED)
+    for name, record in damaged.items():
+        assert record.graded or record.reason, name
+    full = {name for name, record in damaged.items() if record.score == 6.5}
+    assert full == {"damaged latin-1", "damaged a wrong kernel"}
+
+
+def test_no_script_of_a_submission_reaches_a_page(graded):
+    for page in (graded["out"] / "feedback").iterdir():
+        assert "<script" not in page.read_text("utf-8")
