@@ -11,7 +11,9 @@ def add_parser(subparsers):
         description="Write a source as a reading log: a JSON header, then one reading a line.",
     )
     parser.add_argument(
-        "source", metavar="SOURCE", help="a log file, sim:WORLD, or a recording's name"
+        "source",
+        metavar="SOURCE",
+        help="a log file, a ROS bag, sim:WORLD, or a recording's name",
     )
     parser.add_argument("file", metavar="FILE", help="what to write; .gz at its end packs it")
     parser.add_argument("--seed", metavar="N", type=int, default=0, help="of a simulation's noise")

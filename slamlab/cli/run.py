@@ -19,7 +19,9 @@ def add_parser(subparsers):
         ),
     )
     parser.add_argument(
-        "source", metavar="SOURCE", help="a log file, sim:WORLD, or a recording's name"
+        "source",
+        metavar="SOURCE",
+        help="a log file, a ROS bag, sim:WORLD, or a recording's name",
     )
     parser.add_argument(
         "--estimator",

@@ -4,7 +4,7 @@ import json
 
 import numpy as np
 
-from slamlab.sources import breezyslam
+from slamlab.sources import bagfile, breezyslam
 from slamlab.sources.base import Source, SourceError
 from slamlab.sources.breezyslam import BreezySlamLog
 from slamlab.sources.carmen import CarmenLog
@@ -17,6 +17,7 @@ from slamlab.sources.text import read_bytes
 __all__ = ["Source", "SourceError", "open", "recording", "simulation", "write"]
 
 SIMULATED = "sim:"
+TOPICS = "#"  # behind a bag's path
 
 
 def open(spec, rng=None):
@@ -26,7 +27,8 @@ def open(spec, rng=None):
 
     Parameters
     ----------
-    spec : str or Path, ``sim:WORLD``, a file, or a recording's name where no such file exists
+    spec : str or Path, ``sim:WORLD``, a file, a recording's name, or a ROS bag: its file or folder,
+        where it has several scanners ``BAG#/scan``, where several odometries ``BAG#/scan,/odom``
     rng : numpy.random.Generator, for simulations; seed 0 by default
 
     Returns
@@ -42,6 +44,11 @@ def open(spec, rng=None):
         rng = np.random.default_rng(0) if rng is None else rng
         return simulation(spec.removeprefix(SIMULATED), rng)
     spec = located(spec)
+    bag, _, topics = (spec, "", "") if bagfile.is_bag(spec) else spec.rpartition(TOPICS)
+    if bagfile.is_bag(bag):
+        from slamlab.sources.rosbag import RosBag  # its rotations bring SciPy, slow to import
+
+        return RosBag(bag, topics.split(",") if topics else ())
     content, torn = read_bytes(spec)
     if not content.strip():
         raise SourceError(f"{spec} is empty: it holds no readings")
@@ -55,7 +62,7 @@ def open(spec, rng=None):
         return BreezySlamLog(spec, (content, torn))
     raise SourceError(
         f"{spec} is no log that slamlab knows: neither a reading log, nor a CARMEN log with FLASER "
-        "lines, nor the RPLIDAR grabber's text, nor a BreezySLAM log"
+        "lines, nor the RPLIDAR grabber's text, nor a BreezySLAM log, nor a ROS bag"
     )
 
 
