@@ -10,6 +10,7 @@ from slamlab.scanmatching.fits import median
 
 SHRINK = 0.7  # the width of what counts as near, from round to round, at most
 AGREE = 0.7  # cosine of the largest angle between the walls of a pair
+BESIDE = 4.0  # times the spacing: so far along a wall its next point may be
 LEAST = 10  # pairs, or a tenth of the points where that is more
 UNSEEN = 1e-4  # an eigenvalue below this share of their sum is none
 PRETENDED = 3.0  # times the information that the normals' noise makes up: more is real
@@ -67,7 +68,12 @@ def paired(source, target, pose):
     nx, ny = fits.nx[place], fits.ny[place]
     residuals = nx * px + ny * py - fits.offset[place]
     cosine = nx * (c * own.nx - s * own.ny) + ny * (s * own.nx + c * own.ny)
-    use = seen & fits.good[place] & own.good & (np.abs(cosine) > AGREE)
+    if not (source.fronts and target.fronts):
+        cosine = np.abs(cosine)
+    if target.bearings is None:  # beyond a wall's end there is nothing to be laid on
+        away = (px - target.x[place]) ** 2 + (py - target.y[place]) ** 2
+        seen = away <= (np.abs(residuals) + BESIDE * target.spacing) ** 2
+    use = seen & fits.good[place] & own.good & (cosine > AGREE)
     J = np.empty((3, len(px)))
     J[0], J[1], J[2] = nx, ny, (arm_x * ny - arm_y * nx) / source.reach
     variance = fits.across[place] + own.across + (source.sigma**2 + target.sigma**2)

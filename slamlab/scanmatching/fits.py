@@ -9,6 +9,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.spatial import cKDTree
 
+SMOOTH, OF_NORMAL = 0.3, 0.3853  # share of a scan that is wall; that quantile of |N(0, 1)|
+WORST = 0.03  # no scanner's noise is a larger share of its ranges: more is clutter
 FLAT = 0.25  # largest spread across a line as a share of that along it
 TILT = 0.06  # how well a normal shall be known, which says how many points a line needs [rad]
 LONG = 20.0  # standard deviations of noise that a line is long at least, to be called flat
@@ -24,7 +26,7 @@ class Fits:
 
     Parameters
     ----------
-    nx, ny : (n,) unit normals n
+    nx, ny : (n,) unit normals n, those of a scan towards its scanner
     offset : (n,) n · c with the neighbours' mean c: the line is n · p = offset [m]
     across : (n,) variance of a point across its line [m²]
     tilt : (n,) variance of the normal's direction [rad²]
@@ -80,7 +82,8 @@ def noise(r, step):
     """Standard deviation of a scan's ranges, from the scan alone.
 
     Along a straight wall 1/r is a sinusoid of the bearing, so 1/r₋ + 1/r₊ − 2 cos δ / r is zero but
-    for noise: times r² it has the standard deviation √6 σ at most. The median sees no corners.
+    for noise: times r² it has the standard deviation √6 σ. The lower values are those of walls, the
+    upper ones of corners and clutter.
 
     Parameters
     ----------
@@ -93,13 +96,18 @@ def noise(r, step):
     """
     u = 1 / r
     bent = np.abs(r[1:-1] ** 2 * (u[:-2] + u[2:] - 2 * np.cos(step) * u[1:-1]))
-    return 1.4826 / np.sqrt(6) * median(bent)
+    return quantile(bent, SMOOTH) / (np.sqrt(6) * OF_NORMAL)
+
+
+def quantile(values, share):
+    """The value above that share of an array that holds no NaN, quicker than numpy's."""
+    place = int(share * len(values))
+    return float(np.partition(values, place)[place])
 
 
 def median(values):
-    """The upper median of an array that holds no NaN, quicker than numpy's."""
-    middle = len(values) // 2
-    return float(np.partition(values, middle)[middle])
+    """The upper median of an array that holds no NaN."""
+    return quantile(values, 0.5)
 
 
 def ordered_fits(x, y, r, step, closed):
@@ -118,12 +126,13 @@ def ordered_fits(x, y, r, step, closed):
     -------
     Fits, and the float noise σ of the ranges [m]
     """
-    n, sigma = len(x), noise(r, step)
+    n, middling = len(x), median(r)
+    sigma = min(noise(r, step), WORST * middling)
     gaps = np.empty(n)  # from each point to the next
     gaps[:-1] = np.sqrt((x[1:] - x[:-1]) ** 2 + (y[1:] - y[:-1]) ** 2)
     gaps[-1] = np.hypot(x[0] - x[-1], y[0] - y[-1])
     # the gaps hold the noise, too: what lies across the beam does not
-    rough = sigma / max(step * median(r), 1e-12)
+    rough = sigma / max(step * middling, 1e-12)
     k = round(min(max((rough * np.sqrt(12) / TILT) ** (2 / 3), LONG * rough) / 2, MOST))
     k = min(max(FEWEST, k), (n - 1) // 2)
     jump = gaps > GRAZING * step * r + 5 * sigma
@@ -142,7 +151,14 @@ def ordered_fits(x, y, r, step, closed):
     windows = Windows(ring, first, last)
     count = windows.count.astype(float)
     means = windows.sums(np.array((x, y, x * x, y * y, x * y))) / count
-    return lines(count, *means, windows), sigma
+    fits = lines(count, *means, windows)
+    return fits, max(sigma, scatter(fits))  # ranges in whole centimetres show no noise but scatter
+
+
+def scatter(fits):
+    """Standard deviation across the lines, of the half that is flattest [m]."""
+    known = fits.across[fits.good]
+    return np.sqrt(median(known)) if len(known) else 0.0
 
 
 def unordered_fits(points):
@@ -184,4 +200,8 @@ def lines(count, x, y, xx, yy, xy, windows=None):
     good = (count >= 3) & (low < FLAT**2 * along)
     tilt = across / (count * np.maximum(along, 1e-300))
     nx, ny = -np.sin(direction), np.cos(direction)
-    return Fits(nx, ny, nx * x + ny * y, across, tilt, good, windows)
+    offset = nx * x + ny * y
+    if windows is not None:  # the scanner stands before its walls
+        front = np.where(offset > 0, -1.0, 1.0)
+        nx, ny, offset = front * nx, front * ny, front * offset
+    return Fits(nx, ny, offset, across, tilt, good, windows)

@@ -5,7 +5,7 @@ from functools import cached_property
 import numpy as np
 from scipy.spatial import cKDTree
 
-from slamlab.scanmatching.fits import median, ordered_fits, unordered_fits
+from slamlab.scanmatching.fits import median, ordered_fits, scatter, unordered_fits
 from slamlab.scanmatching.result import cloud
 
 TURN = 2 * np.pi
@@ -25,11 +25,13 @@ class Surface:
     sigma : float, standard deviation of the points across their lines [m]
     bearings : (n,) increasing [rad], where this is a scan seen from the origin, or None
     rows : (n,) int, where each point stood in the cloud it came from, or None for the same order
+    spacing : float, of neighbouring points where there are no bearings [m]
+    fronts : bool, the normals point to where the points were seen from: walls have two sides
     """
 
-    def __init__(self, x, y, fits, sigma, bearings=None, rows=None):
+    def __init__(self, x, y, fits, sigma, bearings=None, rows=None, spacing=0.0, fronts=False):
         self.x, self.y, self.fits, self.sigma = x, y, fits, sigma
-        self.bearings, self.rows = bearings, rows
+        self.bearings, self.rows, self.spacing, self.fronts = bearings, rows, spacing, fronts
         if bearings is not None:
             self.step = median(bearings[1:] - bearings[:-1])
 
@@ -124,9 +126,7 @@ def surface(points, name="cloud"):
             x, y, bearings = x[rows], y[rows], bearings[rows]
         return scan(x, y, bearings, rows if len(rows) else None)
     fits, spacing = unordered_fits(points)
-    known = fits.across[fits.good]
-    sigma = np.sqrt(median(known)) if len(known) else 0.0
-    return Surface(x, y, fits, max(sigma, FINEST * spacing))
+    return Surface(x, y, fits, max(scatter(fits), FINEST * spacing), spacing=spacing)
 
 
 def scan(x, y, bearings, rows=None):
@@ -141,7 +141,7 @@ def scan(x, y, bearings, rows=None):
     -------
     Surface
     """
-    made = Surface(x, y, None, 0.0, bearings, rows)
+    made = Surface(x, y, None, 0.0, bearings, rows, fronts=True)
     r, over = made.ranges, bearings[0] + TURN - bearings[-1]
     made.fits, sigma = ordered_fits(x, y, r, made.step, over < 3 * made.step)
     made.sigma = max(sigma, FINEST * made.step * median(r))
