@@ -1,0 +1,190 @@
+"""``python -m slamlab.studies.three``: box, ellipse and samples on the same drives of one robot.
+
+The MAK thesis' comparison (ch. 8): its six data sets, one with a snagged cable, and then as many
+drives as are asked for, each once as it was driven and once with a snagged cable.
+"""
+
+import sys
+from dataclasses import replace
+
+import numpy as np
+from scipy.stats import binomtest, bootstrap
+
+from slamlab import estimators
+from slamlab.estimators import BorSlam
+from slamlab.parallel import map_runs
+from slamlab.sources.arena import SETS, ArenaRun
+from slamlab.studies.command import TABLES, made_with, parser, write
+from slamlab.studies.three_costs import costs
+
+TABLE = TABLES / "three.json"
+LOST = 0.12  # m, off by more than the robot is wide: it would drive into the wall
+TUNED = 0.1, 2.0  # standard deviations that odometry's and corners' bounds are
+
+
+def tuned_bor(source):
+    """BOR with bounds chosen by results, on drives that are in no table: no guarantee is left.
+
+    Errors of many steps add up like a root, bounds as they are: what holds for every step is far
+    too wide for many.
+    """
+    odometry, corner = TUNED
+    narrow = replace(source.robot, slip=source.robot.slip * odometry / corner)
+    return BorSlam(narrow, source.sensor, sigmas=corner)
+
+
+FILTERS = {
+    "odometry": lambda source: estimators.make("odometry", source),
+    "BOR, 3σ": lambda source: estimators.make("bor", source),
+    "BOR, tuned": tuned_bor,
+    "MAK": lambda source: estimators.make("mak", source),
+    "Monte Carlo": lambda source: estimators.make("montecarlo", source),
+    "FastSLAM": lambda source: estimators.make("fastslam", source),
+}
+
+
+def errors_of(seed, snagged):
+    """One drive by every filter.
+
+    Parameters
+    ----------
+    seed : int
+    snagged : bool
+
+    Returns
+    -------
+    {name: (n,) how far off the position is after each scan [m]}
+    """
+    source, found = ArenaRun(np.random.default_rng(seed), snagged=snagged), {}
+    readings = list(source)
+    for name, make in FILTERS.items():
+        slam = make(source)
+        for reading in readings:
+            slam.step(reading)
+        found[name] = np.hypot(*(slam.trajectory().poses - source.truth.poses)[:, :2].T)
+    return found
+
+
+def summary(errors):
+    """What one run of one filter comes to.
+
+    Lost is who is off by more than ``LOST`` at the end; it was lost from where it last went so far
+    off. Strayed is who ever was.
+
+    Parameters
+    ----------
+    errors : (n,) of position [m]
+
+    Returns
+    -------
+    dict: final_m, rms_m, before_m the root mean square before it strayed [m], strayed, lost, and
+    lost_at, the share of the way driven until it was lost, or None
+    """
+    far = errors > LOST
+    before = errors[: int(np.argmax(far))] if far.any() else errors
+    last_good = np.flatnonzero(~far)[-1]  # there is one: every run begins at the truth
+    return {
+        "final_m": float(errors[-1]),
+        "rms_m": float(np.sqrt(np.mean(errors**2))),
+        "before_m": float(np.sqrt(np.mean(before**2))),
+        "strayed": bool(far.any()),
+        "lost": bool(far[-1]),
+        "lost_at": (last_good + 1) / len(errors) if far[-1] else None,
+    }
+
+
+def run(seed):
+    """What every filter comes to on one drive, free and snagged: {(name, snagged): summary}."""
+    return {
+        (name, snagged): summary(errors)
+        for snagged in (False, True)
+        for name, errors in errors_of(seed, snagged).items()
+    }
+
+
+def row(runs):
+    """One line of the table: medians and shares, each with its 95 % interval.
+
+    Parameters
+    ----------
+    runs : list of summary
+
+    Returns
+    -------
+    dict of (value, low, high) [m] or shares, and the counts behind the shares
+    """
+    strayed, lost = (sum(run[key] for run in runs) for key in ("strayed", "lost"))
+    line = {key: _median([run[key] for run in runs]) for key in ("final_m", "rms_m", "before_m")}
+    line["strayed"], line["lost"] = _share(strayed, len(runs)), _share(lost, len(runs))
+    line["lost_of_strayed"] = _share(lost, strayed) if strayed else None
+    return line | {"runs": len(runs), "runs_strayed": strayed, "runs_lost": lost}
+
+
+def _median(values):
+    """(3,) median and its interval by bootstrap."""
+    if min(values) == max(values):  # which has no bootstrap
+        return [values[0]] * 3
+    rng = np.random.default_rng(0)
+    interval = bootstrap((values,), np.median, method="percentile", rng=rng).confidence_interval
+    return [round(float(v), 4) for v in (np.median(values), *interval)]
+
+
+def _share(count, total):
+    """(3,) a share and its interval by Wilson."""
+    interval = binomtest(count, total).proportion_ci(method="wilson")
+    return [round(float(v), 4) for v in (count / total, *interval)]
+
+
+def six():
+    """The six data sets: a line each with every filter's final and root mean square error."""
+    lines = []
+    for seed, snagged in SETS:
+        found = {name: summary(errors) for name, errors in errors_of(seed, snagged).items()}
+        lines.append({"seed": seed, "snagged": snagged, "filters": found})
+    return lines
+
+
+def study(runs, jobs=None, scheduler=None):
+    """The tables.
+
+    Parameters
+    ----------
+    runs : int; seeds 0 to runs − 1
+    jobs, scheduler : see :func:`slamlab.parallel.map_runs`
+
+    Returns
+    -------
+    dict
+
+    Raises
+    ------
+    ValueError : fewer runs than 3
+    """
+    if runs < 3:
+        raise ValueError(f"--runs is at least 3, not {runs}")
+    results = map_runs(run, range(runs), jobs, scheduler)
+    return {
+        "versions": made_with(),
+        "seeds": [0, runs - 1],
+        "lost_beyond_m": LOST,
+        "six": six(),
+        "many": {
+            kind: {name: row([result[name, snagged] for result in results]) for name in FILTERS}
+            for kind, snagged in (("free", False), ("snagged", True))
+        },
+        "cost": costs(),
+    }
+
+
+def main(argv=None):
+    """The command; 0 when written, 2 when something is wrong with what was asked."""
+    words = sys.argv[1:] if argv is None else argv
+    command = parser("three", runs=200)
+    asked = command.parse_args(words)
+    return write(
+        command.prog, words, asked.out, lambda: study(asked.runs, asked.jobs, asked.scheduler)
+    )
+
+
+if __name__ == "__main__":
+    sys.exit(main())

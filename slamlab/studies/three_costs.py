@@ -1,0 +1,87 @@
+"""What a scan costs each filter as its map grows: one corner seen, N in the map."""
+
+from statistics import median
+from time import process_time
+
+import numpy as np
+
+from slamlab import estimators
+from slamlab.hardware import RobotModel, SensorModel
+from slamlab.models import h
+from slamlab.readings import Observations, Reading
+from slamlab.sources.base import Source
+
+NAMES = ("bor", "mak", "montecarlo", "fastslam")
+SIZES = (10, 30, 100, 300, 1000)
+SCANS = 15  # timed for each size
+
+
+class Field(Source):
+    """A robot that creeps among landmarks a metre apart: first all of them are seen, then one.
+
+    No sighting has a name, so that association is paid for.
+
+    Parameters
+    ----------
+    size : int, how many landmarks
+    scans : int, after the first
+    """
+
+    name = "field"
+    robot = RobotModel(distance_error=0.01, turn_error=0.01, turn_per_metre=0.01)
+    sensor = SensorModel(range_error=0.0, range_sigma=0.005, bearing_sigma=1e-4)
+
+    def __init__(self, size, scans=SCANS):
+        super().__init__()
+        side = int(np.ceil(np.sqrt(size)))
+        grid = np.stack(np.meshgrid(np.arange(side), np.arange(side)), axis=-1).reshape(-1, 2)
+        self.landmarks = grid[:size] + 0.5
+        self.scans = scans
+
+    def __len__(self):
+        return self.scans + 1
+
+    def __iter__(self):
+        yield self._reading(0, self.landmarks)
+        for k in range(1, len(self)):
+            yield self._reading(k, self.landmarks[:1])
+
+    def _reading(self, k, landmarks):
+        step = 0.001 if k else 0.0
+        z = h(np.array([0.001 * k, 0.0, 0.0]), landmarks)
+        return Reading(
+            float(k), np.array([step, 0.0, 0.0]), observations=Observations(z, np.full(len(z), -1))
+        )
+
+
+def costs(names=NAMES, sizes=SIZES):
+    """How much longer a scan takes in a larger map, and than with the first filter.
+
+    Parameters
+    ----------
+    names : of estimators
+    sizes : (n,) int, landmarks in the map
+
+    Returns
+    -------
+    dict: sizes; by name, time of a scan over that at the first size; by name, time at the first
+    size over the first filter's
+    """
+    seconds = {name: [_seconds(name, size) for size in sizes] for name in names}
+    first = seconds[names[0]][0]
+    return {
+        "sizes": list(sizes),
+        "over_smallest": {n: [round(t / s[0], 2) for t in s] for n, s in seconds.items()},
+        f"over_{names[0]}": {n: round(s[0] / first, 2) for n, s in seconds.items()},
+    }
+
+
+def _seconds(name, size):
+    """Median processor time of a scan [s]; the first, which makes the map, is not counted."""
+    source, times = Field(size), []
+    slam = estimators.make(name, source)
+    for reading in source:
+        start = process_time()
+        slam.step(reading)
+        times.append(process_time() - start)
+    return median(times[1:])

@@ -1,0 +1,137 @@
+"""The study of three filters: what lost means, its intervals, its command, what its table says."""
+
+import json
+from functools import partial
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from slamlab import estimators, sources
+from slamlab.sources.arena import SETS, ArenaRun
+from slamlab.studies import arena_logs, three, three_costs
+from slamlab.studies.three import LOST, TABLE, row, summary
+
+ways = st.lists(st.floats(0, 1), min_size=1, max_size=50).map(lambda e: np.array([0.0, *e]))
+
+
+@given(ways)
+def test_lost_is_a_way_of_straying_and_there_is_no_error_beyond_the_largest(errors):
+    found = summary(errors)
+    assert found["strayed"] == (errors.max() > LOST)
+    assert found["strayed"] or not found["lost"]
+    assert found["lost"] == (found["final_m"] > LOST)
+    assert found["before_m"] <= LOST
+    assert found["before_m"] <= found["rms_m"] + 1e-12 or found["strayed"]
+    assert found["rms_m"] <= errors.max() + 1e-12
+
+
+@given(ways)
+def test_from_where_it_was_lost_it_never_came_back(errors):
+    at = summary(errors)["lost_at"]
+    if at is not None:
+        first = round(at * len(errors))
+        assert np.all(errors[first:] > LOST) and errors[first - 1] <= LOST
+
+
+def test_who_strays_and_comes_back_has_strayed_and_is_not_lost():
+    found = summary(np.array([0.0, 0.03, 0.04, 0.5, 0.5, 0.01]))
+    assert found["strayed"] and not found["lost"] and found["lost_at"] is None
+    assert found["before_m"] == pytest.approx(np.sqrt((0.03**2 + 0.04**2) / 3))
+
+
+def runs_of(errors):
+    return [summary(np.array([0.0, e])) for e in errors]
+
+
+def test_a_line_counts_and_its_intervals_hold_what_they_are_of():
+    line = row(runs_of([0.01, 0.02, 0.03, 0.05, 0.5, 0.6]))
+    assert (line["runs"], line["runs_strayed"], line["runs_lost"]) == (6, 2, 2)
+    assert line["lost"][0] == pytest.approx(1 / 3, abs=1e-4)
+    assert line["lost_of_strayed"][0] == 1
+    for value, low, high in (v for v in line.values() if isinstance(v, list)):
+        assert low <= value <= high
+    assert row(runs_of([0.01, 0.02, 0.03]))["lost_of_strayed"] is None
+
+
+def test_more_runs_make_narrower_intervals():
+    errors = np.random.default_rng(0).uniform(0, 0.3, 100)
+    few, many = row(runs_of(errors[:10])), row(runs_of(errors))
+    for key in ("final_m", "lost"):
+        assert np.ptp(many[key][1:]) < np.ptp(few[key][1:])
+
+
+def test_the_interval_of_a_share_holds_the_true_one_in_about_95_percent_of_all_studies():
+    rng, held = np.random.default_rng(1), 0
+    for _ in range(400):
+        _, low, high = three._share(rng.binomial(50, 0.2), 50)
+        held += low <= 0.2 <= high
+    assert 0.9 < held / 400 < 0.99
+
+
+@pytest.fixture
+def brief(monkeypatch):
+    """One lap, two filters, two data sets, small maps."""
+    monkeypatch.setattr(three, "ArenaRun", partial(ArenaRun, laps=1))
+    makers = {name: three.FILTERS[name] for name in ("odometry", "BOR, tuned")}
+    monkeypatch.setattr(three, "FILTERS", makers)
+    monkeypatch.setattr(three, "SETS", SETS[-2:])
+    monkeypatch.setattr(three, "costs", partial(three_costs.costs, ("bor", "mak"), (3, 5)))
+
+
+def test_the_command_writes_a_line_for_every_filter_and_kind(tmp_path, capsys, brief):
+    out = tmp_path / "three.json"
+    assert three.main(["--runs", "3", "--jobs", "1", "--out", str(out)]) == 0
+    table = json.loads(out.read_text())
+    assert json.loads(capsys.readouterr().out) == table
+    assert table["seeds"] == [0, 2] and table["lost_beyond_m"] == LOST
+    for rows in table["many"].values():
+        assert list(rows) == ["odometry", "BOR, tuned"]
+        assert all(line["runs"] == 3 for line in rows.values())
+    free, snagged = (table["many"][kind]["odometry"] for kind in ("free", "snagged"))
+    assert snagged["final_m"][0] > free["final_m"][0]
+    assert [line["snagged"] for line in table["six"]] == [False, True]
+    assert table["cost"]["over_smallest"]["bor"][0] == table["cost"]["over_bor"]["bor"] == 1
+
+
+def test_the_same_seed_gives_the_same_errors(brief):
+    assert three.run(1) == three.run(1)
+
+
+def test_too_few_runs_are_refused_in_one_line(capsys, tmp_path):
+    assert three.main(["--runs", "2", "--out", str(tmp_path / "x")]) == 2
+    assert "at least 3" in capsys.readouterr().err
+
+
+def test_in_the_field_of_costs_every_landmark_is_in_the_map_and_one_is_seen():
+    field = three_costs.Field(40, scans=4)
+    for name in three_costs.NAMES:
+        slam = estimators.make(name, field)
+        for reading in field:
+            slam.step(reading)
+        assert slam.status.startswith("40 landmarks, 0 ")
+    assert len(list(field)) == len(field) == 5
+
+
+def test_the_six_logs_are_written_and_read_again(tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(arena_logs, "ArenaRun", partial(ArenaRun, laps=1))
+    assert arena_logs.main([str(tmp_path / "new")]) == 0
+    names = [f"arena-{k}.log.gz" for k in range(1, 6)] + ["arena-6-snagged.log.gz"]
+    assert sorted(path.name for path in (tmp_path / "new").iterdir()) == names
+    logs = [sources.open(tmp_path / "new" / name) for name in names]
+    assert [log.name for log in logs] == ["sim:arena"] * 5 + ["sim:arena-snagged"]
+    assert all(len(log) > 90 for log in logs)
+    (tmp_path / "file").write_text("")
+    assert arena_logs.main([str(tmp_path / "file")]) == 2
+
+
+@pytest.mark.skipif(not TABLE.exists(), reason="the table has not been made")
+def test_the_stored_table_is_of_two_hundred_runs_and_whole():
+    table = json.loads(TABLE.read_text())
+    assert table["seeds"][1] - table["seeds"][0] + 1 >= 200
+    assert [(line["seed"], line["snagged"]) for line in table["six"]] == list(SETS)
+    for rows in table["many"].values():
+        assert list(rows) == list(three.FILTERS)
+        for line in rows.values():
+            assert line["runs"] >= 200 >= line["runs_strayed"] >= line["runs_lost"]
