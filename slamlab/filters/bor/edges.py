@@ -79,7 +79,8 @@ def pushed(a, b, c, origin):
     -------
     (a, b, c') half-plane
     """
-    farthest = a * origin[a > 0] + b * origin[2 + (b > 0)]
+    x_min, x_max, y_min, y_max = origin
+    farthest = a * (x_max if a > 0 else x_min) + b * (y_max if b > 0 else y_min)
     return a, b, c + farthest + ROUNDING
 
 

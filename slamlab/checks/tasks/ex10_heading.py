@@ -1,0 +1,259 @@
+"""Exercise 10, the heading: all that a sighting leaves of it, over the seam and when boxes meet."""
+
+import numpy as np
+
+from slamlab.checks.drives.ex10 import DRIVES
+from slamlab.checks.task import Diagnosis, Law, Task
+from slamlab.checks.tasks.ex10_predict import around
+from slamlab.geometry import wrap
+
+ROWS = 24
+MEET = slice(0, 4)  # rows whose boxes overlap
+SEAM, ON_SEAM = slice(9, None, 6), slice(6, None, 6)  # rows whose headings lie beyond it, and on it
+CLOSE = 1e-4  # [rad]
+
+
+def inputs(rng):
+    """Robots that see an object; in every second row a seam lies among the bearings."""
+    n = ROWS
+    toward = np.where(np.arange(n) % 2, np.pi, 0) + rng.uniform(-0.15, 0.15, n)
+    toward[n // 2 :: 2] = rng.uniform(-2.5, 2.5, n // 2 // 2)
+    at = rng.uniform(-3, 3, (n, 2))
+    far = rng.uniform(2, 4, n)
+    far[MEET] = rng.uniform(0.02, 0.08, 4)
+    far[SEAM] = 4.0  # bearings hardly differ there
+    target = at + far[:, None] * np.column_stack([np.cos(toward), np.sin(toward)])
+    robot, box = (_box_round(place, rng) for place in (at, target))
+    robot[MEET], box[MEET] = _overlapping(at[MEET], target[MEET], rng)
+    theta = rng.uniform(-3, 3, n)
+    theta[SEAM] = np.pi + rng.uniform(0.45, 0.55, len(theta[SEAM]))
+    theta[ON_SEAM] = np.pi + rng.uniform(-0.005, 0.005, len(theta[ON_SEAM]))
+    bound = rng.uniform(0.03, 0.1, n)
+    bearing = wrap(toward - theta + rng.uniform(-1, 1, n) * bound)
+    # on one side the prior is the narrower, on the other what the sighting tells
+    wide, narrow = rng.uniform(0.6, 1.0, n), rng.uniform(0.01, 0.05, n)
+    right_wide = np.arange(n) % 4 < 2
+    right_wide[SEAM] = (
+        True  # so that right lies before the seam, and what the sighting tells behind
+    )
+    right = wrap(theta - np.where(right_wide, wide, narrow))
+    return {
+        "heading": np.column_stack([right, right + wide + narrow]),
+        "robot": robot,
+        "box": box,
+        "bearing": bearing,
+        "bound": bound,
+    }
+
+
+def _box_round(place, rng):
+    """(n, 4) boxes that hold a place, off their middle."""
+    half = rng.uniform(0.15, 0.35, (2, len(place)))
+    middle = place.T + rng.uniform(-0.7, 0.7, (2, len(place))) * half
+    return np.hstack([around(middle[0], half[0]), around(middle[1], half[1])])
+
+
+def _overlapping(at, target, rng):
+    """Boxes that meet on a narrow strip: the robot's lies on the object's side and vice versa.
+
+    All but a few of their points see each other the other way, so their corners mislead.
+    """
+    ahead = np.sign(target[:, 0] - at[:, 0])
+    half = rng.uniform(0.3, 0.5, (2, 2, len(at)))
+    rim = rng.uniform(0.01, 0.02, (2, len(at)))
+    found = []
+    for place, side, (half_x, half_y), by in zip((at, target), (1, -1), half, rim, strict=True):
+        middle = place[:, 0] + side * ahead * (half_x - by)
+        found.append(np.hstack([around(middle, half_x), around(place[:, 1], half_y)]))
+    return found
+
+
+def overlap(given):
+    """(n,) bool: the boxes of robot and object meet."""
+    r, o = given["robot"], given["box"]
+    x = (r[:, 0] <= o[:, 1]) & (o[:, 0] <= r[:, 1])
+    return x & (r[:, 2] <= o[:, 3]) & (o[:, 2] <= r[:, 3])
+
+
+def pairs(given):
+    """(n, 16) bearings from every corner of the robot's box to every corner of the object's."""
+    r, o = (
+        np.stack([b[:, [0, 1, 1, 0]], b[:, [2, 2, 3, 3]]], axis=-1)
+        for b in (given["robot"], given["box"])
+    )
+    d = (o[:, None] - r[:, :, None]).reshape(len(r), 16, 2)
+    return np.arctan2(d[..., 1], d[..., 0])
+
+
+def told(given, widened=1.0, sign=-1.0, offset=0.0, bearings=pairs):
+    """(n, 2) what the sighting alone says of the heading, right ≤ left as numbers."""
+    seen = bearings(given)
+    first = seen[:, :1]
+    span = first + wrap(seen - first)
+    back = sign * given["bearing"] + offset
+    ends = np.column_stack([span.min(axis=1), span.max(axis=1)]) + back[:, None]
+    return ends + np.column_stack([-given["bound"], given["bound"]]) * widened
+
+
+def both(a, b):
+    """(n, 2) what two intervals (n, 2) have in common, whole turns taken off b."""
+    shift = wrap(b.mean(axis=1) - a.mean(axis=1)) + a.mean(axis=1) - b.mean(axis=1)
+    b = b + shift[:, None]
+    return np.column_stack([np.maximum(a[:, 0], b[:, 0]), np.minimum(a[:, 1], b[:, 1])])
+
+
+def sharpened(given, **changes):
+    """(n, 2) the heading after the sighting; unchanged where boxes overlap."""
+    found = both(given["heading"], told(given, **changes))
+    return np.where(overlap(given)[:, None], given["heading"], found)
+
+
+def _beyond(given, out, rows):
+    """(k, 2) how far right and left lie outside of what is known to be the tightest."""
+    want, got = sharpened(given)[rows], out["result"][rows]
+    right = wrap(want[:, 0] - got[:, 0])
+    return np.column_stack([right, got[:, 1] - got[:, 0] - np.ptp(want, axis=1) - right])
+
+
+def _holds(given, out):
+    return (_beyond(given, out, ~overlap(given)) >= -CLOSE).all(axis=1)
+
+
+def _tight(given, out):
+    return (np.abs(_beyond(given, out, ~overlap(given))) <= CLOSE).all(axis=1)
+
+
+def _unchanged(given, out):
+    return (np.abs(_beyond(given, out, overlap(given))) <= CLOSE).all(axis=1)
+
+
+# ---- mistakes: the wrong formula, computed on the same inputs --------------------------------
+
+
+def _by_size(given):
+    """Bearings from the least to the largest number, wrapped ones."""
+    seen = pairs(given)
+    ends = np.column_stack([seen.min(axis=1), seen.max(axis=1)]) - given["bearing"][:, None]
+    return both(given["heading"], ends + np.column_stack([-given["bound"], given["bound"]]))
+
+
+def _numbers_compared(given):
+    """Right, then the larger and the smaller number, whole turns left as they are."""
+    want = told(given)
+    wrapped = np.column_stack([wrap(want[:, 0]), wrap(want[:, 0]) + np.ptp(want, axis=1)])
+    h = given["heading"]
+    return np.column_stack([np.maximum(h[:, 0], wrapped[:, 0]), np.minimum(h[:, 1], wrapped[:, 1])])
+
+
+def _all_wrapped(given):
+    """The same with both ends wrapped."""
+    h, want = given["heading"], wrap(told(given))
+    return np.column_stack([np.maximum(h[:, 0], want[:, 0]), np.minimum(h[:, 1], want[:, 1])])
+
+
+def _middles(given):
+    r, o = given["robot"], given["box"]
+    d = [o[:, s].mean(axis=1) - r[:, s].mean(axis=1) for s in (slice(0, 2), slice(2, 4))]
+    return np.arctan2(d[1], d[0])[:, None]
+
+
+def answers_with(*formulas):
+    """Whether what came back for boxes apart is what one of these formulas gives."""
+
+    def matches(given, out):
+        rows = ~overlap(given)
+        got = out["result"][rows]
+        for formula in formulas:
+            off = wrap(got - formula(given)[rows])
+            if (np.abs(off) < CLOSE).all():
+                return True
+        return False
+
+    return matches
+
+
+def _with(**changes):
+    return lambda given: both(given["heading"], told(given, **changes))
+
+
+HEADING = Task(
+    id="10-heading",
+    title="The heading after a sighting",
+    drive=DRIVES["10-heading"],
+    inputs=inputs,
+    shapes={"result": (2,)},
+    laws=(
+        Law("holds", 2, "no heading that agrees with the sighting is given up", _holds),
+        Law("tight", 1, "right and left are headings that agree with the sighting", _tight),
+        Law("overlap", 1, "where the boxes overlap the heading stays as it is", _unchanged),
+    ),
+    diagnoses=(
+        Diagnosis(
+            "bound-forgotten",
+            "The interval is not widened by d_β: the bearing may be off by as much, either way.",
+            answers_with(_with(widened=0.0)),
+        ),
+        Diagnosis(
+            "bound-inwards",
+            "The interval is narrowed by d_β: take it off at right, add it at left.",
+            answers_with(_with(widened=-1.0)),
+        ),
+        Diagnosis(
+            "bearing-added",
+            "The bearing has the wrong sign. It counts from the heading: direction = heading + "
+            "bearing, so heading = direction − bearing.",
+            answers_with(_with(sign=1.0)),
+        ),
+        Diagnosis(
+            "from-the-object",
+            "These are the directions from the object to the robot, π off. The robot looks the "
+            "other way.",
+            answers_with(_with(offset=np.pi)),
+        ),
+        Diagnosis(
+            "middles-only",
+            "The bearing from middle to middle is used. Robot and object may be anywhere in their "
+            "boxes: find the extreme bearings.",
+            answers_with(_with(bearings=_middles)),
+        ),
+        Diagnosis(
+            "seam-bearings",
+            "Where bearings lie on both sides of ±π, the least and the largest number are not the "
+            "extremes: count all of them from one, with wrap.",
+            answers_with(_by_size),
+        ),
+        Diagnosis(
+            "seam-intersection",
+            "Right and left are compared as numbers. −3.1 and 3.1 are close to each other: bring "
+            "both intervals to the same turn before max and min.",
+            answers_with(_numbers_compared, _all_wrapped),
+        ),
+        Diagnosis(
+            "not-intersected",
+            "This is what the sighting says alone. What was known before still holds: intersect.",
+            answers_with(lambda g: told(g)),
+        ),
+        Diagnosis(
+            "unchanged",
+            "The heading comes back as it was, though most sightings say more.",
+            answers_with(lambda g: g["heading"]),
+        ),
+        Diagnosis(
+            "exchanged",
+            "Right and left have changed places: going counter-clockwise right comes first.",
+            answers_with(lambda g: sharpened(g)[:, ::-1]),
+        ),
+        Diagnosis(
+            "overlap",
+            "Where the boxes overlap, object and robot may stand in any direction of each other: "
+            "the sighting says nothing about the heading. Return it unchanged.",
+            lambda given, out: bool(_tight(given, out).all()),
+        ),
+        Diagnosis(
+            "left-wrapped",
+            "left comes back less than right: it is wrapped. Keep it as right + width, even beyond "
+            "π: only so left − right says how wide the interval is.",
+            answers_with(sharpened),
+        ),
+    ),
+)
