@@ -137,10 +137,13 @@ def fit(cloud, rows, start=None, rounds=ROUNDS):
         weights = 1 / cloud.variance(rows, rho, alpha)
         off, t = points @ [c, s] - rho, points @ [-s, c]
         total, first, second = weights.sum(), weights @ t, weights @ (t * t)
-        R = np.array([[second, first], [first, total]]) / (total * second - first * first)
-        expected = np.clip(rho * np.tan(angles - alpha), t.min(), t.max())
-        step = R @ [weights @ off, -weights @ (expected * off)]
-        rho, alpha = rho + step[0], alpha + step[1]
+        expected = np.minimum(np.maximum(rho * np.tan(angles - alpha), t.min()), t.max())
+        pull, twist, det = weights @ off, weights @ (expected * off), total * second - first * first
+        rho, alpha = (
+            rho + (second * pull - first * twist) / det,
+            alpha + (first * pull - total * twist) / det,
+        )
+    R = np.array([[second, first], [first, total]]) / det
     return np.array(_outward(rho, alpha)), R
 
 

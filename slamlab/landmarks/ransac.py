@@ -29,7 +29,7 @@ class Ransac:
     sigmas : float
     roughness : float, largest mean square residual in units of its variance, when band is None
     grow : bool, whether the wall goes on beyond the window
-    gap : float, widest hole of a wall that grows, if a beam goes through it [m]
+    gap : float, widest hole of a wall that grows, if one beam goes through it; two end it [m]
     hidden : float, widest piece of a wall that things before it may hide [m]
     shortest : float, least length of a wall [m]
     """
@@ -139,11 +139,10 @@ def _reached(points, free, line, middle, ransac):
     along = points.points[order] @ [-np.sin(line[1]), np.cos(line[1])]
     through = off > band
     through[1:] |= np.diff(beams[order]) % points.total > EMPTY + 1
-    seen_through = np.diff(np.cumsum(through)[on]) > 0
-    apart = np.abs(np.diff(along[on]))
-    neighbours = np.diff(on) == 1
-    holes = seen_through & (apart > ransac.gap) | ~neighbours & (apart > ransac.hidden)
-    ends = np.flatnonzero(holes)
+    views = np.diff(np.cumsum(through)[on])  # one may be noise
+    apart, neighbours = np.abs(np.diff(along[on])), np.diff(on) == 1
+    holes = (views > 1) | (views == 1) & (apart > ransac.gap)
+    ends = np.flatnonzero(holes | ~neighbours & (apart > ransac.hidden))
     nearest = np.abs(on - (middle - opposite) % len(points)).argmin()
     k = np.searchsorted(ends, nearest)
     first = ends[k - 1] + 1 if k else 0
