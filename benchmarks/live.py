@@ -1,6 +1,7 @@
 """The live view in a real browser: from a click to the picture, and pictures a second.
 
-Against an ipywidgets.Image that gets a full redraw by matplotlib, in the same notebook and run.
+Against an ipywidgets.Image that gets a full redraw by matplotlib, in the same notebook and run;
+and from a click to the answer while a source keeps one waiting for a second.
 Goals on an idle machine: 100 ms, 10 frames/s; never more than one frame on its way.
 """
 
@@ -13,82 +14,19 @@ import nbformat
 
 from benchmarks.common import Missing, main, row
 from tests.browser.jupyter import Unavailable, Visit, chromium, jupyterlab
-from tests.browser.live import View, fresh
+from tests.browser.live import View
+from tests.browser.measuring import NAME, notebook
 
-NAME = "live_benchmark.ipynb"
 TITLE = "Live view in JupyterLab and headless Chromium, 20 000 points (wall time)"
 AGG = "Image, full Agg redraw"
 GOAL_MS, GOAL_FPS = 100, 10
 
-# a map that grows by 20 points a step, and one that is another at each step; the same for both
-WORLD = """\
-import asyncio
-import ipywidgets
-import numpy as np
-from slamlab import views
-from slamlab.layers import Points, Poses
-from slamlab.readings import Reading
-from slamlab.sources.base import Source
-from slamlab.views.live import loop as loops
-
-loops.PICTURES = 1000  # as many as the browser takes
-
-class Clock(Source):
-    def __iter__(self):
-        step = 0
-        while True:
-            yield Reading(time=float(step))
-            step += 1
-
-class Cloud:
-    status = ""
-    def __init__(self, grows):
-        self.grows, self.count = grows, 0
-        self.rng = np.random.default_rng(0)
-        self.points = self.rng.uniform(-5, 5, (20_000, 2))
-    def step(self, reading):
-        self.count += 1
-        if self.grows:
-            self.points = np.vstack([self.points, self.rng.uniform(-5, 5, (20, 2))])
-        else:
-            self.points = self.rng.uniform(-5, 5, (20_000, 2))
-    def layers(self):
-        x, y = np.cos(self.count / 20), np.sin(self.count / 20)
-        return [Points("map", self.points), Poses("corrected", [[x, y, self.count / 20]])]"""
-
-LIVE = """\
-_ = views.live(lambda rng: Clock(), lambda source: Cloud({grows}), "cloud", steps=1, speed=1000)"""
-
-REDRAWN = """\
-image, cloud = ipywidgets.Image(), Cloud(True)
-step, run = (ipywidgets.Button(description=text) for text in ("step", "run"))
-def redraw(_=None):
-    cloud.step(None)
-    fig, ax = views.axes("", (7.2, 4.8))
-    for layer in cloud.layers():
-        views.draw(ax, layer)
-    image.value = views.png(fig)
-async def go():
-    while running:
-        redraw()
-        await asyncio.sleep(0.005)
-running = []
-def toggle(_):
-    if running:
-        running.clear()
-    else:
-        running.append(asyncio.get_running_loop().create_task(go()))
-redraw()
-step.on_click(redraw)
-run.on_click(toggle)
-ipywidgets.VBox([step, run, image])"""
-
-# calls back after each picture of a live view, or of an image
+# calls back after each picture of a live view or an image, or each new text of a button
 WATCH = """
 ([root, back]) => {
   if (root.tagName != "IMG") {
     const watcher = new MutationObserver(back);
-    watcher.observe(root, { attributeFilter: ["data-frame"] });
+    watcher.observe(root, { attributeFilter: ["data-frame"], childList: true });
     return () => watcher.disconnect();
   }
   root.addEventListener("load", back);
@@ -129,15 +67,20 @@ def measured(cell, root, run, pause, quick):
     def button(text):
         return cell.get_by_role("button", name=text, exact=True)
 
-    step = button("step").element_handle()
-    presses = 5 if quick else 30
-    waits = [page.evaluate(CLICK, [shown, step]) for _ in range(3 + presses)][3:]
+    wait = pressed(page, shown, button("step").element_handle(), quick)
     button(run).click()
     page.wait_for_timeout(500)
     rate = page.evaluate(COUNT, [shown, 2 if quick else 6])
     button(pause).click()
     page.wait_for_timeout(1500)  # what is on its way arrives
-    return statistics.median(waits), rate
+    return wait, rate
+
+
+def pressed(page, shown, button, quick):
+    """Median time from a click on a button to a change of what is shown [ms]."""
+    presses = 5 if quick else 30
+    waits = [page.evaluate(CLICK, [shown, button]) for _ in range(3 + presses)][3:]
+    return statistics.median(waits)
 
 
 def run(quick):
@@ -154,17 +97,11 @@ def run(quick):
             raise Missing(str(reason)) from None
 
 
-def notebook():
-    """The notebook in which it is measured."""
-    cells = [WORLD, LIVE.format(grows=True), LIVE.format(grows=False), REDRAWN]
-    return fresh(*cells)
-
-
 def rows(visit, quick):
     """Run the notebook's cells and measure each picture."""
     visit.open(NAME)
     visit.run_all()
-    cell = visit.page.locator(".jp-Cell").nth(3)
+    late, cell = (visit.page.locator(".jp-Cell").nth(position) for position in (3, 4))
     image = cell.locator("img.widget-image")
     image.wait_for()
     visit.page.wait_for_timeout(1000)
@@ -174,10 +111,19 @@ def rows(visit, quick):
         name: (view, *measured(view.cell, view.root, "▶ run", "❚❚ pause", quick))
         for name, view in views.items()
     }
+    toggle = late.get_by_role("button", name="▶ run").element_handle()
+    answer = pressed(visit.page, toggle, toggle, quick)
     redrawn = measured(cell, image, "run", "run", quick)
     found = [
         row(f"click → picture: {AGG}", redrawn[0], "ms", AGG, 1),
         row(f"pictures a second: {AGG}", redrawn[1], "1/s", AGG, 1),
+        row(
+            "click → run or pause: source waits",
+            answer,
+            "ms",
+            f"goal {GOAL_MS} ms",
+            GOAL_MS / answer,
+        ),
     ]
     for name, (view, wait, rate) in lives.items():
         behind = view.behind()

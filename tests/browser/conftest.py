@@ -5,9 +5,8 @@ import shutil
 import nbformat
 import pytest
 
-from benchmarks import live as benchmark
 from course.source import ROOT
-from tests.browser import editing, live, waiting
+from tests.browser import editing, live, measuring, waiting
 from tests.browser.jupyter import Unavailable, Visit, chromium, jupyterlab
 
 
@@ -26,7 +25,7 @@ def lab_folder(tmp_path_factory):
     """The folder with all lessons and the notebooks of these tests."""
     notebooks = tmp_path_factory.mktemp("lab") / "course" / "notebooks"
     shutil.copytree(ROOT / "notebooks", notebooks)
-    for made in (live, waiting, editing, benchmark):
+    for made in (live, waiting, editing, measuring):
         nbformat.write(made.notebook(), notebooks / made.NAME)
     return notebooks
 

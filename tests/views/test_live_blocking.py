@@ -230,6 +230,18 @@ def test_a_reset_closes_the_source_before_and_one_thread_waits_at_most():
     assert max(source.most for source in sources) == 1
 
 
+def test_who_chooses_another_simulation_closes_the_source_of_the_one_before():
+    loop = made()
+    before = loop.pair.source
+
+    async def watch():
+        loop.reset(pair=Pair(Walk, lambda source: Sum()))
+        await until(lambda: loop.pair.count == 1)
+
+    asyncio.run(watch())
+    assert before.closed
+
+
 def test_a_source_handed_in_stays_open_and_no_two_views_read_it_at_once():
     device = Device()
     loop = made(device)
@@ -238,7 +250,7 @@ def test_a_source_handed_in_stays_open_and_no_two_views_read_it_at_once():
         loop = made(device)  # as when a cell is run again
     assert not device.closed
     device.give(0.4)
-    assert loop.pair.step() and loop.pair.estimator.pose[0] == 0.4
+    assert loop.pair.step(5) and loop.pair.estimator.pose[0] == 0.4
     assert device.most == 1
     device.close()
 

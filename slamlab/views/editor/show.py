@@ -7,6 +7,7 @@ from IPython.display import display
 
 from slamlab.views.editor.state import WorldEditor
 from slamlab.views.figures import bundle
+from slamlab.views.mistakes import sentence
 from slamlab.views.widgets import explore
 
 
@@ -70,7 +71,7 @@ def _connected(editor, board, rows):
             board.scan = bytes_of(editor.seen())
         except Exception as error:
             # a callback has no cell to fail in
-            told.value = _warning(f"{type(error).__name__}: {error}")
+            told.value = _warning(sentence(error))
         finally:
             following.pop()
 

@@ -5,16 +5,15 @@ from dataclasses import replace
 from math import inf
 from time import monotonic
 
+from slamlab.views.live.commands import COMMANDS, velocities
 from slamlab.views.live.packing import Scene
+from slamlab.views.mistakes import sentence
 
 PICTURES = 20  # a second, at most; more steps than these share a picture
 BREATH = 0.005  # [s] left to the kernel between two pictures, to hear of a press
 BUSY = 0.1  # [s] of steps in a row, then a picture
 STANDING = 0.1  # [s] between looks whether a robot that stands has got a command
 SOON = 0.02  # [s] that all else in the kernel waits for a source's readings, a picture
-
-COMMANDS = {"forward": (1, 0), "back": (-1, 0), "left": (0, 1), "right": (0, -1), "stop": None}
-"""What can be commanded: shares of top speed and top turn rate."""
 
 _running = None  # the one loop that runs: a cell that is run again leaves none behind
 
@@ -82,7 +81,7 @@ class Loop:
         seed : int, or None for the same
         pair : Pair to go on with, or None for the same
         """
-        self.pause()
+        self.close()
         self.seed = self.seed if seed is None else seed
         self.pair = self.pair if pair is None else pair
         self._do(self._renew)
@@ -99,29 +98,13 @@ class Loop:
         """
         if name not in COMMANDS:
             return
-        command = self.command(name)
+        command = velocities(name, self.tops)
         pair = self.pair
         if self.running and pair.drivable and pair.over:
             pair.command = command
         elif command is not None or (pair.drivable and pair.played and not pair.over):
             self._do(lambda: pair.drive(command or (0.0, 0.0)))
             self.show()
-
-    def command(self, name):
-        """The speed and turn rate that a command stands for.
-
-        Parameters
-        ----------
-        name : str, one of COMMANDS
-
-        Returns
-        -------
-        (2,) [m/s, rad/s], or None for stop
-        """
-        if COMMANDS[name] is None:
-            return None
-        (v, omega), (v_top, omega_top) = COMMANDS[name], self.tops
-        return v * v_top, omega * omega_top
 
     def show(self):
         """Offer the screen what there is to see; a mistake in it is told as any other."""
@@ -211,19 +194,3 @@ def stop():
     """Stop whatever runs; harmless when nothing does."""
     if _running is not None:
         _running.pause()
-
-
-def sentence(error):
-    """A mistake in one line, without a traceback.
-
-    Parameters
-    ----------
-    error : Exception
-
-    Returns
-    -------
-    str
-    """
-    text = " ".join(str(error).split()) or "no more is known"
-    # what the course raises on purpose says all there is to say
-    return text if isinstance(error, ValueError) else f"{type(error).__name__}: {text}"

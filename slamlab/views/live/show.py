@@ -8,6 +8,7 @@ from slamlab.layers import Points
 from slamlab.views.figures import COLOURS, axes, bundle
 from slamlab.views.layers import draw, legend
 from slamlab.views.live.cells import loops_of_this_cell
+from slamlab.views.live.commands import velocities
 from slamlab.views.live.controls import Controls
 from slamlab.views.live.loop import Loop, stop
 from slamlab.views.live.pair import Pair
@@ -96,7 +97,7 @@ def live(
     while 0 < pair.count < steps and pair.step(PATIENCE):
         pass
     for name in script:
-        pair.drive(loop.command(name))
+        pair.drive(velocities(name, tops))
     data, metadata = bundle(still(pair.scene(), title, size), alt)
     loop.show()
     box = ipywidgets.VBox([Controls(loop, pairs).widget, shown.widget])
