@@ -20,7 +20,7 @@
 
 # %% slideshow={"slide_type": "skip"}
 import json
-from time import perf_counter
+from timeit import repeat
 
 import numpy as np
 import sympy as sp
@@ -176,7 +176,7 @@ alpha = sp.symbols("alpha", real=True)
 sp.solveset(sp.diff(sp.cos(alpha), alpha), alpha)
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
-# Even multiples of π give 1, odd ones −1. So:
+# Even multiples of π give 1, odd ones −1. So (and the sine is the cosine of α − π/2):
 
 
 # %% slideshow={"slide_type": "fragment"}
@@ -312,7 +312,7 @@ sp.diff(along, rho), sp.diff(along, a)
 #
 # $$\text{far: } r+d_r, \qquad \text{near: } (r-d_r)\cos d_{abs}$$
 #
-# Not r − d_r: the two ends of the inner arc come nearer than its middle. The side edges are the
+# Not r − d_r: the two ends of the inner arc come nearer than its middle (and 0 where d_r > r). The side edges are the
 # rays at ± d_abs. As half-planes a x + b y ≤ c with (a, b) pointing out:
 
 
@@ -333,11 +333,11 @@ def four_edges(r, d_r, direction, d_abs):
 # %% slideshow={"slide_type": "subslide"}
 NAMES = "far", "near", "left", "right"
 edges_at_0 = four_edges(z[0], bounds[0], direction, d_abs)
-WINDOW = -0.9, 4.6, -2.0, 4.0
+WINDOW = -2.6, 4.6, -2.0, 4.0
 fig, ax = views.boxes.scene("One sighting from one point", WINDOW)
 views.boxes.sector(ax, (0, 0), around(z[0], bounds[0]), around(direction, d_abs), "possible places")
 views.boxes.edges(ax, edges_at_0, NAMES)
-ax.legend(loc="upper left")
+ax.legend(loc="lower left")
 views.show(fig, "A piece of a ring enclosed by four lines, their shaded sides outside.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
@@ -403,7 +403,7 @@ for x in robot[:2]:
         views.boxes.sector(ax, (x, y), around(z[0], bounds[0]), around(direction, d_abs), alpha=0.2)
 views.draw(ax, Boxes("robot", [robot]))
 views.boxes.edges(ax, lines, NAMES)
-ax.legend(loc="upper left")
+ax.legend(loc="lower left")
 views.show(fig, "Four pieces of rings seen from the box's corners, all within the pushed edges.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
@@ -460,11 +460,12 @@ for name, line in zip(NAMES, lines, strict=True):
 def step_by_step(step):
     title = f"after the {NAMES[step - 1]} edge" if step else "before the first edge"
     fig, ax = views.boxes.scene(title, WINDOW)
-    views.draw(ax, Boxes("box before", [boxes[max(step - 1, 0)]]), color=views.COLOURS["guide"])
-    views.draw(ax, Boxes("box now", [boxes[step]]), linewidth=2.5, color=views.COLOURS["corrected"])
+    for name, row, colour in (("before", step - 1, "guide"), ("now", step, "corrected")):
+        box = Boxes(f"box {name}", [boxes[max(row, 0)]])
+        views.draw(ax, box, color=views.COLOURS[colour], linewidth=2.5)
     views.draw(ax, Points("true object", [object_at]), color=views.COLOURS["truth"], markersize=10)
     views.boxes.edges(ax, lines[:step][-1:], NAMES[:step][-1:])
-    ax.legend(loc="upper left")
+    ax.legend(loc="lower left")
     return fig
 
 
@@ -550,8 +551,8 @@ ax.legend(loc="upper left")
 views.show(fig, "A slice of directions from the robot's box that covers the object's box.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** the slice opens wider than the object looks from the middle: it also holds the lines from
-# the robot's right edge to the object's left edge. The differences object − robot fill a box again,
+# **See:** the slice is much wider than the object: its left rim is parallel to the line from the
+# robot's lower right corner to the object's upper left one. The differences object − robot fill a box again,
 # and its corners give the extremes. If that box holds the origin (the boxes overlap), every
 # direction is possible, and the sighting says nothing about the heading.
 
@@ -571,7 +572,7 @@ for k in range(5):
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # The first round sharpens the heading most; the second, with it, takes the robot's box to an eighth;
-# from the fourth on nothing changes.
+# after the third nothing changes.
 #
 # That is the filter. In the package it is `BOR`: `predict`, `update`, `add`. A new object gets the
 # box of everything it can be: the prediction's own arithmetic, with the range for the way.
@@ -597,9 +598,10 @@ for name in ("steps", "outside", "empty"):
 # for a million steps, by `python -m slamlab.studies.boxes`:
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* Testing found two real mistakes while the filter was written, both in
-# intervals of angles of a whole turn. A guarantee is a wonderful thing to test: one counterexample
-# is a bug, there is no "statistically".
+# *For the lecturer:* Running it found a real mistake while the filter was written: two intervals of a
+# whole turn have two pieces in common, one of them empty, and the smallest interval round both was
+# that one. A guarantee is a wonderful thing to test: one counterexample is a bug, there is no
+# "statistically".
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 table = json.loads(TABLE.read_text())
@@ -702,9 +704,8 @@ except EmptyIntersection as error:
     print(error)
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# In the thesis an empty intersection is undefined. Its experiments show what then happens: "once
-# its error starts to grow, it is lost for good". An empty box cannot grow again; an ellipse can.
-# The estimator `bor` leaves such a sighting out, says *lost* in its status, and promises nothing
+# In the thesis an empty intersection is undefined, and in its experiments BOR, once its error begins
+# to grow, is lost for good: what was cut off never comes back. The estimator `bor` leaves such a sighting out, says *lost* in its status, and promises nothing
 # from there on.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
@@ -731,14 +732,15 @@ print("the robot's box holds the truth:", inside(bor.robot, true_pose))
 
 # %% slideshow={"slide_type": "subslide"}
 fig, ax = views.axes("A chair is taken for the post", size=(7, 4))
-views.draw(ax, Boxes("robot before", [before]), color=views.COLOURS["guide"])
-views.draw(ax, Boxes("robot after", [bor.robot]), color=views.COLOURS["corrected"], linewidth=2.5)
-for name, at, colour in (
-    ("post", [[2, 0]], "landmark"),
-    ("chair", [chair], "naive"),
-    ("true robot", [true_pose[:2]], "truth"),
-):
-    views.draw(ax, Points(name, at), color=views.COLOURS[colour], markersize=12)
+for name, row, colour in (("before", before, "guide"), ("after", bor.robot, "corrected")):
+    views.draw(ax, Boxes(f"robot {name}", [row]), color=views.COLOURS[colour], linewidth=2)
+things = (
+    ("post", post[::2], "landmark"),
+    ("chair", chair, "naive"),
+    ("true robot", true_pose, "truth"),
+)
+for name, at, colour in things:
+    views.draw(ax, Points(name, [at[:2]]), color=views.COLOURS[colour], markersize=12)
 ax.legend(loc="lower right")
 views.show(fig, "The robot's box shrinks to a wrong place: the true robot stands outside of it.")
 
@@ -757,11 +759,8 @@ views.show(fig, "The robot's box shrinks to a wrong place: the true robot stands
 
 
 # %% slideshow={"slide_type": "fragment"}
-def seconds(call, n=300):
-    begin = perf_counter()
-    for _ in range(n):
-        call()
-    return (perf_counter() - begin) / n
+def seconds(call, n=50):
+    return min(repeat(call, number=n, repeat=7)) / n
 
 
 def cost(N):
@@ -833,7 +832,7 @@ views.show(fig, "The same run: wide boxes on the left, ellipses too small to see
 
 # %% slideshow={"slide_type": "fragment"}
 minutes = np.arange(len(side)) / 60
-fig, _ = views.curves(
+fig, ax = views.curves(
     minutes,
     {
         "half of the box's side": np.array(side) / 2,
@@ -844,6 +843,7 @@ fig, _ = views.curves(
     "error, claim [m]",
     "What the box claims, and the errors",
 )
+ax.set(ylim=(0, 5))
 views.show(fig, "The claim rises and falls with each round; the box's error stays well below it.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
