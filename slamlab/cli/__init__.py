@@ -9,7 +9,9 @@ from importlib import import_module
 
 from slamlab import __version__
 
-COMMANDS = ("run", "convert", "check", "grade")
+COMMANDS = ("run", "convert", "check", "grade", "marks")
+SECOND_WORDS = {"grade": ("merge", "adjust", "export")}
+"""Words that make a command of two; a folder of such a name is given as ./merge."""
 
 
 def main(argv=None):
@@ -32,7 +34,10 @@ def main(argv=None):
     subparsers = parser.add_subparsers(metavar="COMMAND", required=True)
     for command in COMMANDS:
         import_module(f"slamlab.cli.{command}").add_parser(subparsers)
-    arguments = parser.parse_args(argv)
+    words = list(sys.argv[1:] if argv is None else argv)
+    if words[1:2] and words[1] in SECOND_WORDS.get(words[0], ()):
+        words[:2] = [" ".join(words[:2])]
+    arguments = parser.parse_args(words)
     try:
         return arguments.run(arguments)
     except KeyboardInterrupt:

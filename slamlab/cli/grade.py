@@ -65,6 +65,12 @@ def add_parser(subparsers):
         help="the gradebook, a database that SQLAlchemy speaks to; default: DIR/grades.db, SQLite",
     )
     parser.add_argument(
+        "--policy",
+        metavar="FILE",
+        type=Path,
+        help='what lateness costs: per_day = 0.1, at_most = 0.5, [due], "04" = 2026-12-01T23:59Z',
+    )
+    parser.add_argument(
         "--regrade",
         action="store_true",
         help="grade again what the gradebook knows; points set by hand stay",
@@ -75,8 +81,8 @@ def add_parser(subparsers):
 def run(arguments) -> int:
     """Grade; 0 when every submission was graded or listed, 2 for wrong use or no isolation."""
     # imported late: what a help text needs should come at once
-    from slamlab.grading import folder, isolation
-    from slamlab.grading.gradebook import Gradebook, NoGradebook
+    from slamlab.grading import folder, isolation, late
+    from slamlab.grading.gradebook import Gradebook, NoGradebook, url_of
     from slamlab.grading.submissions import Unreadable
     from slamlab.grading.workers import Workers
 
@@ -87,19 +93,20 @@ def run(arguments) -> int:
             catalogue.exercise(arguments.exercise)
         found, secret = folder.prepare(arguments.folder, arguments.out, arguments.secret)
         jobs = min(arguments.jobs, len(found))
+        policy = late.load(arguments.policy) if arguments.policy else late.NONE
         isolation.ensure(arguments.isolation)
         with (
-            Gradebook(arguments.db or f"sqlite:///{arguments.out / 'grades.db'}") as book,
+            Gradebook(arguments.db or url_of(arguments.out)) as book,
             Workers(arguments.isolation) as workers,
             _asked_to_end_as_by_a_key(),
         ):
             if arguments.regrade:
                 book.forget([submission.name for submission in found])
             graded = folder.grade_all(
-                found, secret, arguments.out, book, workers, arguments.exercise, jobs
+                found, secret, arguments.out, book, workers, arguments.exercise, jobs, policy
             )
             records = _with_progress(graded, len(found))
-    except (Unreadable, NoGradebook, isolation.Refused, KeyError) as error:
+    except (Unreadable, NoGradebook, isolation.Refused, late.WrongPolicy, KeyError) as error:
         print(f"slamlab grade: {error.args[0]}", file=sys.stderr)
         return 2
     except OSError as error:
@@ -152,7 +159,7 @@ def _table(records):
 def _closing(records, out):
     missing = sum(not record.graded for record in records)
     lost = f", {missing} could not be graded" if missing else ""
-    return f"{len(records) - missing} graded{lost}: {out / 'grades.csv'}, grades.db, feedback/"
+    return f"{len(records) - missing} graded{lost}: {out / 'grades.csv'}, class.html, feedback/"
 
 
 def _line(text):

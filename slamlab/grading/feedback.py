@@ -7,14 +7,14 @@ import jinja2
 from slamlab.checks.report import number, points
 from slamlab.grading.records import Record, write
 
-_PAGES = jinja2.Environment(
+PAGES = jinja2.Environment(
     loader=jinja2.FileSystemLoader(Path(__file__).parent),
     autoescape=True,
     undefined=jinja2.StrictUndefined,
     trim_blocks=True,
     lstrip_blocks=True,
 )
-_PAGES.filters |= {"number": number, "points": points}
+PAGES.filters |= {"number": number, "points": points}
 
 
 def page(record: Record) -> str:
@@ -28,7 +28,7 @@ def page(record: Record) -> str:
     -------
     str, HTML without scripts or anything to load
     """
-    return _PAGES.get_template("feedback.html").render(record=record)
+    return PAGES.get_template("feedback.html").render(record=record)
 
 
 def write_page(out: Path, record: Record):

@@ -4,8 +4,8 @@ import threading
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from pathlib import Path
 
-from slamlab.checks import catalogue
-from slamlab.grading import feedback, judge, records, submissions
+from slamlab.grading import classreport, feedback, judge, late, submissions, tables
+from slamlab.grading.marks import mark
 from slamlab.grading.submissions import Unreadable
 
 
@@ -38,7 +38,7 @@ def prepare(folder: Path, out: Path, secret: Path | None = None):
     return found, judge.secret_from(secret or out / "secret", make=secret is None)
 
 
-def grade_all(found, secret: bytes, out: Path, book, workers, default=None, jobs=1):
+def grade_all(found, secret, out, book, workers, default=None, jobs=1, policy=late.NONE):
     """Grade submissions side by side; records come as they are done, already written.
 
     What the gradebook knows is not graded again.
@@ -52,6 +52,7 @@ def grade_all(found, secret: bytes, out: Path, book, workers, default=None, jobs
     workers : Workers
     default : str or None, the exercise of notebooks that do not tell it
     jobs : int, how many at once
+    policy : Policy, what lateness costs
 
     Yields
     ------
@@ -73,12 +74,18 @@ def grade_all(found, secret: bytes, out: Path, book, workers, default=None, jobs
     finally:
         stop.set()
         pool.shutdown(cancel_futures=True)
-        records.write_csv(out, done, tasks_of(done, default))
+        by_hand = book.adjustments()
+        write_results(out, [mark(record, by_hand, policy) for record in done], default)
 
 
-def tasks_of(done, default=None):
-    """The ids of all tasks of the exercises among some records, in order."""
-    ids = {record.exercise for record in done if record.exercise} | (
-        {default} if default else set()
-    )
-    return [task.id for id in sorted(ids) for task in catalogue.exercise(id).tasks]
+def write_results(out, marks, default=None):
+    """Write the tables of grades and the page on the class.
+
+    Parameters
+    ----------
+    out : Path
+    marks : list of Mark
+    default : str or None, an exercise whose columns stand in the table in any case
+    """
+    tables.write_tables(out, marks, default)
+    classreport.write_report(out, marks)

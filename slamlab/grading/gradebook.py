@@ -107,6 +107,30 @@ class Gradebook:
             connection.execute(sa.insert(ATTEMPTS).values(row))
         return True
 
+    def take(self, other):
+        """Add what another gradebook holds.
+
+        Parameters
+        ----------
+        other : Gradebook
+
+        Returns
+        -------
+        int, attempts that were new
+        """
+        added = 0
+        for table in (ATTEMPTS, ADJUSTMENTS):
+            with other._engine.connect() as connection:
+                rows = connection.execute(sa.select(table).order_by(table.c.id)).mappings().all()
+            with self._engine.begin() as connection:
+                known = {tuple(row) for row in connection.execute(sa.select(*_told_apart(table)))}
+                for row in rows:
+                    if tuple(row[column.name] for column in _told_apart(table)) not in known:
+                        new = {key: value for key, value in row.items() if key != "id"}
+                        connection.execute(sa.insert(table).values(new))
+                        added += table is ATTEMPTS
+        return added
+
     def forget(self, submissions):
         """Drop the attempts at some submissions, so that they are graded again.
 
@@ -176,6 +200,35 @@ class Gradebook:
         with self._engine.connect() as connection:
             rows = connection.execute(sa.select(ADJUSTMENTS).order_by(ADJUSTMENTS.c.id))
             return {(row.submission, row.task): (row.points, row.reason) for row in rows}
+
+
+def url_of(out, new=True):
+    """The URL of the gradebook in a folder of results.
+
+    Parameters
+    ----------
+    out : Path
+    new : bool, whether it may be made
+
+    Returns
+    -------
+    str
+
+    Raises
+    ------
+    NoGradebook : it is not there and must be
+    """
+    file = out / "grades.db"
+    if not new and not file.is_file():
+        raise NoGradebook(f"there is no gradebook {file}: grade first, or say --db URL")
+    return f"sqlite:///{file}"
+
+
+def _told_apart(table):
+    """The columns that tell one row from another, whichever database it stands in."""
+    if table is ATTEMPTS:
+        return [ATTEMPTS.c.key]
+    return [column for column in ADJUSTMENTS.columns if column.name != "id"]
 
 
 def key(submission, sha256, seed, reason=None):

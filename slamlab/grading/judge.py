@@ -11,7 +11,7 @@ from pathlib import Path
 
 from slamlab import __version__
 from slamlab.checks.drives import StudentError
-from slamlab.grading import submissions
+from slamlab.grading import kinship, submissions
 from slamlab.grading.client import Client
 from slamlab.grading.gradebook import key
 from slamlab.grading.records import Record
@@ -69,7 +69,8 @@ def grade(
     -------
     Record, with a reason where it could not be graded
     """
-    names = {"submission": submission.name, "student": submission.student}
+    names = {name: getattr(submission, name) for name in ("student", "number", "handed_in")}
+    names["submission"] = submission.name
     known = known or {}
     try:
         notebook = submissions.read(submission)
@@ -78,7 +79,10 @@ def grade(
         seed = seed_for(secret, exercise.id, notebook.sha256)
         names |= {"exercise": exercise.id, "seed": seed.hex()}
         before = known.get(key(submission.name, notebook.sha256, names["seed"]))
-        return before or Record(**names, **judge(exercise, notebook.cells, seed, workers, stop))
+        if before:
+            return before
+        names["fingerprints"] = kinship.fingerprints(notebook.cells, exercise)
+        return Record(**names, **judge(exercise, notebook.cells, seed, workers, stop))
     except Unreadable as error:
         return Record(**names, reason=str(error))
     except CannotStart as error:

@@ -1,18 +1,13 @@
-"""What is known of each submission, and the table of grades."""
+"""What is known of a submission."""
 
-import csv
 import hashlib
-import io
 import os
 import re
 import tempfile
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from slamlab.checks.report import number
 from slamlab.checks.verdict import Verdict
-
-COLUMNS = ("submission", "score", "max_score", "note")
 
 
 @dataclass(frozen=True)
@@ -33,6 +28,9 @@ class Record:
     versions : of what graded
     seconds : wall and CPU time [s] by stage
     titles : task id to title
+    number : str or None, of the student in Moodle or Canvas
+    handed_in : str or None, the time in ISO's form
+    fingerprints : task to a hash of its functions, see :mod:`slamlab.grading.kinship`
     failed : bool, whether it was the grader that failed: not kept, but tried again
     """
 
@@ -49,6 +47,9 @@ class Record:
     versions: dict[str, str] = field(default_factory=dict)
     seconds: dict[str, float] = field(default_factory=dict)
     titles: dict[str, str] = field(default_factory=dict)
+    number: str | None = None
+    handed_in: str | None = None
+    fingerprints: dict[str, str] = field(default_factory=dict)
     failed: bool = False
 
     @property
@@ -89,28 +90,6 @@ def _broken(verdict):
     return "broken: " + ", ".join(law.name for law in verdict.laws if law.failed)
 
 
-def write_csv(out: Path, records, tasks):
-    """Write ``grades.csv``: submission, score, max_score, note, then the points of each task.
-
-    Parameters
-    ----------
-    records : list of Record
-    tasks : ids of the tasks, one column each
-    """
-    text = io.StringIO(newline="")
-    table = csv.writer(text, lineterminator="\n")
-    table.writerow([*COLUMNS, *tasks])
-    for record in sorted(records, key=lambda record: record.submission):
-        points = {v.task: number(v.points) for v in record.verdicts}
-        score, most = ("", "") if not record.graded else (record.score, record.max_score)
-        scores = [number(value) if record.graded else "" for value in (score, most)]
-        table.writerow(
-            [_harmless(record.submission), *scores, _harmless(record.note)]
-            + [points.get(task, "") for task in tasks]
-        )
-    write(out / "grades.csv", text.getvalue())
-
-
 def write(path: Path, text: str):
     """Write a file so that it is there whole or not at all."""
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -119,9 +98,3 @@ def write(path: Path, text: str):
         file.write(text)
     os.chmod(partial, 0o644)
     os.replace(partial, path)
-
-
-def _harmless(text):
-    """Text that no spreadsheet takes for a formula."""
-    text = "".join(c if c.isprintable() else " " for c in text)
-    return f"'{text}" if text.lstrip().startswith(("=", "+", "-", "@")) else text

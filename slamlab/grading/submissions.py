@@ -5,14 +5,15 @@ import json
 import os
 import re
 from dataclasses import dataclass
+from datetime import UTC, datetime
 from pathlib import Path
 
 from slamlab.checks import catalogue
 
 MOST_BYTES = 20 << 20
 
-_MOODLE = re.compile(r"(?P<student>.+?)_\d+_assignsubmission_file_?(?P<file>.*)", re.S)
-_CANVAS = re.compile(r"(?P<student>[^_]+)_(LATE_)?\d+_\d+_(?P<file>.+)", re.S)
+_MOODLE = re.compile(r"(?P<student>.+?)_(?P<number>\d+)_assignsubmission_file_?(?P<file>.*)", re.S)
+_CANVAS = re.compile(r"(?P<student>[^_]+)_(LATE_)?(?P<number>\d+)_\d+_(?P<file>.+)", re.S)
 _CHECK = re.compile(r"\s*(check\(\s*[\"'][^\"']*[\"']\s*\)\s*;?\s*)+")
 
 
@@ -30,12 +31,30 @@ class Submission:
     student : str, told by the path
     path : Path
     problem : str or None, why there is nothing to read
+    number : str or None, of the student in Moodle or Canvas
     """
 
     name: str
     student: str
     path: Path
     problem: str | None = None
+    number: str | None = None
+
+    @property
+    def handed_in(self):
+        """When, in ISO's form: what nbgrader noted beside it, else when the file was written."""
+        note = self.path.parent / "timestamp.txt"
+        try:
+            if note.is_file():
+                return _time(note.read_text("utf-8", "replace").strip())
+            return datetime.fromtimestamp(self.path.stat().st_mtime, UTC).isoformat()
+        except (OSError, ValueError):
+            return None
+
+
+def _time(text):
+    when = datetime.fromisoformat(text.removesuffix(" UTC").strip())
+    return (when if when.tzinfo else when.replace(tzinfo=UTC)).isoformat()
 
 
 @dataclass(frozen=True)
@@ -188,8 +207,9 @@ def _submission(folder, path, problem=None):
     first = relative.parts[0]
     match = _MOODLE.fullmatch(first) or (len(relative.parts) == 1 and _CANVAS.fullmatch(first))
     own = relative.stem if len(relative.parts) == 1 else first
-    student = match["student"] if match else own
-    return Submission(_printable(relative.as_posix()), _printable(student), path, problem)
+    student, number = (match["student"], match["number"]) if match else (own, None)
+    name = _printable(relative.as_posix())
+    return Submission(name, _printable(student), path, problem, number)
 
 
 def _original(name):

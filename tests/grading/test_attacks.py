@@ -109,7 +109,7 @@ def test_nothing_outside_is_touched(graded):
     assert graded["canary"].read_text() == SECRET
     assert [path.name for path in graded["canary"].parent.iterdir()] == ["canary"]
     assert {path.name for path in graded["out"].iterdir()} == {
-        "grades.csv", "grades.db", "feedback", "secret",
+        "grades.csv", "moodle.csv", "canvas.csv", "class.html", "grades.db", "feedback", "secret",
     }  # fmt: skip
     assert not Path("/tmp/forged-by-a-student").exists()
     assert not graded["heard"]
@@ -142,5 +142,5 @@ def test_the_damaged_are_graded_or_listed_with_their_reason(graded):
 
 
 def test_no_script_of_a_submission_reaches_a_page(graded):
-    for page in (graded["out"] / "feedback").iterdir():
+    for page in (graded["out"] / "class.html", *(graded["out"] / "feedback").iterdir()):
         assert "<script" not in page.read_text("utf-8")

@@ -16,8 +16,9 @@ import pytest
 
 from slamlab.checks.verdict import LawResult, Verdict
 from slamlab.cli import main
-from slamlab.grading import feedback, jail, judge, records
+from slamlab.grading import feedback, jail, judge, records, tables
 from slamlab.grading.gradebook import Gradebook
+from slamlab.grading.marks import mark
 from slamlab.grading.records import Record
 from tests.grading import fake
 from tests.grading.conftest import lacks, notebook, workers
@@ -82,7 +83,10 @@ def test_a_class_is_graded_and_everyone_is_listed(class_folder, tmp_path, capsys
         "nobody": ("", ""),
     }
     first = (out / "grades.csv").read_text("utf-8").splitlines()[0]
-    assert first == "submission,score,max_score,note,99-double,99-turn,99-total"
+    assert first == (
+        "submission,student,exercise,score,max_score,late,handed_in,note,99-double,99-turn,"
+        "99-total,99-double: sign,99-double: twice,99-turn: turned,99-total: sum"
+    )
     assert rows["full.ipynb"]["note"] == ""
     assert "99-double: not attempted yet" in rows["as it was.ipynb"]["note"]
     note = rows["missing/99_fake/99_fake.ipynb"]["note"]
@@ -93,7 +97,7 @@ def test_a_class_is_graded_and_everyone_is_listed(class_folder, tmp_path, capsys
     assert "5 graded, 4 could not be graded" in said
     assert len(book(out)) == len(list((out / "feedback").iterdir())) == 9
     assert {path.name for path in out.iterdir()} == {
-        "grades.csv", "grades.db", "feedback", "secret",
+        "grades.csv", "moodle.csv", "canvas.csv", "class.html", "grades.db", "feedback", "secret",
     }  # fmt: skip
 
 
@@ -251,7 +255,7 @@ def test_whatever_stands_in_a_submission_is_text_in_its_feedback():
 @pytest.mark.parametrize("start", ["=", "+", "-", "@", "\t=", "\r@", "\n+"])
 def test_no_cell_of_the_table_is_a_formula(start, tmp_path):
     name = f'{start}cmd|"/c calc"!A1'
-    records.write_csv(tmp_path, [Record(name, name, reason=name)], [])
+    tables.write_tables(tmp_path, [mark(Record(name, name, reason=name))])
     (row,) = table(tmp_path).values()
     assert row["submission"].lstrip()[0] not in "=+-@"
     assert row["note"].startswith("could not be graded")

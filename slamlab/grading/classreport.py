@@ -1,0 +1,72 @@
+"""A page on the class: how each task went, which mistakes were made, which solutions are alike."""
+
+from collections import Counter
+from dataclasses import dataclass
+
+from slamlab.checks import catalogue
+from slamlab.grading import kinship
+from slamlab.grading.feedback import PAGES
+from slamlab.grading.records import write
+
+COMMONEST = 5  # mistakes shown of a task
+
+
+@dataclass(frozen=True)
+class TaskReport:
+    """How one task went.
+
+    Parameters
+    ----------
+    id, title : str
+    shares : (3,) of the submissions with all, some and no points [1]
+    counts : (3,) how many they are
+    mistakes : list of (str, how often), the commonest first
+    """
+
+    id: str
+    title: str
+    shares: tuple
+    counts: tuple
+    mistakes: list
+
+
+def write_report(out, marks):
+    """Write ``class.html``.
+
+    Parameters
+    ----------
+    out : Path
+    marks : list of Mark
+    """
+    records = [mark.record for mark in marks]
+    graded = [record for record in records if record.graded]
+    exercises = {}
+    for id in sorted({record.exercise for record in graded}):
+        of_this = [record for record in graded if record.exercise == id]
+        totals = sorted(m.total for m in marks if m.record in of_this and m.total is not None)
+        exercises[id] = {
+            "exercise": catalogue.exercise(id),
+            "count": len(of_this),
+            "middle": totals[len(totals) // 2],
+            "tasks": [_task(task, of_this) for task in catalogue.exercise(id).tasks],
+        }
+    page = PAGES.get_template("class.html").render(
+        exercises=exercises,
+        ungraded=[record for record in records if not record.graded],
+        levels=sorted({record.isolation for record in graded if record.isolation}),
+        alike=kinship.clusters(graded),
+    )
+    write(out / "class.html", page)
+
+
+def _task(task, records):
+    verdicts = [v for record in records for v in record.verdicts if v.task == task.id]
+    counts = [
+        sum(verdict.full for verdict in verdicts),
+        sum(v.points > 0 and not v.full for v in verdicts),
+        sum(v.points == 0 and not v.full for v in verdicts),
+    ]
+    mistakes = Counter(v.hint or v.problem for v in verdicts if v.hint or v.problem)
+    most = max(1, len(verdicts))
+    shares = tuple(count / most for count in counts)
+    return TaskReport(task.id, task.title, shares, tuple(counts), mistakes.most_common(COMMONEST))

@@ -1,0 +1,82 @@
+"""Solutions that are alike but for names, comments and layout: a hint, not a verdict.
+
+Short tasks have few right answers, so that likeness says something of long ones only.
+"""
+
+import ast
+import hashlib
+
+SHORTEST = 40  # nodes of the tree; what is shorter is alike by chance
+LONGEST = 100_000  # letters; nobody writes more by hand
+
+
+def fingerprints(cells, exercise):
+    """What a submission's functions look like, task by task.
+
+    Parameters
+    ----------
+    cells : list of (number, source)
+    exercise : Exercise
+
+    Returns
+    -------
+    dict, task to a hash; tasks whose functions are missing or short are left out
+    """
+    functions = {}
+    for _, source in cells:
+        functions |= _functions(source)
+    found = {}
+    for task in exercise.tasks:
+        mine = [functions[name] for name in task.drive.functions if name in functions]
+        if len(mine) == len(task.drive.functions) and sum(size for size, _ in mine) >= SHORTEST:
+            text = "\n".join(text for _, text in mine)
+            found[task.id] = hashlib.sha256(text.encode()).hexdigest()
+    return found
+
+
+def clusters(records):
+    """Submissions of different students that are alike.
+
+    Parameters
+    ----------
+    records : list of Record
+
+    Returns
+    -------
+    list of (task, list of Record), the largest first
+    """
+    alike = {}
+    for record in records:
+        for task, print in record.fingerprints.items():
+            alike.setdefault((task, print), []).append(record)
+    several = [(task, who) for (task, _), who in alike.items() if len({r.student for r in who}) > 1]
+    return sorted(several, key=lambda pair: (-len(pair[1]), pair[0]))
+
+
+def _functions(source):
+    """Name to (size, normal form) of the functions a cell defines at its top."""
+    if len(source) > LONGEST:
+        return {}
+    try:
+        tree = ast.parse(source)
+        return {node.name: _normal(node) for node in tree.body if isinstance(node, ast.FunctionDef)}
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        return {}
+
+
+def _normal(function):
+    """A function without docstring, its own names numbered in the order they come."""
+    first = function.body[0]
+    if isinstance(first, ast.Expr) and isinstance(first.value, ast.Constant):
+        function.body = function.body[1:] or [ast.Pass()]
+    own = {argument.arg for argument in ast.walk(function) if isinstance(argument, ast.arg)}
+    own |= {n.id for n in ast.walk(function)
+            if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)}  # fmt: skip
+    numbers, size = {}, 0
+    for node in ast.walk(function):
+        size += 1
+        for field in ("id", "arg"):
+            name = getattr(node, field, None)
+            if name in own:
+                setattr(node, field, f"_{numbers.setdefault(name, len(numbers))}")
+    return size, ast.dump(function)

@@ -1,0 +1,230 @@
+"""From verdicts to marks: changes by hand, lateness, tables, the page on the class."""
+
+import csv
+import json
+from dataclasses import replace
+
+import pytest
+
+from slamlab.checks.verdict import Verdict
+from slamlab.cli import main
+from slamlab.grading import classreport, kinship, late, tables
+from slamlab.grading.gradebook import Gradebook
+from slamlab.grading.late import WrongPolicy
+from slamlab.grading.marks import mark
+from slamlab.grading.records import Record
+from tests.grading import fake
+from tests.grading.conftest import notebook, workers
+
+POLICY = """
+grace_minutes = 10
+per_day = 0.1
+at_most = 0.5
+[due]
+"99" = 2026-12-01T12:00:00+01:00
+"""
+VERDICTS = (Verdict("99-double", 3, 3), Verdict("99-turn", 1, 2, problem="<b>turned</b> right"))
+
+
+def record(name="anna.ipynb", when=None, **more):
+    made = {"exercise": "99", "verdicts": VERDICTS, "handed_in": when, "titles": {}}
+    return Record(name, name.removesuffix(".ipynb"), **(made | more))
+
+
+@pytest.fixture
+def policy(tmp_path):
+    file = tmp_path / "policy.toml"
+    file.write_text(POLICY)
+    return late.load(file)
+
+
+@pytest.mark.parametrize(
+    ("when", "taken"),
+    [
+        (None, 0),
+        ("2026-12-01T10:00:00+00:00", 0),
+        ("2026-12-01T11:10:00+00:00", 0),  # within the grace: noon in the zone is 11 UTC
+        ("2026-12-01T11:11:00+00:00", 0.4),
+        ("2026-12-02T11:00:00+00:00", 0.4),
+        ("2026-12-02T11:00:01+00:00", 0.8),
+        ("2027-12-01T12:00:00+00:00", 2),
+    ],
+)
+def test_lateness_costs_a_share_of_what_was_earned_for_every_day_begun(policy, when, taken):
+    made = mark(record(when=when), policy=policy)
+    assert made.late == pytest.approx(taken)
+    assert made.total == pytest.approx(4 - taken)
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("", "say when what is due"),
+        ("[due]\n04 = 5", "a time with its zone"),
+        ('[due]\n"04" = 2026-12-01T12:00:00', "a time with its zone"),
+        ('per_day = 2\n[due]\n"04" = 2026-12-01T12:00:00Z', "a share from 0 to 1"),
+        ('per_week = 0.1\n[due]\n"04" = 2026-12-01T12:00:00Z', "no setting 'per_week'"),
+        ("[due", "policy.toml: "),
+        (None, "No such file"),
+    ],
+)
+def test_a_policy_that_cannot_be_used_is_told(tmp_path, text, said):
+    file = tmp_path / "policy.toml"
+    if text is not None:
+        file.write_text(text)
+    with pytest.raises(WrongPolicy, match=said):
+        late.load(file)
+
+
+def test_points_set_by_hand_count_in_place_of_the_judges_and_are_told():
+    by_hand = {("anna.ipynb", "99-turn"): (2.0, "right idea"), ("ben.ipynb", "99-double"): (0, "")}
+    made = mark(record(), by_hand)
+    assert made.points == {"99-double": 3, "99-turn": 2}
+    assert "99-turn set to 2: right idea" in made.note
+
+
+def test_what_could_not_be_graded_has_no_mark_until_one_is_set():
+    lost = record(reason="empty", verdicts=())
+    assert mark(lost).total is None
+    assert mark(lost, {("anna.ipynb", "99-turn"): (2.0, "read on paper")}).total == 2
+
+
+def read(path):
+    with open(path, encoding="utf-8", newline="") as file:
+        return list(csv.reader(file))
+
+
+def test_moodle_and_canvas_get_the_columns_they_take_in(tmp_path):
+    kos, ivo = record("Ana Kos.ipynb", number="123"), record("=ivo.ipynb", number="77")
+    tables.write_tables(tmp_path, [mark(kos), mark(ivo)])
+    moodle = {row[0]: row for row in read(tmp_path / "moodle.csv")}
+    assert moodle["Identifier"] == [
+        "Identifier", "Full name", "Grade", "Maximum Grade", "Feedback comments",
+    ]  # fmt: skip
+    assert moodle["Participant 123"][1:4] == ["Ana Kos", "4", "5"]
+    assert moodle["Participant 77"][1] == "'=ivo"
+    canvas = read(tmp_path / "canvas.csv")
+    assert canvas[0][:2] == ["Student", "ID"]
+    assert canvas[0][5:] == [fake.EXERCISE.title]
+    assert canvas[1] == ["Points Possible", "", "", "", "", "6.5"]
+    assert ["Ana Kos", "123", "", "", "", "4"] in canvas
+
+
+def test_the_page_on_the_class_counts_names_mistakes_and_escapes_what_students_wrote(tmp_path):
+    lost = record("<script>.ipynb", reason="<script>empty</script>", verdicts=())
+    classreport.write_report(tmp_path, [mark(record()), mark(record("b.ipynb")), mark(lost)])
+    page = (tmp_path / "class.html").read_text("utf-8")
+    assert "2 all, 0 some, 0 none" in page  # 99-double
+    assert "0 all, 2 some, 0 none" in page  # 99-turn
+    assert "2 × &lt;b&gt;turned" in page
+    assert "<script" not in page
+
+
+LONG = """
+def double(a):
+    '''Doubles.'''
+    total = 0.0  # a comment
+    for step in range(2):
+        total = total + a * (step + 1) / (step + 1)
+    return total
+"""
+
+
+def prints(source):
+    return kinship.fingerprints([(1, source)], fake.EXERCISE).get("99-double")
+
+
+def test_solutions_alike_but_for_names_and_layout_are_found():
+    renamed = LONG.replace("total", "sum_").replace("step", "k").replace("# a comment", "")
+    renamed = renamed.replace("'''Doubles.'''", "'''Mine!'''")
+    assert prints(LONG) == prints(renamed) is not None
+    assert prints(LONG) != prints(LONG.replace("range(2)", "range(3)"))
+    assert prints("def double(a):\n    return 2 * a") is None  # too short to say anything
+    assert prints("def double(") is None
+    assert prints("x = " + "(" * 10_000) is None
+
+
+def test_only_different_students_make_a_cluster():
+    anna, ben = record(fingerprints={"99-double": "x"}), record("ben.ipynb")
+    ben = replace(ben, fingerprints={"99-double": "x"})
+    assert kinship.clusters([anna, ben]) == [("99-double", [anna, ben])]
+    assert kinship.clusters([anna, replace(ben, student="anna")]) == []
+
+
+@pytest.fixture
+def results(tmp_path, capsys):
+    """A folder of results with one submission of exercise 99."""
+    (tmp_path / "class").mkdir()
+    (tmp_path / "class" / "anna.ipynb").write_text(notebook(fake.SOLUTION))
+    out = str(tmp_path / "out")
+    words = ["grade", str(tmp_path / "class"), "--out", out, "--isolation", workers().level]
+    assert main(words) == 0
+    capsys.readouterr()
+    return tmp_path / "out"
+
+
+def score(out):
+    header, row = read(out / "grades.csv")
+    return row[header.index("score")]
+
+
+def test_points_are_set_by_hand_from_the_command_line_and_outlive_grading_again(
+    results, tmp_path, capsys
+):
+    words = ["grade", "adjust", "anna.ipynb", "99-turn", "1", "--reason", "as agreed"]
+    assert main([*words, "--out", str(results)]) == 0
+    assert score(results) == "5.5"
+    again = ["grade", str(tmp_path / "class"), "--out", str(results), "--regrade"]
+    assert main([*again, "--isolation", workers().level]) == 0
+    assert score(results) == "5.5"
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["adjust", "ben.ipynb", "99-turn", "1", "--reason", "x"], "no submission 'ben.ipynb'"),
+        (["adjust", "anna.ipynb", "99-turn", "3", "--reason", "x"], "has 0 to 2 points, not 3"),
+        (["adjust", "anna.ipynb", "99-none", "1", "--reason", "x"], "no task '99-none'"),
+        (["adjust", "anna.ipynb", "04-h-robot", "1", "--reason", "x"], "is of exercise 99"),
+        (["merge", "nowhere"], "there is no gradebook nowhere"),
+    ],
+)
+def test_wrong_use_is_told_in_one_line(results, words, said, capsys):
+    assert main(["grade", *words, "--out", str(results)]) == 2
+    assert said in capsys.readouterr().err
+
+
+def test_gradebooks_of_shards_are_merged_without_doubling(results, tmp_path, capsys):
+    main(["grade", "adjust", "anna.ipynb", "99-turn", "1", "--reason", "x", "--out", str(results)])
+    merged = tmp_path / "merged"
+    for _ in range(2):
+        assert main(["grade", "merge", str(results), str(results), "--out", str(merged)]) == 0
+    with Gradebook(f"sqlite:///{merged / 'grades.db'}") as book:
+        assert len(book.known()) == len(book.adjustments()) == 1
+    assert score(merged) == "5.5"
+
+
+def test_nbgraders_gradebook_is_filled(results, tmp_path, capsys):
+    from nbgrader.api import Gradebook as Theirs
+
+    url = f"sqlite:///{tmp_path / 'gradebook.db'}"
+    words = ["grade", "export", "--out", str(results), "--nbgrader-gradebook", url]
+    assert main(words) == main(words) == 0
+    with Theirs(url) as book:
+        submission = book.find_submission(fake.EXERCISE.notebook, "anna")
+        assert (submission.score, submission.max_score) == (6.5, 6.5)
+        assert not submission.needs_manual_grade
+
+
+def test_a_submission_tells_when_it_was_handed_in(tmp_path):
+    from slamlab.grading import submissions
+
+    folder = tmp_path / "anna" / "99_fake"
+    folder.mkdir(parents=True)
+    (folder / "99_fake.ipynb").write_text(json.dumps({}))
+    (found,) = submissions.find(tmp_path)
+    assert found.handed_in.endswith("+00:00")
+    (folder / "timestamp.txt").write_text("2026-12-01 11:00:00.5 UTC\n")
+    assert found.handed_in == "2026-12-01T11:00:00.500000+00:00"
+    (folder / "timestamp.txt").write_text("yesterday")
+    assert found.handed_in is None
