@@ -65,6 +65,17 @@ def add_parser(subparsers):
         help="the gradebook, a database that SQLAlchemy speaks to; default: DIR/grades.db, SQLite",
     )
     parser.add_argument(
+        "--shard",
+        metavar="I/N",
+        help="grade only the I-th of N parts; slamlab grade merge puts their gradebooks together",
+    )
+    parser.add_argument(
+        "--scheduler",
+        metavar="URL",
+        help="a Dask cluster to grade on, such as tls://host:8786; its machines run student code "
+        "within their own walls and see the secret: use TLS and machines you trust",
+    )
+    parser.add_argument(
         "--policy",
         metavar="FILE",
         type=Path,
@@ -85,16 +96,19 @@ def run(arguments) -> int:
     from slamlab.grading.gradebook import Gradebook, NoGradebook, url_of
     from slamlab.grading.submissions import Unreadable
     from slamlab.grading.workers import Workers
+    from slamlab.parallel import RunError
 
+    foreseen = Unreadable, NoGradebook, isolation.Refused, late.WrongPolicy, RunError, KeyError
     try:
         if arguments.jobs < 1:
             raise Unreadable("--jobs must be at least 1")
         if arguments.exercise is not None:
             catalogue.exercise(arguments.exercise)
         found, secret = folder.prepare(arguments.folder, arguments.out, arguments.secret)
-        jobs = min(arguments.jobs, len(found))
+        found = folder.shard(found, arguments.shard) if arguments.shard else found
         policy = late.load(arguments.policy) if arguments.policy else late.NONE
-        isolation.ensure(arguments.isolation)
+        if not arguments.scheduler:
+            isolation.ensure(arguments.isolation)
         with (
             Gradebook(arguments.db or url_of(arguments.out)) as book,
             Workers(arguments.isolation) as workers,
@@ -102,11 +116,10 @@ def run(arguments) -> int:
         ):
             if arguments.regrade:
                 book.forget([submission.name for submission in found])
-            graded = folder.grade_all(
-                found, secret, arguments.out, book, workers, arguments.exercise, jobs, policy
-            )
-            records = _with_progress(graded, len(found))
-    except (Unreadable, NoGradebook, isolation.Refused, late.WrongPolicy, KeyError) as error:
+            graded = _graded(arguments, found, secret, workers, book.known())
+            written = folder.write_down(graded, arguments.out, book, arguments.exercise, policy)
+            records = _with_progress(written, len(found))
+    except foreseen as error:
         print(f"slamlab grade: {error.args[0]}", file=sys.stderr)
         return 2
     except OSError as error:
@@ -115,6 +128,18 @@ def run(arguments) -> int:
     Console().print(_table(records))
     print(_closing(records, arguments.out))
     return 0
+
+
+def _graded(arguments, found, secret, workers, known):
+    """Records as they are done, on this machine or a cluster."""
+    from slamlab.grading import cluster, folder
+
+    exercise = arguments.exercise
+    if arguments.scheduler:
+        level = arguments.isolation
+        return cluster.grade_on(arguments.scheduler, found, secret, level, exercise, known)
+    jobs = min(arguments.jobs, len(found))
+    return folder.grade_here(found, secret, workers, exercise, known, jobs)
 
 
 @contextlib.contextmanager

@@ -1,7 +1,9 @@
 """Grading all submissions of a folder, each written down when it is known."""
 
+import re
 import threading
 from concurrent.futures import ThreadPoolExecutor, as_completed
+from hashlib import sha256
 from pathlib import Path
 
 from slamlab.grading import classreport, feedback, judge, late, submissions, tables
@@ -38,42 +40,84 @@ def prepare(folder: Path, out: Path, secret: Path | None = None):
     return found, judge.secret_from(secret or out / "secret", make=secret is None)
 
 
-def grade_all(found, secret, out, book, workers, default=None, jobs=1, policy=late.NONE):
-    """Grade submissions side by side; records come as they are done, already written.
+def shard(found, part):
+    """One part of the submissions, the same whoever asks: for batch systems.
 
-    What the gradebook knows is not graded again.
+    Parameters
+    ----------
+    found : list of Submission
+    part : str, "i/n": the i-th of n parts
+
+    Returns
+    -------
+    list of Submission
+
+    Raises
+    ------
+    Unreadable : not such a part
+    """
+    match = re.fullmatch(r"(\d+)/(\d+)", part)
+    i, n = (int(number) for number in match.groups()) if match else (0, 0)
+    if not 1 <= i <= n:
+        raise Unreadable(f"--shard is I/N such as 2/8, with I from 1 to N, not {part}")
+    mine = [s for s in found if int(sha256(s.name.encode()).hexdigest(), 16) % n == i - 1]
+    if not mine:
+        raise Unreadable(f"part {part} of {len(found)} submissions is empty")
+    return mine
+
+
+def grade_here(found, secret, workers, default=None, known=None, jobs=1):
+    """Grade submissions side by side on this machine, records as they are done.
 
     Parameters
     ----------
     found : list of Submission
     secret : bytes
-    out : Path
-    book : Gradebook
     workers : Workers
     default : str or None, the exercise of notebooks that do not tell it
+    known : attempt's key to Record, which are not graded again
     jobs : int, how many at once
-    policy : Policy, what lateness costs
 
     Yields
     ------
     Record
     """
-    done, stop, known = [], threading.Event(), book.known()
+    stop = threading.Event()
     pool = ThreadPoolExecutor(jobs)
     try:
         futures = [
             pool.submit(judge.grade, s, secret, workers, default, known, stop) for s in found
         ]
-        for future in as_completed(futures):
-            record = future.result()
+        yield from (future.result() for future in as_completed(futures))
+    finally:
+        stop.set()
+        pool.shutdown(cancel_futures=True)
+
+
+def write_down(graded, out, book, default=None, policy=late.NONE):
+    """Write records as they come, and all results when no more come.
+
+    Parameters
+    ----------
+    graded : iterable of Record
+    out : Path
+    book : Gradebook
+    default : str or None, an exercise whose columns stand in the table in any case
+    policy : Policy, what lateness costs
+
+    Yields
+    ------
+    Record, written
+    """
+    done = []
+    try:
+        for record in graded:
             done.append(record)
             if not record.failed:
                 book.add(record)
             feedback.write_page(out, record)
             yield record
     finally:
-        stop.set()
-        pool.shutdown(cancel_futures=True)
         by_hand = book.adjustments()
         write_results(out, [mark(record, by_hand, policy) for record in done], default)
 

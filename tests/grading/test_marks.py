@@ -228,3 +228,42 @@ def test_a_submission_tells_when_it_was_handed_in(tmp_path):
     assert found.handed_in == "2026-12-01T11:00:00.500000+00:00"
     (folder / "timestamp.txt").write_text("yesterday")
     assert found.handed_in is None
+
+
+def test_every_submission_is_in_just_one_shard(tmp_path):
+    from slamlab.grading import folder
+    from slamlab.grading.submissions import Submission, Unreadable
+
+    found = [Submission(f"s{i}.ipynb", f"s{i}", tmp_path) for i in range(40)]
+    parts = [folder.shard(found, f"{i}/3") for i in (1, 2, 3)]
+    assert sorted(s.name for part in parts for s in part) == sorted(s.name for s in found)
+    for wrong in ("0/3", "4/3", "1", "a/b", "1/0"):
+        with pytest.raises(Unreadable, match="--shard is I/N"):
+            folder.shard(found, wrong)
+
+
+@pytest.mark.slow
+def test_a_cluster_gives_the_marks_this_machine_gives(tmp_path, capsys):
+    distributed = pytest.importorskip("distributed")
+    (tmp_path / "class").mkdir()
+    solved = notebook("x = 1", exercise="04")
+    (tmp_path / "class" / "anna.ipynb").write_text(solved)
+    (tmp_path / "class" / "cut.ipynb").write_text(solved[:50])
+    words = ["grade", str(tmp_path / "class"), "--isolation", workers().level, "--secret"]
+    (tmp_path / "secret").write_text("0123456789abcdef")
+    words += [str(tmp_path / "secret"), "--exercise", "04", "--out"]
+    assert main([*words, str(tmp_path / "here")]) == 0
+    cluster = distributed.LocalCluster(n_workers=1, threads_per_worker=1, dashboard_address=None)
+    with cluster:
+        there = [*words, str(tmp_path / "there"), "--scheduler", cluster.scheduler_address]
+        assert main(there) == 0
+    books = [Gradebook(f"sqlite:///{tmp_path / name / 'grades.db'}") for name in ("here", "there")]
+    one, other = ([replace(r, seconds={}) for r in book.latest()] for book in books)
+    assert one == other
+    assert [r.graded for r in one] == [True, False]
+
+
+def test_a_cluster_that_is_none_is_told_in_one_line(results, tmp_path, capsys):
+    words = ["grade", str(tmp_path / "class"), "--out", str(tmp_path / "x")]
+    assert main([*words, "--scheduler", "nonsense"]) == 2
+    assert "no Dask scheduler answers" in capsys.readouterr().err
