@@ -1,0 +1,236 @@
+"""Graph SLAM: scans matched with a local map, loops closed in a pose graph, online.
+
+The promise of Tuček's third chapter. Each scan is laid over the map of the last keyframes, from
+where the odometry says; where the robot has gone on, its scan becomes a keyframe and its pose one
+of the graph's. A keyframe near an old one may close a loop (:mod:`slamlab.estimators.loops`). The
+past is revised: ``trajectory`` is as believed now.
+"""
+
+from collections import Counter
+from dataclasses import dataclass
+
+import numpy as np
+
+from slamlab import gridmap
+from slamlab.estimators.base import Estimator
+from slamlab.estimators.loops import Loops
+from slamlab.estimators.mak import Q_arc
+from slamlab.geometry import between, compose, transform, wrap
+from slamlab.layers import Points, Poses, Segments
+from slamlab.posegraph import PoseGraph
+from slamlab.readings import Scan, Trajectory
+from slamlab.scanmatching import Surface, match, surface
+from slamlab.scanmatching.localmap import merged
+
+FEWEST = 10  # points without which a scan tells nothing
+RECENT = 15  # keyframes in the local map
+STEP, TURN = 0.12, 0.35  # a keyframe every so many reaches of the scans, and every such turn [rad]
+THIN = 0.6  # overlap with the local map below which a keyframe comes early
+SLACK = 0.1, 0.1, 0.15  # deviation that any odometry may have [reach, reach, rad]
+FAR_OFF = 16.3  # χ² of 3 degrees: beyond it a match and the odometry cannot both be right
+BLUR = 0.3  # of the scans' noise: what matches have in common and no covariance of one knows
+DRIFT = 0.003, 0.03, 0.005, 0.05  # odometry's own: reaches, reaches a turn, rad, of the turn
+PAUSE = 5.0  # times the usual time between readings: a gap
+
+
+@dataclass(frozen=True)
+class Keyframe:
+    """A scan that stays.
+
+    Parameters
+    ----------
+    surface : Surface
+    scan : Scan
+    piece : int, which stretch it belongs to; a new one begins where nothing matched
+    """
+
+    surface: Surface
+    scan: Scan
+    piece: int
+
+
+class GraphSlam(Estimator):
+    """SLAM by scan matching and a pose graph.
+
+    Parameters
+    ----------
+    robot : RobotModel
+    loops : bool, whether loops are closed
+    """
+
+    def __init__(self, robot, loops=True):
+        super().__init__()
+        self.robot, self.naive_pose = robot, np.zeros(3)
+        self.graph, self.keyframes, self.counts = PoseGraph(), [], Counter()
+        self.loops = Loops(self.graph, self.keyframes, self.counts) if loops else None
+        self._relative, self._doubt = (
+            np.zeros(3),
+            np.zeros((3, 3)),
+        )  # as seen from the last keyframe
+        self._map, self._reach = None, 0.0
+        self._anchors, self._ways, self._naive = [], [], []
+
+    def step(self, reading):
+        """Take a reading in: predict by odometry, match, keep or not, look for loops.
+
+        Parameters
+        ----------
+        reading : Reading
+        """
+        self._mind_the_clock(reading.time)
+        self._drive(reading.odometry)
+        if reading.scan is not None:
+            points = reading.scan.points()
+            if len(points) >= FEWEST:
+                self._see(surface(points), reading.scan)
+            else:
+                self.skipped += 1
+        if self.loops is not None:
+            self.loops.work()
+        self._anchors.append(len(self.keyframes) - 1)
+        self._ways.append(self._relative)
+        self._naive.append(self.naive_pose)
+        self.pose = compose(self._anchor(), self._relative)
+        self.record(reading.time)
+        noted = [f"{count} {what}" for what, count in sorted(self.counts.items())]
+        self.status = ", ".join([f"{len(self.keyframes)} keyframes", *noted])
+
+    def trajectory(self):
+        """Every pose so far, as the graph has it now."""
+        if not self.keyframes:
+            return super().trajectory()
+        if self.loops is not None:
+            self.loops.settle()
+        anchors, ways = np.array(self._anchors), np.array(self._ways)
+        poses = compose(self.graph.poses[np.maximum(anchors, 0)], ways)
+        poses[anchors < 0] = ways[anchors < 0]
+        return Trajectory(np.array(self._times), poses)
+
+    def layers(self):
+        """Map and track by odometry alone and as corrected, and the loops that were closed."""
+        poses, shown = self.graph.poses, self.trajectory().poses
+        firsts = np.unique(self._anchors, return_index=True)[1][-len(self.keyframes) or None :]
+        naive = np.array(self._naive).reshape(-1, 3)
+        clouds = [keyframe.surface.points for keyframe in self.keyframes]
+        loops = [(e.i, e.j) for e in self.graph.edges if e.robust]
+        return [
+            Points("naive", joined(naive[firsts], clouds)),
+            Points("corrected", joined(poses, clouds)),
+            Segments(
+                "loop", np.array([[*poses[i, :2], *poses[j, :2]] for i, j in loops]).reshape(-1, 4)
+            ),
+            Poses("naive", naive),
+            Poses("corrected", shown),
+        ]
+
+    def grid(self, resolution=0.05):
+        """An occupancy grid of the keyframes as they lie now: OccupancyGrid.
+
+        Parameters
+        ----------
+        resolution : float, side of a cell [m]
+        """
+        return gridmap.build(self.graph.poses, [k.scan for k in self.keyframes], resolution)
+
+    def _anchor(self):
+        return self.graph.poses[-1] if self.keyframes else np.zeros(3)
+
+    def _mind_the_clock(self, time):
+        """Count what is odd about a stamp; poses hang on none."""
+        steps = np.diff(self._times[-20:])
+        if len(self._times) and time == self._times[-1]:
+            self.counts["stamps repeated"] += 1
+        elif len(self._times) and time < self._times[-1]:
+            self.counts["stamps going back"] += 1
+        elif len(steps) and time - self._times[-1] > PAUSE * max(np.median(np.abs(steps)), 0.1):
+            self.counts["gaps"] += 1
+
+    def _drive(self, odometry):
+        """Move by odometry, and know less."""
+        odometry = np.asarray(odometry, dtype=float)
+        if not np.isfinite(odometry).all():
+            self.counts["odometries not finite"] += 1
+            odometry = np.zeros(3)
+        self.naive_pose = compose(self.naive_pose, odometry)
+        before, self._relative = self._relative, compose(self._relative, odometry)
+        A = np.eye(3)
+        A[:2, 2] = before[1] - self._relative[1], self._relative[0] - before[0]
+        self._doubt = A @ self._doubt @ A.T + Q_arc(before, odometry, self.robot)
+        # the scanner need not sit where the odometry's frame turns
+        turn = abs(odometry[2])
+        way = (DRIFT[0] + DRIFT[1] * turn) * self._reach
+        self._doubt += np.diag(np.square([way, way, DRIFT[2] + DRIFT[3] * turn]))
+
+    def _see(self, seen, scan):
+        """Match a scan; make it a keyframe where it shows enough that is new."""
+        if not self.keyframes:
+            self._keep(seen, scan)
+            return
+        found = self._matched(seen)
+        if found is None:  # odometry alone ties what follows to what was before
+            self.counts["not matched"] += 1
+            slack = self._slack(seen)
+            self._keep(seen, scan, np.linalg.inv(self._doubt + slack), piece=1)
+            return
+        self._correct(found, seen)
+        gone = np.hypot(*self._relative[:2]) > STEP * seen.reach
+        if gone or abs(self._relative[2]) > TURN or found.fit.overlap < THIN:
+            self._keep(seen, scan, np.linalg.inv(self._doubt))
+
+    def _matched(self, seen):
+        """The scan on the local map, or None where nothing that odometry allows fits."""
+        allowed = np.linalg.inv(self._doubt + self._slack(seen))
+        for target, search in ((self._map, 0), (self.keyframes[-1].surface, 0), (self._map, 0.8)):
+            found = match(seen, target, self._relative, search=search)
+            off = difference(found.pose, self._relative)
+            if found.good and off @ allowed @ off < FAR_OFF:
+                return found
+        return None
+
+    def _slack(self, seen):
+        """(3, 3) what odometry may be off by for no reason that it knows of."""
+        return np.diag(np.square([SLACK[0] * seen.reach, SLACK[1] * seen.reach, SLACK[2]]))
+
+    def _correct(self, found, seen):
+        """Weigh the match and the odometry by their covariances."""
+        P, C = self._doubt, found.covariance + blur(seen)
+        K = P @ np.linalg.inv(P + C)
+        x = self._relative + K @ difference(found.pose, self._relative)
+        self._relative = np.array([x[0], x[1], wrap(float(x[2]))])
+        self._doubt = (P - K @ P + (P - K @ P).T) / 2 + 1e-3 * blur(seen)
+
+    def _keep(self, seen, scan, information=None, piece=0):
+        """Make a scan a keyframe, tied to the last one by what was measured."""
+        piece += self.keyframes[-1].piece if self.keyframes else 0
+        i = self.graph.add_pose(compose(self._anchor(), self._relative))
+        if i:
+            self.graph.add_edge(i - 1, i, self._relative, information)
+        self.keyframes.append(Keyframe(seen, scan, piece))
+        self._relative, self._doubt, self._reach = np.zeros(3), np.zeros((3, 3)), seen.reach
+        poses = self.graph.poses
+        recent = [
+            k for k in range(max(0, i + 1 - RECENT), i + 1) if self.keyframes[k].piece == piece
+        ]
+        self._map = merged(
+            [self.keyframes[k].surface for k in recent[::-1]],
+            between(poses[i], poses[recent[::-1]]),
+        )
+        if self.loops is not None:
+            self.loops.propose(i)
+
+
+def difference(a, b):
+    """(3,) a − b, the turn wrapped."""
+    return np.array([a[0] - b[0], a[1] - b[1], wrap(float(a[2] - b[2]))])
+
+
+def blur(seen):
+    """(3, 3) variance of a match that its points' noise does not explain."""
+    sigma = BLUR * seen.sigma
+    return np.diag(np.square([sigma, sigma, sigma / seen.reach]))
+
+
+def joined(poses, clouds):
+    """Clouds at their poses as one array (n, 2), also where there are none."""
+    placed = [transform(p, c) for p, c in zip(poses, clouds, strict=True)]
+    return np.concatenate([np.empty((0, 2)), *placed])

@@ -1,0 +1,104 @@
+"""Loops of a graph SLAM: who may have been here before, and whether that is so.
+
+A new keyframe asks the old ones near it; a scan is laid over a local map of old keyframes; what
+fits, contradicts nothing, and is no surprise to the graph becomes a robust edge. A few candidates
+are looked at between readings.
+"""
+
+from collections import deque
+
+import numpy as np
+
+from slamlab.geometry import between
+from slamlab.scanmatching import match
+from slamlab.scanmatching.align import paired
+from slamlab.scanmatching.localmap import merged
+from slamlab.scanmatching.verdict import fit
+
+LOOSE = np.diag([1e-6, 1e-6, 1e-2])  # information of a motion of which nothing is known
+APART = 20  # keyframes between two that may close a loop
+NEAR = 0.6  # of the scan's reach: so near an old keyframe must be
+AROUND = 4  # keyframes to either side of an old one in its local map
+RUNS = 3  # stretches of old keyframes asked by a new one
+EACH = 2  # candidates looked at between two readings
+OVERLAP, AGREEMENT = 0.5, 0.85  # of a scan with the old map, and with the old scan alone
+SURPRISE = 60.0  # χ² that a loop may have beside what the graph believes
+NEWS = 1.0  # χ² from which the graph is made anew at once; others wait until there are some
+SOME = 10
+BLUR = 0.5  # of the scans' noise: what two scans of a place differ by beyond it
+ROUNDS = 10
+
+
+class Loops:
+    """Candidates of loops and their trial.
+
+    Parameters
+    ----------
+    graph : PoseGraph
+    keyframes : list of Keyframe, pose by pose of the graph
+    counts : Counter, to note what happened
+    """
+
+    def __init__(self, graph, keyframes, counts):
+        self.graph, self.keyframes, self.counts = graph, keyframes, counts
+        self._waiting, self._untold = deque(), 0
+
+    def propose(self, i):
+        """Put the old keyframes near keyframe i on the list, the nearest of each stretch."""
+        poses, own = self.graph.poses, self.keyframes[i]
+        before = np.arange(i)
+        old = (self._pieces(i) != own.piece) | (before < i - APART)
+        away = np.hypot(*(poses[:i, :2] - poses[i, :2]).T)
+        near = np.flatnonzero(old & (away < NEAR * own.surface.reach))
+        runs = np.split(near, np.flatnonzero(np.diff(near) > 1) + 1) if len(near) else []
+        nearest = sorted((run[np.argmin(away[run])] for run in runs), key=lambda j: away[j])
+        self._waiting.extend((int(j), i) for j in nearest[:RUNS])
+
+    def _pieces(self, i):
+        return np.array([keyframe.piece for keyframe in self.keyframes[:i]], dtype=int)
+
+    def work(self):
+        """Look at a few candidates; move the poses where that closed a loop that tells news."""
+        for _ in range(min(EACH, len(self._waiting))):
+            self._try(*self._waiting.popleft())
+
+    def settle(self):
+        """Take in what was found since the graph was last made anew."""
+        if self._untold:
+            self.graph.optimise(ROUNDS)
+            self._untold = 0
+
+    def _try(self, j, i):
+        """Lay keyframe i over the map round keyframe j; keep what it tells."""
+        seen, poses = self.keyframes[i].surface, self.graph.poses
+        piece = self.keyframes[j].piece
+        around = range(max(0, j - AROUND), min(len(self.keyframes), j + AROUND + 1))
+        around = [k for k in around if self.keyframes[k].piece == piece]
+        around.sort(key=lambda k: abs(k - j))
+        target = merged(
+            [self.keyframes[k].surface for k in around], between(poses[j], poses[around])
+        )
+        found = match(seen, target, between(poses[j], poses[i]))
+        if not self._believable(found, seen, self.keyframes[j].surface):
+            self.counts["loops refused"] += 1
+            return
+        sigma = BLUR * np.hypot(seen.sigma, self.keyframes[j].surface.sigma)
+        C = found.covariance + np.diag(np.square([sigma, sigma, sigma / seen.reach]))
+        information = np.linalg.inv(C)
+        surprise = self.graph.surprise(j, i, found.pose, information)
+        if surprise > SURPRISE:
+            self.counts["loops too surprising"] += 1
+            return
+        self.graph.add_edge(j, i, found.pose, information, robust=True)
+        self.counts["loops closed"] += 1
+        self._untold += 1
+        if surprise > NEWS or self._untold >= SOME:
+            self.settle()
+
+    def _believable(self, found, seen, old):
+        """Whether a match shows the same place: enough overlaps, all is fixed, nothing contradicts
+        the old scan itself."""
+        if not found.good or found.fit.overlap < OVERLAP or not found.observability.fixed.all():
+            return False
+        alone = fit(seen, old, paired(seen, old, tuple(found.pose)))
+        return alone.agreement >= AGREEMENT
