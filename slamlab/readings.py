@@ -42,10 +42,12 @@ class Observations:
     ----------
     z : (m, 2) range [m] and bearing [rad]
     ids : (m,) int; -1 where the landmark is not known
+    R : (m, 2, 2) covariances of z, or None where they are as the sensor's model says
     """
 
     z: np.ndarray
     ids: np.ndarray
+    R: np.ndarray | None = None
 
 
 @dataclass(frozen=True)

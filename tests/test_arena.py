@@ -9,8 +9,9 @@ from slamlab import sources, worlds
 from slamlab.follower import WallFollower
 from slamlab.geometry import compose
 from slamlab.simulator import DifferentialDrive, Simulator
-from slamlab.sources import arena
-from slamlab.sources.arena import LAPS, ROBOT, ArenaRun
+from slamlab.sources import Source, arena
+from slamlab.sources.arena import LAPS, ROBOT, ArenaRun, data_set
+from slamlab.studies.three import with_corners
 from tests.laws import assert_same_pose
 
 FOLLOWER = WallFollower()
@@ -112,8 +113,9 @@ def test_odometry_strays_farther_with_every_lap():
 
 
 def test_a_snagged_cable_changes_one_odometry_and_nothing_else():
-    free, snagged = (ArenaRun(RNG(4), snagged=snagged) for snagged in (False, True))
-    assert free.snag is None
+    free = ArenaRun(RNG(4))
+    snagged = free.snagged()
+    assert free.snag is None and snagged.snag == data_set(4, snagged=True).snag
     np.testing.assert_array_equal(free.truth.poses, snagged.truth.poses)
     differ = []
     for i, (a, b) in enumerate(zip(free, snagged, strict=True)):
@@ -137,6 +139,26 @@ def test_a_log_is_the_run_again(tmp_path):
         assert a.time == b.time
         np.testing.assert_array_equal(a.odometry, b.odometry)
         np.testing.assert_array_equal(a.scan.ranges, b.scan.ranges)
+
+
+class Corners(Source):
+    """The first readings of a run, corners in the place of scans."""
+
+    name = "corners"
+
+    def __iter__(self):
+        return iter(with_corners(ArenaRun(RNG(2), laps=1))[:30])
+
+
+def test_a_log_of_corners_keeps_how_sure_they_are(tmp_path):
+    sources.write(Corners(), tmp_path / "log")
+    seen = 0
+    for a, b in zip(Corners(), sources.open(tmp_path / "log"), strict=True):
+        for part in ("z", "ids", "R"):
+            wrote, read = (getattr(r.observations, part) for r in (a, b))
+            np.testing.assert_array_equal(wrote.ravel(), read.ravel())
+        seen += len(a.observations.ids)
+    assert seen > 3
 
 
 def advanced(ranges, follower=FOLLOWER):

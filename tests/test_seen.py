@@ -3,12 +3,13 @@
 import numpy as np
 import pytest
 
-from slamlab.estimators.seen import Names, Seen, seen
+from slamlab.estimators.seen import Names, seen
 from slamlab.evaluation import nees
 from slamlab.geometry import wrap
 from slamlab.landmarks.corners import corners
 from slamlab.landmarks.ransac import Ransac, lines
 from slamlab.models import g, h
+from slamlab.noise import R_of
 from slamlab.readings import Observations, Reading
 from slamlab.sensors import RPLIDAR_A2
 from slamlab.sources.arena import ArenaRun
@@ -107,13 +108,17 @@ def test_named_observations_come_first_and_nothing_gives_nothing():
     observed = Reading(0.0, observations=Observations(np.array([[2.0, 0.1]]), np.array([7])))
     found = seen(observed, sensor, RNG())
     assert found.ids.tolist() == [7] and found.R.shape == (1, 2, 2)
+    np.testing.assert_array_equal(found.R, R_of(sensor, [2.0]))
+    own = np.diag([0.04, 0.01])[None]
+    found = seen(Reading(0.0, observations=Observations(found.z, found.ids, own)), sensor, RNG())
+    np.testing.assert_array_equal(found.R, own)
     nothing = seen(Reading(0.0), sensor, RNG())
     assert nothing.z.shape == (0, 2) and nothing.R.shape == (0, 2, 2) and len(nothing.ids) == 0
 
 
 def test_names_are_the_sources_else_a_known_landmarks_else_new_and_negative():
     names = Names()
-    found = Seen(np.ones((5, 2)), np.ones((5, 2, 2)), np.array([4, -1, -1, -1, 4]))
+    found = Observations(np.ones((5, 2)), np.array([4, -1, -1, -1, 4]), np.ones((5, 2, 2)))
     pair = {0: 1}, [2]  # of the three without a name: the first is known, the second is unclear
     assert names.of(found, [10, 11], lambda z, R: pair) == {4: 0, 11: 1, -1: 3}
     assert names.unclear == 2

@@ -9,6 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from slamlab import estimators, sources
+from slamlab.sources import arena
 from slamlab.sources.arena import SETS, ArenaRun
 from slamlab.studies import arena_logs, three, three_costs
 from slamlab.studies.three import LOST, TABLE, row, summary
@@ -73,7 +74,9 @@ def test_the_interval_of_a_share_holds_the_true_one_in_about_95_percent_of_all_s
 @pytest.fixture
 def brief(monkeypatch):
     """One lap, two filters, two data sets, small maps."""
-    monkeypatch.setattr(three, "ArenaRun", partial(ArenaRun, laps=1))
+    short = partial(ArenaRun, laps=1)
+    for module in (three, arena):
+        monkeypatch.setattr(module, "ArenaRun", short)
     makers = {name: three.FILTERS[name] for name in ("odometry", "BOR, tuned")}
     monkeypatch.setattr(three, "FILTERS", makers)
     monkeypatch.setattr(three, "SETS", SETS[-2:])
@@ -99,6 +102,17 @@ def test_the_same_seed_gives_the_same_errors(brief):
     assert three.run(1) == three.run(1)
 
 
+def test_corners_found_once_are_those_that_an_estimator_finds():
+    source = ArenaRun(np.random.default_rng(2), laps=1)
+    poses = []
+    for readings in (source, three.with_corners(source)):
+        slam = estimators.make("mak", source)
+        for reading in readings:
+            slam.step(reading)
+        poses.append(slam.trajectory().poses)
+    np.testing.assert_array_equal(*poses)
+
+
 def test_too_few_runs_are_refused_in_one_line(capsys, tmp_path):
     assert three.main(["--runs", "2", "--out", str(tmp_path / "x")]) == 2
     assert "at least 3" in capsys.readouterr().err
@@ -115,7 +129,7 @@ def test_in_the_field_of_costs_every_landmark_is_in_the_map_and_one_is_seen():
 
 
 def test_the_six_logs_are_written_and_read_again(tmp_path, monkeypatch, capsys):
-    monkeypatch.setattr(arena_logs, "ArenaRun", partial(ArenaRun, laps=1))
+    monkeypatch.setattr(arena, "ArenaRun", partial(ArenaRun, laps=1))
     assert arena_logs.main([str(tmp_path / "new")]) == 0
     names = [f"arena-{k}.log.gz" for k in range(1, 6)] + ["arena-6-snagged.log.gz"]
     assert sorted(path.name for path in (tmp_path / "new").iterdir()) == names

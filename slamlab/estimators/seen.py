@@ -1,34 +1,17 @@
 """The landmarks of a reading: those it names, else the corners of its scan."""
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from slamlab import noise
 from slamlab.landmarks.corners import corners
 from slamlab.landmarks.ransac import Ransac, lines
+from slamlab.readings import Observations
 
 SHORT_SIGHTED = 1.0  # m, a sensor that reaches less far sees walls of a few centimetres
 CLOSE = Ransac(window=6, needed=5, gap=0.05, shortest=0.05)
 CLOSE_REACH = 0.04  # m, beyond a wall's seen end
 """For the infrared scanner: at most 0.28 m away its readings are 3 to 20 mm apart on a wall. Beyond
 4 cm a line meets the wrong one: one corner in thirty is then none."""
-
-
-@dataclass(frozen=True)
-class Seen:
-    """What an estimator of landmarks takes from one reading.
-
-    Parameters
-    ----------
-    z : (m, 2) range [m] and bearing [rad]
-    R : (m, 2, 2) their covariances
-    ids : (m,) int; -1 where the landmark is not known
-    """
-
-    z: np.ndarray
-    R: np.ndarray
-    ids: np.ndarray
 
 
 def seen(reading, sensor, rng, ransac=None):
@@ -43,14 +26,16 @@ def seen(reading, sensor, rng, ransac=None):
 
     Returns
     -------
-    Seen, empty where there is nothing
+    Observations with their R, empty where there is nothing
     """
     if reading.observations is not None:
-        z = np.asarray(reading.observations.z, dtype=float).reshape(-1, 2)
-        return Seen(z, noise.R_of(sensor, z[:, 0]), np.asarray(reading.observations.ids))
+        z, ids, R = (getattr(reading.observations, name) for name in ("z", "ids", "R"))
+        z = np.asarray(z, dtype=float).reshape(-1, 2)
+        return Observations(z, np.asarray(ids), noise.R_of(sensor, z[:, 0]) if R is None else R)
     found = [] if reading.scan is None else _corners(reading.scan, sensor, rng, ransac)
     z, R = ([getattr(corner, name) for corner in found] for name in "zR")
-    return Seen(np.reshape(z, (-1, 2)), np.reshape(R, (-1, 2, 2)), np.full(len(found), -1))
+    ids = np.full(len(found), -1)
+    return Observations(np.reshape(z, (-1, 2)), ids, np.reshape(R, (-1, 2, 2)))
 
 
 class Names:
@@ -69,7 +54,7 @@ class Names:
 
         Parameters
         ----------
-        found : Seen
+        found : Observations, with R
         ids : list of N, the known landmarks'
         pair : callable(z, R) -> ({row of z: which of the N}, rows of z that are new)
 

@@ -4,6 +4,7 @@ It follows the wall on its left through an arena of cardboard boxes, three laps 
 every few centimetres to scan.
 """
 
+from copy import copy
 from dataclasses import replace
 
 import numpy as np
@@ -25,7 +26,7 @@ The thesis gives no figures of its odometry but that it strays farther and farth
 
 LAPS = 3
 SETS = tuple((seed, seed == 6) for seed in range(1, 7))
-"""The six data sets: seed, and whether the cable was snagged."""
+"""The six data sets: seed, and whether the cable was snagged; see :func:`data_set`."""
 
 MIDDLE = 0.3, -0.32  # of the box that the robot goes round [m]
 SCAN_SECONDS = 4.5  # 90 readings, the servo at rest for each
@@ -42,8 +43,6 @@ class ArenaRun(Source):
     ----------
     rng : numpy.random.Generator; one number is drawn, all noise grows from it
     laps : int
-    snagged : bool, whether once, in the middle third, the cable holds the robot while its wheels
-        turn on: the same drive and the same scans, but one gross error of the odometry
     robot : DifferentialDrive
 
     ``world`` is the arena, for evaluation only; ``snag`` the reading with the gross error or None.
@@ -53,19 +52,19 @@ class ArenaRun(Source):
     ValueError : less than a lap
     """
 
+    name = "sim:arena"
     world = worlds.arena()
     scanner = GP2D120
     follower = WallFollower()
 
-    def __init__(self, rng, laps=LAPS, snagged=False, robot=ROBOT):
+    def __init__(self, rng, laps=LAPS, robot=ROBOT):
         super().__init__()
         if laps < 1:
             raise ValueError(f"laps is at least 1, not {laps}")
-        self.name = "sim:arena-snagged" if snagged else "sim:arena"
         self.robot, self.sensor = robot.model, self.scanner.model
         self._seed = int(rng.integers(2**63))
         self.truth, self._odometry = self._driven(laps, robot)
-        self.snag = self._snagged() if snagged else None
+        self.snag = None
 
     def __len__(self):
         return len(self.truth)
@@ -75,6 +74,23 @@ class ArenaRun(Source):
             yield Reading(
                 time, self._odometry[i], self.scanner.scan(self.world, pose, self._rng(i))
             )
+
+    def snagged(self):
+        """The same drive, but once, in its middle third, the cable held the robot.
+
+        The wheels turned on: one gross error of the odometry, and nothing else differs.
+
+        Returns
+        -------
+        ArenaRun
+        """
+        rng, n, run = self._rng(-2), len(self), copy(self)
+        run.name, run.snag = "sim:arena-snagged", int(rng.integers(n // 3, 2 * n // 3))
+        turn = rng.choice([-1, 1]) * rng.uniform(*SNAG_TURN)
+        gained = np.array([rng.uniform(*SNAG_WAY), 0.0, turn])
+        run._odometry = self._odometry.copy()
+        run._odometry[run.snag] = compose(self._odometry[run.snag], gained)
+        return run
 
     def _driven(self, laps, robot):
         """Trajectory of the stops, and the odometry that led to each."""
@@ -95,17 +111,25 @@ class ArenaRun(Source):
             turned += wrap(_round_the_middle(poses[-1]) - _round_the_middle(poses[-2]))
         return Trajectory(np.array(times), np.array(poses)), odometry
 
-    def _snagged(self):
-        """Spoil one odometry; returns which."""
-        rng, n = self._rng(-2), len(self._odometry)
-        i = int(rng.integers(n // 3, 2 * n // 3))
-        turn = rng.choice([-1, 1]) * rng.uniform(*SNAG_TURN)
-        self._odometry[i] = compose(self._odometry[i], [rng.uniform(*SNAG_WAY), 0.0, turn])
-        return i
-
     def _rng(self, i):
         """Noise of reading i; of the wheels at −1, of the cable at −2."""
         return np.random.default_rng([self._seed, 2 + i])
+
+
+def data_set(seed, snagged=False):
+    """The drive of a seed, such as one of ``SETS``.
+
+    Parameters
+    ----------
+    seed : int
+    snagged : bool
+
+    Returns
+    -------
+    ArenaRun
+    """
+    run = ArenaRun(np.random.default_rng(seed))
+    return run.snagged() if snagged else run
 
 
 def _round_the_middle(pose):

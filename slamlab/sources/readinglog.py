@@ -99,7 +99,9 @@ class ReadingLog(LogFile):
         if row.get("observations") is not None:
             z = _array(row["observations"]["z"], (-1, 2))
             ids = np.array(row["observations"]["ids"], dtype=int).reshape(len(z))
-            observations = Observations(z, ids)
+            R = row["observations"].get("R")
+            R = None if R is None else _array(R, (len(z), 2, 2))
+            observations = Observations(z, ids, R)
         if row.get("control") is not None:
             control = _array(row["control"], (-1,))
         reading = Reading(
@@ -178,6 +180,8 @@ def _row(reading, angles, reckoned, true):
     if reading.observations is not None:
         z, ids = reading.observations.z, reading.observations.ids
         row["observations"] = {"z": np.asarray(z).tolist(), "ids": np.asarray(ids).tolist()}
+        if reading.observations.R is not None:
+            row["observations"]["R"] = np.asarray(reading.observations.R).tolist()
     if reading.control is not None:
         row["control"] = _listed(reading.control)
     if true is not None:

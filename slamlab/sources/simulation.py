@@ -192,7 +192,7 @@ def simulation(world_name, rng, lidar=None, robot=None, tour=True):
     if world_name == LANDMARKS:
         return LandmarkRun(Loop(), rng)
     if world_name in ARENA:
-        return ArenaRun(rng, snagged=world_name == SNAGGED)
+        return ArenaRun(rng).snagged() if world_name == SNAGGED else ArenaRun(rng)
     thesis = world_name.startswith("situation")
     lidar = lidar or (THESIS_LIDAR if thesis else RPLIDAR_A2)
     robot = robot or (THESIS_ROBOT if thesis else ROBOT)

@@ -7,10 +7,8 @@ import argparse
 import sys
 from pathlib import Path
 
-import numpy as np
-
 from slamlab import sources
-from slamlab.sources.arena import SETS, ArenaRun
+from slamlab.sources.arena import SETS, data_set
 
 
 def main(argv=None):
@@ -21,7 +19,7 @@ def main(argv=None):
     try:
         folder.mkdir(parents=True, exist_ok=True)
         for seed, snagged in SETS:
-            source = ArenaRun(np.random.default_rng(seed), snagged=snagged)
+            source = data_set(seed, snagged)
             path = folder / f"arena-{seed}{'-snagged' if snagged else ''}.log.gz"
             print(f"{sources.write(source, path)} readings written to {path}")
     except (OSError, sources.SourceError) as error:
