@@ -12,7 +12,7 @@ RUN = PATH="$(CURDIR)/$(ENV)/bin:$$PATH" $(ENV)/bin/python -m
 # one worker a core of a small machine; the cells of a notebook must stay on one worker
 PYTEST = $(RUN) pytest -n 2 --dist loadfile
 
-.PHONY: lab test env lint format notebooks bench lock clean
+.PHONY: lab test env lint format notebooks student bench lock clean
 
 lab:  ## Set up and open the course; LAB_ARGS="--no-browser --port 9999" go to JupyterLab
 	@$(PYTHON) lab.py $(LAB_ARGS)
@@ -34,6 +34,9 @@ format: env
 
 notebooks: env  ## Derive notebooks/, exercises/ and solutions/ from course/
 	$(RUN) course.build
+
+student: env  ## Pack what students get into slam-course.zip: no solutions
+	$(RUN) course.pack
 
 bench: env  ## Run every benchmark; BENCH_ARGS="--quick --json FILE"
 	$(RUN) benchmarks $(BENCH_ARGS)

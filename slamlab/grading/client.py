@@ -38,11 +38,12 @@ class Client:
     cells : list of (number, source), the student's code cells in order
     start : exercise -> worker, such as ``Workers.start``
     stop : threading.Event or None; once it is set, nothing is waited for any more
+    tell : bool, whether failures are told in full, which tells of the inputs, too
     """
 
-    def __init__(self, exercise, cells, start, stop=None):
+    def __init__(self, exercise, cells, start, stop=None, tell=False):
         self._exercise, self._cells, self._start = exercise, cells, start
-        self._stop = stop or threading.Event()
+        self._stop, self._tell = stop or threading.Event(), tell
         self._process, self._thread, self._turn = None, None, 0
         self._lethal = set()
         self._deadline = time.monotonic() + TOTAL_SECONDS
@@ -82,7 +83,8 @@ class Client:
             raise StudentError(gone.kind, _say(gone.kind, task.drive.seconds)) from None
         if head.get("problem") is not None:
             kind = head.get("kind") if head.get("kind") in KINDS else "raised"
-            raise StudentError(kind, _without_inputs(kind, _text(head["problem"])))
+            said = _text(head["problem"])
+            raise StudentError(kind, said if self._tell else _without_inputs(kind, said))
         return arrays
 
     def load(self):

@@ -92,7 +92,7 @@ def grade(
         return Record(**names, reason=reason, failed=True)
 
 
-def judge(exercise, cells, seed: bytes, workers: Workers, stop=None) -> dict:
+def judge(exercise, cells, seed: bytes, workers: Workers, stop=None, tell=False) -> dict:
     """Judge a notebook's cells with the inputs of a seed.
 
     Parameters
@@ -102,6 +102,7 @@ def judge(exercise, cells, seed: bytes, workers: Workers, stop=None) -> dict:
     seed : bytes
     workers : Workers
     stop : threading.Event or None
+    tell : bool, whether failures are told in full, which tells of the inputs, too
 
     Returns
     -------
@@ -112,7 +113,7 @@ def judge(exercise, cells, seed: bytes, workers: Workers, stop=None) -> dict:
     CannotStart
     """
     begin, judging = time.monotonic(), time.thread_time()
-    with Client(exercise, cells, workers.start, stop) as client:
+    with Client(exercise, cells, workers.start, stop, tell) as client:
 
         def judge_one(task):
             inputs = task.draw(seed)
