@@ -154,7 +154,7 @@ PLACED = FAR | NEAR | SIDES
 KEEPS, SMALLEST, EMPTY = ({f"10-clip:{law}"} for law in ("keeps", "smallest", "empty"))
 HOLDS, TIGHT, OVERLAP = ({f"10-heading:{law}"} for law in ("holds", "tight", "overlap"))
 ANGLES = HOLDS | TIGHT
-SHARP = {f"10-see:sharp-{name}" for name in ("robot", "heading", "object")}
+SHARP = {"10-see:sharp"}
 GUARANTEE = {"10-see:guarantee"}
 MALFORMED = {"problem": "malformed"}
 
@@ -213,6 +213,32 @@ IN_PREDICT = [
         "a box far too wide", predict(result="np.array([-99, 99, -99, 99])"), {"10-predict:tight"}
     ),
     Wrong("made-up box", predict(result="np.array([1, 2, 3, 4])"), BOTH),
+]
+
+IN_PREDICT += [
+    Wrong(
+        "a grid of headings",
+        """
+def predict(box, heading, way, direction):
+    course = np.linspace(heading[0] + direction[0], heading[1] + direction[1], 500)
+    x, y = np.outer(way, np.cos(course)), np.outer(way, np.sin(course))
+    return np.array([box[0] + x.min(), box[1] + x.max(), box[2] + y.min(), box[3] + y.max()])
+""",
+        {"10-predict:holds"},
+        "sampled",
+    ),
+    Wrong(
+        "many drives",
+        """
+def predict(box, heading, way, direction):
+    rng, n = np.random.default_rng(0), 20_000
+    course, w = rng.uniform(*heading, n) + rng.uniform(*direction, n), rng.uniform(*way, n)
+    x, y = w * np.cos(course), w * np.sin(course)
+    return np.array([box[0] + x.min(), box[1] + x.max(), box[2] + y.min(), box[3] + y.max()])
+""",
+        BOTH,
+        "sampled",
+    ),
 ]
 
 IN_EDGES = [
@@ -403,22 +429,31 @@ IN_SEE = [
         "robot-cut-away",
     ),
     Wrong("pushed by itself", see(around="robot"), GUARANTEE | SHARP, "robot-cut-away"),
-    Wrong(
-        "robot left alone", see(robot="robot"), {"10-see:sharp-robot"}, "robot-left", may_lose=SHARP
-    ),
+    Wrong("robot left alone", see(robot="robot"), SHARP, "robot-left", may_lose=SHARP),
     Wrong(
         "object left alone",
         see(object="box"),
-        {"10-see:sharp-object"},
+        SHARP,
         "object-left",
         may_lose=SHARP,
     ),
     Wrong(
         "heading left alone",
         see(result="robot, heading, box"),
-        {"10-see:sharp-heading"},
+        SHARP,
         "heading-left",
         may_lose=SHARP,
+    ),
+    Wrong(
+        "early return",
+        see().replace(
+            "    if bounds",
+            "    if bounds[1] + (heading[1] - heading[0]) / 2 >= np.pi / 2:\n"
+            "        return robot, heading, box\n    if bounds",
+            1,
+        ),
+        SHARP,
+        "heading-waits",
     ),
     Wrong("always None", see(result="None"), GUARANTEE | SHARP, "none"),
     Wrong("nothing done", see(guard="False", result="robot, heading, box"), SHARP),

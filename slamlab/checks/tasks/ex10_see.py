@@ -54,12 +54,13 @@ def ours(given, **changes):
 
 
 def _seen(
-    robot, heading, box, z, bounds, guard=True, turned=pi, clips="both", sharpens=True, by=None
+    robot, heading, box, z, bounds, guard=True, turned=pi, clips="both", sharpens="always", by=None
 ):
     """One sighting: object, robot, heading.
 
     guard : bool, leave boxes alone from a right angle on; turned : float, by what the sighting is
-    turned for the robot; clips : "both", "object" or "robot"; sharpens : bool, the heading;
+    turned for the robot; clips : "both", "object" or "robot"; sharpens : the heading
+    "always", "never" or "near", below a right angle;
     by : "own", the robot's edges are pushed by the robot's box
     """
     direction, d_abs = middle(heading) + z[1], bounds[1] + width(heading) / 2
@@ -72,7 +73,7 @@ def _seen(
             robot = clipped(robot, _lines(z, bounds, direction + turned, d_abs, around))
         if robot is None:
             return None
-    if sharpens:
+    if sharpens == "always" or (sharpens == "near" and d_abs < pi / 2):
         heading = oriented(heading, robot, box, z, bounds)
     return robot, heading, box
 
@@ -105,17 +106,16 @@ def _inside(box, point):
     return ((low <= point) & (point <= high)).all(axis=-1)
 
 
-def _as_sharp(name):
-    """A law: after the last sighting this is hardly wider than ours, over all runs."""
-
-    def size(found):
-        last = found[name][:, -1]
-        return (last[:, 1::2] - last[:, ::2]).mean()
-
-    def holds(given, out):
-        return bool((out["left"] > 0).all()) and size(out) <= SHARP * size(ours(given))
-
-    return holds
+def _as_sharp(given, out):
+    """After the last sighting nothing is much wider than ours, over all runs."""
+    right = ours(given)
+    sizes = [
+        [(last[:, 1::2] - last[:, ::2]).mean() for last in (found[name][:, -1] for name in NAMES)]
+        for found in (out, right)
+    ]
+    return bool(
+        (out["left"] > 0).all() and (np.array(sizes[0]) <= SHARP * np.array(sizes[1])).all()
+    )
 
 
 def _is(given, out, **changes):
@@ -145,9 +145,7 @@ SEE = Task(
     },
     laws=(
         Law("guarantee", 2, "robot, heading and object are never outside", _never_outside),
-        Law("sharp-robot", 0.5, "the robot's box shrinks as it can", _as_sharp("robot")),
-        Law("sharp-heading", 0.5, "the heading's interval shrinks as it can", _as_sharp("heading")),
-        Law("sharp-object", 1, "the objects' boxes shrink as they can", _as_sharp("object")),
+        Law("sharp", 1, "robot, heading and objects are narrowed down as they can be", _as_sharp),
     ),
     diagnoses=(
         _mistake(
@@ -176,12 +174,18 @@ SEE = Task(
         _mistake(
             "heading-left",
             "The heading comes back as it was: sharpen it by the two boxes.",
-            sharpens=False,
+            sharpens="never",
+        ),
+        _mistake(
+            "heading-waits",
+            "Where d_abs ≥ π/2 the heading comes back as it was. Only the edges fail there: the "
+            "boxes still say which bearings are possible.",
+            sharpens="near",
         ),
         Diagnosis(
             "none",
-            "see returned None for a sighting that fits: some clip left nothing of a box. Look "
-            "which edges, from which box, clip which box.",
+            "see returned None for a sighting that fits. Is there a return at its end? Or did some "
+            "clip leave nothing of a box: then look which edges, from which box, clip which box.",
             lambda given, out: bool((out["left"] == 0).any()),
         ),
     ),
