@@ -14,7 +14,7 @@ from slamlab.sources.arena import SETS, ArenaRun
 from slamlab.studies import arena_logs, three, three_costs
 from slamlab.studies.three import LOST, TABLE, row, summary
 
-ways = st.lists(st.floats(0, 1), min_size=1, max_size=50).map(lambda e: np.array([0.0, *e]))
+ways = st.lists(st.floats(0, 1), min_size=2, max_size=50).map(lambda e: np.array([0.0, *e]))
 
 
 @given(ways)
@@ -22,7 +22,7 @@ def test_lost_is_a_way_of_straying_and_there_is_no_error_beyond_the_largest(erro
     found = summary(errors)
     assert found["strayed"] == (errors.max() > LOST)
     assert found["strayed"] or not found["lost"]
-    assert found["lost"] == (found["final_m"] > LOST)
+    assert found["lost"] == (errors[-1] > LOST) and found["laps_m"][-1] == errors[-1]
     assert found["before_m"] <= LOST
     assert found["before_m"] <= found["rms_m"] + 1e-12 or found["strayed"]
     assert found["rms_m"] <= errors.max() + 1e-12
@@ -42,24 +42,33 @@ def test_who_strays_and_comes_back_has_strayed_and_is_not_lost():
     assert found["before_m"] == pytest.approx(np.sqrt((0.03**2 + 0.04**2) / 3))
 
 
-def runs_of(errors):
-    return [summary(np.array([0.0, e])) for e in errors]
+def test_who_is_nearer_is_asked_only_until_either_strays():
+    first, second = np.array([0.0, 0.01, 0.5]), np.array([0.0, 0.02, 0.01])
+    assert three.nearer(first, second) and not three.nearer(second, first)
+
+
+def row_of(errors):
+    """The line of runs that end so far off, beside runs that end 4 cm off."""
+    return row(
+        *([np.array([0.0, 0.0, e]) for e in each] for each in (errors, [0.04] * len(errors)))
+    )
 
 
 def test_a_line_counts_and_its_intervals_hold_what_they_are_of():
-    line = row(runs_of([0.01, 0.02, 0.03, 0.05, 0.5, 0.6]))
+    line = row_of([0.01, 0.02, 0.03, 0.05, 0.5, 0.6])
     assert (line["runs"], line["runs_strayed"], line["runs_lost"]) == (6, 2, 2)
     assert line["lost"][0] == pytest.approx(1 / 3, abs=1e-4)
     assert line["lost_of_strayed"][0] == 1
+    assert line["nearer_than_monte_carlo"][0] == 0.5  # a draw is no win
     for value, low, high in (v for v in line.values() if isinstance(v, list)):
         assert low <= value <= high
-    assert row(runs_of([0.01, 0.02, 0.03]))["lost_of_strayed"] is None
+    assert row_of([0.01, 0.02, 0.03])["lost_of_strayed"] is None
 
 
 def test_more_runs_make_narrower_intervals():
     errors = np.random.default_rng(0).uniform(0, 0.3, 100)
-    few, many = row(runs_of(errors[:10])), row(runs_of(errors))
-    for key in ("final_m", "lost"):
+    few, many = row_of(errors[:10]), row_of(errors)
+    for key in ("rms_m", "lost"):
         assert np.ptp(many[key][1:]) < np.ptp(few[key][1:])
 
 
@@ -77,7 +86,7 @@ def brief(monkeypatch):
     short = partial(ArenaRun, laps=1)
     for module in (three, arena):
         monkeypatch.setattr(module, "ArenaRun", short)
-    makers = {name: three.FILTERS[name] for name in ("odometry", "BOR, tuned")}
+    makers = {name: three.FILTERS[name] for name in ("odometry", "Monte Carlo")}
     monkeypatch.setattr(three, "FILTERS", makers)
     monkeypatch.setattr(three, "SETS", SETS[-2:])
     monkeypatch.setattr(three, "costs", partial(three_costs.costs, ("bor", "mak"), (3, 5)))
@@ -90,16 +99,18 @@ def test_the_command_writes_a_line_for_every_filter_and_kind(tmp_path, capsys, b
     assert json.loads(capsys.readouterr().out) == table
     assert table["seeds"] == [0, 2] and table["lost_beyond_m"] == LOST
     for rows in table["many"].values():
-        assert list(rows) == ["odometry", "BOR, tuned"]
+        assert list(rows) == ["odometry", "Monte Carlo"]
         assert all(line["runs"] == 3 for line in rows.values())
     free, snagged = (table["many"][kind]["odometry"] for kind in ("free", "snagged"))
-    assert snagged["final_m"][0] > free["final_m"][0]
+    assert snagged["laps_m"][-1][0] > free["laps_m"][-1][0]
     assert [line["snagged"] for line in table["six"]] == [False, True]
     assert table["cost"]["over_smallest"]["bor"][0] == table["cost"]["over_bor"]["bor"] == 1
 
 
 def test_the_same_seed_gives_the_same_errors(brief):
-    assert three.run(1) == three.run(1)
+    first, second = three.run(1), three.run(1)
+    assert first.keys() == second.keys()
+    assert all(np.array_equal(first[key], second[key]) for key in first)
 
 
 def test_corners_found_once_are_those_that_an_estimator_finds():

@@ -14,7 +14,7 @@ from slamlab import estimators
 from slamlab.estimators import BorSlam
 from slamlab.estimators.seen import seen
 from slamlab.parallel import map_runs
-from slamlab.sources.arena import SETS, ArenaRun, data_set
+from slamlab.sources.arena import LAPS, SETS, ArenaRun, data_set
 from slamlab.studies.command import TABLES, made_with, parser, write
 from slamlab.studies.three_costs import costs
 
@@ -95,50 +95,77 @@ def summary(errors):
 
     Returns
     -------
-    dict: final_m, rms_m, before_m the root mean square before it strayed [m], strayed, lost, and
-    lost_at, the share of the way driven until it was lost, or None
+    dict: laps_m at the end of each, rms_m, before_m the root mean square before it strayed [m],
+    strayed, lost, and lost_at, the share of the way driven until it was lost, or None
     """
     far = errors > LOST
     before = errors[: int(np.argmax(far))] if far.any() else errors
     last_good = np.flatnonzero(~far)[-1]  # there is one: every run begins at the truth
     return {
-        "final_m": float(errors[-1]),
+        "laps_m": [float(errors[len(errors) * lap // LAPS - 1]) for lap in range(1, LAPS + 1)],
         "rms_m": float(np.sqrt(np.mean(errors**2))),
         "before_m": float(np.sqrt(np.mean(before**2))),
         "strayed": bool(far.any()),
         "lost": bool(far[-1]),
-        "lost_at": (last_good + 1) / len(errors) if far[-1] else None,
+        "lost_at": float(last_good + 1) / len(errors) if far[-1] else None,
     }
 
 
+def nearer(first, second):
+    """Whether one filter is nearer to the truth than another until either strays.
+
+    Parameters
+    ----------
+    first, second : (n,) errors on the same drive [m]
+
+    Returns
+    -------
+    bool
+    """
+    far = np.maximum(first, second) > LOST
+    way = slice(int(np.argmax(far)) if far.any() else len(far))
+    return bool(np.sum(first[way] ** 2) < np.sum(second[way] ** 2))
+
+
 def run(seed):
-    """What every filter comes to on one drive, free and snagged: {(name, snagged): summary}."""
+    """One drive by every filter, free and snagged: {(name, snagged): (n,) errors [m]}."""
     free = ArenaRun(np.random.default_rng(seed))
     held, readings = free.snagged(), with_corners(free)
     pulled = [replace(r, odometry=h.odometry) for r, h in zip(readings, held, strict=True)]
     return {
-        (name, source is held): summary(errors)
+        (name, source is held): errors
         for source, given in ((free, readings), (held, pulled))
         for name, errors in errors_of(source, given).items()
     }
 
 
-def row(runs):
+def row(runs, others):
     """One line of the table: medians and shares, each with its 95 % interval.
 
     Parameters
     ----------
-    runs : list of summary
+    runs : list of (n,) errors [m]
+    others : list of (n,) errors of Monte Carlo on the same drives [m]
 
     Returns
     -------
     dict of (value, low, high) [m] or shares, and the counts behind the shares
     """
-    strayed, lost = (sum(run[key] for run in runs) for key in ("strayed", "lost"))
-    line = {key: _median([run[key] for run in runs]) for key in ("final_m", "rms_m", "before_m")}
+    found = [summary(errors) for errors in runs]
+    strayed, lost = (sum(each[key] for each in found) for key in ("strayed", "lost"))
+    line = {key: _median([each[key] for each in found]) for key in ("rms_m", "before_m")}
+    line["laps_m"] = [_median(lap) for lap in zip(*(each["laps_m"] for each in found), strict=True)]
+    wins = sum(nearer(mine, other) for mine, other in zip(runs, others, strict=True))
+    line["nearer_than_monte_carlo"] = _share(wins, len(runs))
     line["strayed"], line["lost"] = _share(strayed, len(runs)), _share(lost, len(runs))
     line["lost_of_strayed"] = _share(lost, strayed) if strayed else None
     return line | {"runs": len(runs), "runs_strayed": strayed, "runs_lost": lost}
+
+
+def _rows(results):
+    """{name: row} of many runs of all filters."""
+    others = [result["Monte Carlo"] for result in results]
+    return {name: row([result[name] for result in results], others) for name in FILTERS}
 
 
 def _median(values):
@@ -192,7 +219,7 @@ def study(runs, jobs=None, scheduler=None):
         "lost_beyond_m": LOST,
         "six": six(),
         "many": {
-            kind: {name: row([result[name, snagged] for result in results]) for name in FILTERS}
+            kind: _rows([{name: result[name, snagged] for name in FILTERS} for result in results])
             for kind, snagged in (("free", False), ("snagged", True))
         },
         "cost": costs(),
