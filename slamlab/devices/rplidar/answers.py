@@ -1,0 +1,202 @@
+"""What an RPLIDAR answers: a descriptor of seven bytes, then its data once or without end."""
+
+import struct
+from dataclasses import dataclass
+from enum import IntEnum
+
+from slamlab.devices.errors import ProtocolError
+from slamlab.devices.rplidar.requests import Conf
+
+SYNC = b"\xa5\x5a"
+DESCRIPTOR = 7  # bytes
+LONGEST_PAYLOAD = 1024  # bytes; a longer one is none
+
+
+class Answer(IntEnum):
+    """Types of answers."""
+
+    INFO = 0x04
+    HEALTH = 0x06
+    SAMPLERATE = 0x15
+    CONF = 0x20
+    SCAN = 0x81
+    EXPRESS = 0x82
+    ULTRA = 0x84
+    DENSE = 0x85
+    ACC_BOARD_FLAG = 0xFF
+
+
+@dataclass(frozen=True)
+class Descriptor:
+    """What follows: packets of ``length`` bytes and of a ``type``, one or (``loop``) many."""
+
+    length: int
+    loop: bool
+    type: int
+
+    def pack(self):
+        """The descriptor's seven bytes."""
+        return SYNC + struct.pack("<IB", self.length | self.loop << 30, self.type)
+
+    @classmethod
+    def unpack(cls, data):
+        """A descriptor from its seven bytes, or None where they are none."""
+        if len(data) != DESCRIPTOR or data[:2] != SYNC:
+            return None
+        word, kind = struct.unpack("<IB", data[2:])
+        if word >> 30 > 1 or not 0 < word & 0x3FFFFFFF <= LONGEST_PAYLOAD:
+            return None
+        return cls(word & 0x3FFFFFFF, bool(word >> 30), kind)
+
+
+class Finder:
+    """Finds one answer in whatever else comes: bytes of an old scan, a boot text, damage.
+
+    Parameters
+    ----------
+    type : Answer, or a collection of types that will do
+    loop : bool, whether an endless answer is wanted: then its descriptor is all there is to find
+    length : int, of the payload, or None where that is free
+
+    ``skipped`` counts bytes that belonged to nothing, ``others`` are descriptors passed over.
+    """
+
+    def __init__(self, type, loop=False, length=None):
+        self._types = {type} if isinstance(type, int) else set(type)
+        self._loop, self._length = loop, length
+        self._buffer = b""
+        self.skipped, self.others, self.rest = 0, [], b""
+
+    def feed(self, data):
+        """Take bytes in.
+
+        Parameters
+        ----------
+        data : bytes
+
+        Returns
+        -------
+        (Descriptor, bytes payload), or None while it has not come; what follows is in ``rest``
+        """
+        self._buffer += data
+        found = self._next()
+        if found is not None:
+            self.rest, self._buffer = self._buffer, b""
+        return found
+
+    def _fits(self, descriptor):
+        length_fits = self._length in (None, descriptor.length)
+        return descriptor.type in self._types and descriptor.loop == self._loop and length_fits
+
+    def _next(self):
+        """The wanted descriptor with its payload, once all of it is there."""
+        while (at := self._buffer.find(SYNC)) >= 0:
+            descriptor = Descriptor.unpack(self._buffer[at : at + DESCRIPTOR])
+            if descriptor is None and len(self._buffer) - at >= DESCRIPTOR:
+                self._skip(at + 1)
+                continue
+            self._skip(at)
+            if descriptor is None:
+                return None
+            if not self._fits(descriptor):  # perhaps chance: the wanted one may begin inside it
+                self.others = [*self.others[-9:], descriptor]
+                self._skip(len(SYNC))
+                continue
+            end = DESCRIPTOR + (0 if descriptor.loop else descriptor.length)
+            if len(self._buffer) < end:
+                return None
+            payload, self._buffer = self._buffer[DESCRIPTOR:end], self._buffer[end:]
+            return descriptor, payload
+        self._skip(len(self._buffer) - self._buffer.endswith(SYNC[:1]))
+        return None
+
+    def _skip(self, n):
+        self.skipped += n
+        self._buffer = self._buffer[n:]
+
+
+@dataclass(frozen=True)
+class Info:
+    """Who the device is; ``firmware`` is (major, minor), ``serial`` in the order of the wire."""
+
+    model: int
+    firmware: tuple[int, int]
+    hardware: int
+    serial: str
+
+    @classmethod
+    def unpack(cls, payload):
+        """From 20 bytes."""
+        model, minor, major, hardware = payload[:4]
+        return cls(model, (major, minor), hardware, payload[4:].hex().upper())
+
+    @property
+    def name(self):
+        """str, such as A2, with the number behind."""
+        return f"RPLIDAR A{self.model >> 4} (model {self.model:#04x})"
+
+
+@dataclass(frozen=True)
+class Health:
+    """How the device is: ``status`` 0 good, 1 warning, 2 it protects itself and does not scan."""
+
+    status: int
+    code: int
+
+    @classmethod
+    def unpack(cls, payload):
+        """From 3 bytes; the code is little endian as everything here."""
+        return cls(*struct.unpack("<BH", payload))
+
+    def __str__(self):
+        words = {0: "good", 1: "warning", 2: "error, it has stopped to protect itself"}
+        return f"{words.get(self.status, f'status {self.status}')} (code 0x{self.code:04X})"
+
+
+@dataclass(frozen=True)
+class SampleRate:
+    """Time from one sample to the next [s], in the standard and in the express mode."""
+
+    standard: float
+    express: float
+
+    @classmethod
+    def unpack(cls, payload):
+        """From 4 bytes, in microseconds."""
+        standard, express = struct.unpack("<HH", payload)
+        return cls(standard * 1e-6, express * 1e-6)
+
+
+def conf_value(what, payload):
+    """The value of a configuration's answer.
+
+    Parameters
+    ----------
+    what : Conf that was asked for; the answer repeats it
+    payload : bytes
+
+    Returns
+    -------
+    int, float (US_PER_SAMPLE [µs], MAX_DISTANCE [m]) or str (NAME)
+
+    Raises
+    ------
+    ProtocolError : an answer to another question, or of another size
+    """
+    value = payload[4:]
+    try:
+        if int.from_bytes(payload[:4], "little") != what:
+            raise ValueError("it answers another question")
+        if what == Conf.NAME:
+            return value.split(b"\0", 1)[0].decode("ascii", "replace")
+        if what in (Conf.US_PER_SAMPLE, Conf.MAX_DISTANCE):
+            return struct.unpack("<I", value)[0] / 256
+        if what == Conf.ANSWER_TYPE:
+            return struct.unpack("<B", value[:1])[0]
+        return struct.unpack("<H", value[:2])[0]
+    except (ValueError, struct.error) as error:
+        raise ProtocolError(
+            f"the lidar's answer to configuration 0x{what:02X} makes no sense ({payload.hex()})",
+            f"bytes were lost on the line: {error}",
+            "close the lidar, plug it in anew and try again",
+        ) from error

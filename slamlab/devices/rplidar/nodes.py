@@ -1,0 +1,143 @@
+"""Nodes, the points as the device counts them, and the decoder of the standard scan's.
+
+A decoder knows no port and no time: bytes in, nodes out. However the bytes are cut, the same nodes
+come; damage is counted and never an exception.
+"""
+
+from collections import Counter
+
+import numpy as np
+
+TURN = 360 * 64  # in the unit of a node's angle
+NODE = np.dtype(
+    [
+        ("angle_q6", "<i4"),  # clockwise from the sensor's front [1/64 degree]
+        ("distance_q2", "<i4"),  # [1/4 mm]; 0: nothing came back
+        ("quality", "u1"),
+        ("start", "?"),  # a turn begins here
+        ("after_gap", "?"),  # something was lost before this one
+    ]
+)
+BLOCK = 1024  # bytes decoded at a time: the work stays proportional to what comes
+NOTHING = np.empty(0, NODE)
+
+
+class Decoder:
+    """What all decoders share.
+
+    ``size`` is a packet's length in bytes, ``late`` how many samples after the last node that it
+    returned a decoder is given the packet that completed it. ``damage`` counts ``resyncs``,
+    ``bytes dropped`` and ``bad checksums``; ``received`` counts bytes.
+    """
+
+    size, late = 0, 0
+
+    def __init__(self):
+        self.damage: Counter[str] = Counter()
+        self.received = 0
+        self._buffer = b""
+
+    @property
+    def pending(self):
+        """int, bytes received of a packet that is not complete."""
+        return len(self._buffer)
+
+    def feed(self, data):
+        """Take bytes in.
+
+        Parameters
+        ----------
+        data : bytes
+
+        Returns
+        -------
+        (n,) array of NODE, those that became complete
+        """
+        self.received += len(data)
+        found = []
+        for at in range(0, len(data), BLOCK):
+            self._buffer += data[at : at + BLOCK]
+            found += self._decode()
+        return np.concatenate(found) if found else NOTHING
+
+    def _decode(self):
+        """Yield arrays of nodes from the buffer and shorten it."""
+        raise NotImplementedError
+
+    def _drop(self, n):
+        self.damage["bytes dropped"] += n
+        self._buffer = self._buffer[n:]
+
+
+class ScanDecoder(Decoder):
+    """Nodes of SCAN and FORCE_SCAN: five bytes each.
+
+    The first byte holds S, not S and quality, the next two C = 1 and the angle, the last two the
+    distance. A quarter of all random bytes passes those marks, so that a step once lost is taken
+    up again only where RUN nodes in a row fit and their angles advance a little each.
+    """
+
+    size = 5
+    RUN = 4
+    WINDOW = RUN * size  # bytes that decide whether the step is found
+    BACK, AHEAD = 5 * 64, 30 * 64  # how far an angle goes to the next node's [1/64 degree]
+
+    def __init__(self):
+        super().__init__()
+        self._in_step, self._gap = True, False
+
+    def _decode(self):
+        while len(self._buffer) >= (self.size if self._in_step else self.WINDOW):
+            if self._in_step:
+                yield self._take()
+            else:
+                self._search()
+
+    def _take(self):
+        """The nodes up to the first that cannot be one."""
+        rows = np.frombuffer(self._buffer, np.uint8, len(self._buffer) // 5 * 5).reshape(-1, 5)
+        flags, angle = rows[:, 0], _u16(rows[:, 1], rows[:, 2])
+        bad = np.flatnonzero(~_plausible(flags, angle))
+        n = int(bad[0]) if len(bad) else len(rows)
+        nodes = np.empty(n, NODE)
+        nodes["angle_q6"] = angle[:n] >> 1
+        nodes["distance_q2"] = _u16(rows[:n, 3], rows[:n, 4])
+        nodes["quality"] = flags[:n] >> 2
+        nodes["start"] = flags[:n] & 1
+        nodes["after_gap"] = False
+        if n:
+            nodes["after_gap"][0], self._gap = self._gap, False
+        self._buffer = self._buffer[5 * n :]
+        if len(bad):
+            self._in_step, self._gap = False, True
+            self.damage["resyncs"] += 1
+            self._drop(1)
+        return nodes
+
+    def _search(self):
+        """Drop bytes up to where the step is found, or as far as can be decided."""
+        raw = np.frombuffer(self._buffer, np.uint8)
+        places = len(raw) - self.WINDOW + 1
+        angle = _u16(raw[1:-1], raw[2:])
+        fits, angle = _plausible(raw[:-2], angle), angle >> 1
+        found = np.ones(places, bool)
+        advance = np.zeros(places, np.int32)
+        for k in range(self.RUN):
+            found &= fits[5 * k : 5 * k + places]
+            if k:
+                step = angle[5 * k :][:places] - angle[5 * k - 5 :][:places]
+                step = (step + self.BACK) % TURN - self.BACK
+                found &= step < self.AHEAD
+                advance += step
+        hits = np.flatnonzero(found & (advance > 0))
+        self._in_step = len(hits) > 0
+        self._drop(int(hits[0]) if len(hits) else places)
+
+
+def _u16(low, high):
+    return low.astype(np.int32) | high.astype(np.int32) << 8
+
+
+def _plausible(flags, angle):
+    """S differs from not S, C is one, and the angle is less than a turn."""
+    return ((flags ^ flags >> 1) & 1 == 1) & (angle & 1 == 1) & (angle >> 1 < TURN)

@@ -1,0 +1,181 @@
+"""Whole turns out of nodes, and a turn as the scan that every SLAM here takes in."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from slamlab.devices.rplidar.nodes import TURN
+from slamlab.readings import Scan
+
+SPAN = 330  # a whole turn covers at least this [degrees]
+GAP = 10  # and leaves out nowhere more than this [degrees]
+OVERDUE = (360 + 12) * 64  # after this the mark of a new turn must have been lost [1/64 degree]
+MOST = 1 << 15  # nodes of a turn: more come only from a lidar that does not turn
+
+
+def robot_frame(angle_deg, range_mm, front_deg=0.0):
+    """From the sensor's clockwise degrees and millimetres to our frame; the only place for it.
+
+    Parameters
+    ----------
+    angle_deg : (n,) clockwise from the sensor's front, seen from above [degree]
+    range_mm : (n,) [mm]; 0 where nothing came back
+    front_deg : float, where the robot's front lies for the sensor [degree]
+
+    Returns
+    -------
+    angles : (n,) counter-clockwise from the robot's +x [rad], in (-π, π] where it need not wrap
+    ranges : (n,) [m]; NaN where nothing came back
+    """
+    angles = np.radians(front_deg - np.asarray(angle_deg, dtype=float))
+    range_mm = np.asarray(range_mm, dtype=float)
+    return angles, np.where(range_mm > 0, range_mm / 1000, np.nan)
+
+
+@dataclass(frozen=True)
+class Turn:
+    """One turn of the lidar as it came: clockwise, in degrees and millimetres.
+
+    Parameters
+    ----------
+    angle_deg : (n,) [degree]
+    range_mm : (n,) 0 where nothing came back [mm]
+    quality : (n,) int, 0 to 63
+    times : (n,) when each point was measured, on the driver's clock [s]
+    complete : bool: it began and ended with the device's mark, goes round, and has no gap
+    gaps : int, places where bytes were lost
+    after_gap : bool, whether the connection was lost before it, and found again
+    period : float, from one sample to the next [s]
+    """
+
+    angle_deg: np.ndarray
+    range_mm: np.ndarray
+    quality: np.ndarray
+    times: np.ndarray
+    complete: bool
+    gaps: int
+    after_gap: bool
+    period: float
+
+    def __len__(self):
+        return len(self.angle_deg)
+
+    @property
+    def valid(self):
+        """(n,) bool: where something came back; elsewhere the angle is not to be trusted."""
+        return self.range_mm > 0
+
+    @property
+    def rate(self):
+        """float, turns a second, by the number of samples, empty ones too [Hz]."""
+        return 1 / (self.period * len(self))
+
+    def scan(self, range_max=np.inf, range_min=0.0, front_deg=0.0):
+        """The turn in the robot's frame.
+
+        Parameters
+        ----------
+        range_max, range_min : float [m]
+        front_deg : float, see :func:`robot_frame`
+
+        Returns
+        -------
+        Scan
+        """
+        angles, ranges = robot_frame(self.angle_deg, self.range_mm, front_deg)
+        return Scan(angles, ranges, range_max, range_min)
+
+
+class Assembler:
+    """Cuts a stream of nodes into turns; the first, which began before the stream, is dropped.
+
+    Parameters
+    ----------
+    period : float, from one sample to the next [s]
+    after_gap : bool, whether the stream follows a lost connection
+    """
+
+    def __init__(self, period, after_gap=False):
+        self._period, self._after_gap = period, after_gap
+        self._nodes, self._times = [], []
+        self._count, self._travel, self._last = 0, 0, None
+        self._begun = False  # whether a mark began this turn
+        self._first = True
+
+    def feed(self, nodes, times):
+        """Take nodes in.
+
+        Parameters
+        ----------
+        nodes : (n,) array of NODE
+        times : (n,) [s]
+
+        Returns
+        -------
+        list of Turn, those that ended
+        """
+        turns, at = [], 0
+        while at < len(nodes):
+            n, marked = self._upto(nodes[at:])
+            self._keep(nodes[at : at + n], times[at : at + n])
+            at += n
+            if at < len(nodes):
+                turns += self._end(marked)
+                self._begun = marked
+                self._keep(nodes[at : at + 1], times[at : at + 1])
+                at += 1
+        return turns
+
+    def _upto(self, nodes):
+        """How many nodes still belong to this turn, and whether a mark ends it."""
+        start = nodes["start"]
+        n = int(start.argmax()) if start.any() else len(nodes)
+        marked = n < len(nodes)
+        overdue = np.flatnonzero(self._travel + np.cumsum(self._steps(nodes[:n])) > OVERDUE)
+        if len(overdue):
+            n, marked = int(overdue[0]), False
+        if self._count + n > MOST:
+            n, marked = max(MOST - self._count, 0), False
+        return n, marked
+
+    def _steps(self, nodes):
+        """(n,) how far the angle goes from node to node, the shorter way [1/64 degree]."""
+        angle = nodes["angle_q6"]
+        if not len(angle):
+            return np.empty(0, int)
+        first = angle[0] if self._last is None else self._last
+        return (np.diff(angle, prepend=first) + TURN // 2) % TURN - TURN // 2
+
+    def _keep(self, nodes, times):
+        if len(nodes):
+            self._travel += int(self._steps(nodes).sum())
+            self._last = int(nodes["angle_q6"][-1])
+            self._count += len(nodes)
+            self._nodes.append(nodes)
+            self._times.append(times)
+
+    def _end(self, marked):
+        """The turn so far, as a list: empty for the first one."""
+        turns = []
+        if not self._first and self._count:
+            turns = [self._turn(np.concatenate(self._nodes), np.concatenate(self._times), marked)]
+            self._after_gap = False
+        self._first = False
+        self._nodes, self._times = [], []
+        self._count, self._travel, self._last = 0, 0, None
+        return turns
+
+    def _turn(self, nodes, times, marked):
+        gaps = int(nodes["after_gap"].sum())
+        steps = (np.diff(nodes["angle_q6"]) + TURN // 2) % TURN - TURN // 2
+        round_it_goes = steps.sum() >= SPAN * 64 and steps.max(initial=0) <= GAP * 64
+        return Turn(
+            angle_deg=nodes["angle_q6"] / 64,
+            range_mm=nodes["distance_q2"] / 4,
+            quality=nodes["quality"],
+            times=times,
+            complete=bool(self._begun and marked and not gaps and round_it_goes),
+            gaps=gaps,
+            after_gap=self._after_gap,
+            period=self._period,
+        )

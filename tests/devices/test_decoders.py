@@ -1,0 +1,191 @@
+"""Decoders give the nodes that Slamtec's SDK gives, at any cut, and survive whatever comes."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from slamlab.devices.rplidar.answers import Answer
+from slamlab.devices.rplidar.capsules import LEVELS, MAJORS
+from slamlab.devices.rplidar.nodes import NODE, TURN
+from slamlab.devices.rplidar.stream import DECODERS
+from tests.devices.streams import ANSWERS, damaged, decoded, pieces, room, stream, turn_bytes
+
+VECTORS = json.loads((Path(__file__).parent / "vectors.json").read_text())
+P = bytes.fromhex("a0580080" + "a00fa00f00" * 16)
+Q = bytes.fromhex("a4533307" + "a30fa30faa" * 16)
+MOST_KEPT = 200  # bytes that a decoder may keep
+ALL = tuple(DECODERS)
+ROUGH = {answer: stream(answer, 40_000) for answer in ANSWERS}
+cuts = st.lists(st.integers(1, 400), min_size=1, max_size=30)
+
+
+def vector(*names):
+    return b"".join(bytes.fromhex(VECTORS[name]) for name in names)
+
+
+@pytest.mark.parametrize(
+    ("answer", "capsules", "expected"),
+    [
+        (Answer.EXPRESS, "ABC", ("dA", "dB")),
+        (Answer.ULTRA, "UVW", ("dU", "dV")),
+        (Answer.DENSE, "DE", ("dD",)),
+    ],
+)
+def test_capsules_decode_to_the_sdk_s_nodes(answer, capsules, expected):
+    nodes, decoder = decoded(answer, vector(*capsules))
+    rows = [row for name in expected for row in VECTORS[name]]
+    assert len(nodes) == len(rows)
+    assert nodes["angle_q6"].tolist() == [row[0] for row in rows]
+    # the SDK's one negative distance, of a damaged difference, is no distance here
+    assert nodes["distance_q2"].tolist() == [max(row[1], 0) for row in rows]
+    if len(rows[0]) == 3:
+        assert nodes["start"].tolist() == [bool(row[2]) for row in rows]
+    assert not decoder.damage
+
+
+@pytest.mark.parametrize(
+    ("data", "start", "quality", "degrees", "mm"),
+    [
+        ("3d 01 00 40 1f", True, 15, 0, 2000),
+        ("be 01 2d 71 17", False, 47, 90, 1500.25),
+        ("02 01 5a 00 00", False, 0, 180, 0),
+        ("fe ff b3 80 bb", False, 63, 359.984375, 12000),
+        ("2a 41 2d d2 04", False, 10, 90.5, 308.5),
+        ("02 8f 63 00 00", False, 0, 199.109375, 0),
+    ],
+)
+def test_a_node_is_read_as_the_protocol_says(data, start, quality, degrees, mm):
+    (node,), _ = decoded(Answer.SCAN, bytes.fromhex(data))
+    assert (node["start"], node["quality"]) == (start, quality)
+    assert (node["angle_q6"] / 64, node["distance_q2"] / 4) == (degrees, mm)
+
+
+def test_legacy_capsules_with_and_without_an_offset():
+    R = bytearray(Q)
+    R[2:4] = (int(57.59375 * 64)).to_bytes(2, "little")
+    check = np.bitwise_xor.reduce(np.frombuffer(R[2:], np.uint8))
+    R[0], R[1] = 0xA0 | check & 15, 0x50 | check >> 4
+    nodes, _ = decoded(Answer.EXPRESS, P + Q + bytes(R))
+    assert (nodes["distance_q2"] == 4000).all()
+    assert not nodes["start"].any()
+    assert (nodes["angle_q6"][:3] / 64).tolist() == [0.0, 0.890625, 1.796875]
+    assert (nodes["angle_q6"][32:34] / 64).tolist() == [21.546875, 22.4375]
+
+
+def test_the_turn_s_mark_is_set_by_the_angle_before_it_is_corrected():
+    nodes, _ = decoded(Answer.EXPRESS, vector("A", "B"))
+    assert np.flatnonzero(nodes["start"]).tolist() == [22]
+    assert nodes["angle_q6"][22] / 64 == 357.046875
+
+
+@pytest.mark.parametrize(
+    ("mm", "code"),
+    [(511, 511), (512, 512), (2048, 1280), (4096, 1792), (8000, 2280), (16384, 3328)],
+)
+def test_ultra_distances_are_coded_in_steps_that_grow(mm, code):
+    assert MAJORS[code] == mm
+    assert MAJORS[3554] == 20000
+    assert (np.diff(MAJORS) == 1 << LEVELS[:-1]).all()
+
+
+def test_a_measuring_begun_anew_forgets_the_capsule_before():
+    nodes, decoder = decoded(Answer.EXPRESS, Q + P)
+    assert len(nodes) == 0
+    assert not decoder.damage
+
+
+@pytest.mark.parametrize("answer", ANSWERS)
+def test_what_an_emulator_packs_is_what_is_decoded(answer):
+    nodes, _ = decoded(answer, ROUGH[answer])
+    angle, mm = nodes["angle_q6"] / 64, nodes["distance_q2"] / 4
+    slope, off = 70, 2 / 64 + (0.02 if answer == Answer.ULTRA else 0)  # mm and degrees
+    # distances of the ultra mode are in steps of up to 8 mm
+    assert np.abs(mm - room(angle)).max() < slope * off + (8 if answer == Answer.ULTRA else 1)
+    starts = np.flatnonzero(nodes["start"])
+    assert np.ptp(np.diff(starts)) <= 1
+
+
+@pytest.mark.parametrize("answer", ALL)
+@given(cuts=cuts, seed=st.integers(0, 2**32 - 1), flips=st.sampled_from([0, 1e-3, 0.03]))
+def test_however_a_stream_is_cut_the_same_nodes_come(answer, cuts, seed, flips):
+    rng = np.random.default_rng(seed)
+    source = ROUGH.get(answer, vector("D", "E") * 20)
+    data = damaged(source[: 2 * turn_bytes(Answer.ULTRA)], rng, flips, flips / 3, flips / 3)
+    whole, one = decoded(answer, data)
+    cut, other = decoded(answer, data, cuts)
+    assert np.array_equal(whole, cut)
+    assert one.damage == other.damage
+    assert one.pending == other.pending
+
+
+@pytest.mark.parametrize("answer", ALL)
+def test_random_bytes_never_fail_and_little_is_kept(answer):
+    rng = np.random.default_rng(5)
+    decoder, kept = DECODERS[answer](), 0
+    for piece in pieces(rng.bytes(100_000), rng.integers(1, 300, 100)):
+        nodes = decoder.feed(piece)
+        kept = max(kept, decoder.pending)
+        assert nodes.dtype == NODE
+        assert ((nodes["angle_q6"] >= 0) & (nodes["angle_q6"] < TURN)).all()
+        assert (nodes["distance_q2"] >= 0).all()
+    assert kept < MOST_KEPT
+    assert decoder.damage["resyncs"] > 0
+
+
+@pytest.mark.parametrize("answer", ANSWERS)
+@pytest.mark.parametrize(
+    "hurt",
+    [{"flips": 0.01}, {"losses": 0.01}, {"additions": 0.01}, {"flips": 0.3, "losses": 0.1}],
+    ids=lambda hurt: "-".join(hurt),
+)
+def test_within_a_turn_after_the_damage_all_nodes_are_right_again(answer, hurt):
+    rng = np.random.default_rng(6)
+    clean, tail = ROUGH[answer], stream(answer, 40_000, first_angle=123.4)
+    bad = damaged((clean * 2)[:100_000], rng, **hurt)
+    expected, _ = decoded(answer, tail)
+    nodes, decoder = decoded(answer, bad + tail, rng.integers(1, 300, 100))
+    late = len(decoded(answer, tail[: turn_bytes(answer)])[0])
+    n = len(expected) - late
+    for name in ("angle_q6", "distance_q2", "quality", "start", "after_gap"):
+        assert np.array_equal(nodes[name][-n:], expected[name][-n:])
+    assert decoder.damage["resyncs"] > 0
+
+
+@pytest.mark.parametrize(
+    ("answer", "lost"),  # whole nodes of the standard scan can be missed by nobody
+    [(a, n) for a in ANSWERS for n in range(1, 12) if a != Answer.SCAN or n % 5],
+)
+def test_lost_bytes_cost_the_packets_they_belong_to_and_the_gap_is_marked(answer, lost):
+    data = ROUGH[answer]
+    at = 5 * 84 * 132 // 44 + 3
+    nodes, decoder = decoded(answer, data[:at] + data[at + lost :])
+    whole, _ = decoded(answer, data)
+    size = DECODERS[answer].size
+    per_packet = 1 if answer == Answer.SCAN else decoder.points
+    touched = (at % size + lost - 1) // size + 1
+    most = 4 if answer == Answer.SCAN else touched + 1  # a capsule is decoded with the next
+    assert 0 < len(whole) - len(nodes) <= most * per_packet
+    assert nodes["after_gap"].sum() == 1
+    assert decoder.damage["resyncs"] == 1
+    wrong = [
+        node for node in nodes[["angle_q6", "distance_q2"]].tolist() if node not in GOOD[answer]
+    ]
+    assert len(wrong) <= 1
+
+
+GOOD = {
+    answer: set(decoded(answer, data)[0][["angle_q6", "distance_q2"]].tolist())
+    for answer, data in ROUGH.items()
+}
+
+
+@pytest.mark.parametrize("answer", [Answer.EXPRESS, Answer.ULTRA])
+def test_capsules_lost_whole_leave_a_gap_not_stretched_angles(answer):
+    data, size = ROUGH[answer], DECODERS[answer].size
+    nodes, _ = decoded(answer, data[: 9 * size] + data[11 * size :])
+    assert nodes["after_gap"].sum() == 1
+    assert set(nodes[["angle_q6", "distance_q2"]].tolist()) <= GOOD[answer]
