@@ -909,10 +909,13 @@ with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Move a wall, watch the scan
 #
-# The rows below are situation 2, the scan is the lidar's at the origin. Change a number, or add a
-# row, and click outside the rows.
+# Below is situation 2, and what a lidar at the origin sees of it. Drag a corner, or choose it by Tab
+# and move it by the arrow keys: walls snap to 0.05 m (with Shift to 0.01 m), and the rows follow. Or
+# change a row, or add one, and click outside. *Undo* takes it back.
 #
-# **Predict:** which points vanish when a pillar of 0.2 m (`-1 -1 0.2`) is put into the room?
+# **Predict:** you pull the corner (−2.6, −0.4) to the left: does more of the bay in the lower left
+# come into sight, or less? And which points vanish when a pillar of 0.2 m (`-1 -1 0.2`) is put into
+# the room?
 
 
 # %% slideshow={"slide_type": "fragment"}
@@ -928,7 +931,8 @@ editor = edit_world(
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # **See:** the bay in the lower left is half hidden behind a corner: no point lies there. A pillar
-# hides a strip behind itself that widens with distance. `worlds.save(editor.world, "mine.txt")`
+# hides a strip behind itself that widens with distance: drag it towards the robot, and its shadow
+# widens. `worlds.save(editor.world, "mine.txt")`
 # keeps what you drew.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
