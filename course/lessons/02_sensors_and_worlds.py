@@ -913,7 +913,7 @@ with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
 # and move it by the arrow keys: walls snap to 0.05 m (with Shift to 0.01 m), and the rows follow. Or
 # change a row, or add one, and click outside. *Undo* takes it back.
 #
-# **Predict:** you pull the corner (−2.6, −0.4) to the left: does more of the bay in the lower left
+# **Predict:** you pull the corner (−2.4, −3.2) to the right: does more of the bay in the lower left
 # come into sight, or less? And which points vanish when a pillar of 0.2 m (`-1 -1 0.2`) is put into
 # the room?
 
@@ -930,10 +930,10 @@ editor = edit_world(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** the bay in the lower left is half hidden behind a corner: no point lies there. A pillar
-# hides a strip behind itself that widens with distance: drag it towards the robot, and its shadow
-# widens. `worlds.save(editor.world, "mine.txt")`
-# keeps what you drew.
+# **See:** the bay in the lower left is half hidden behind a corner: no point lies there, and pulled
+# to the right the corner hides less of it. A pillar hides a strip behind itself that widens with
+# distance: drag it towards the robot, and its shadow widens.
+# `worlds.save(editor.world, "mine.txt")` keeps what you drew.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## What you can do now
