@@ -4,7 +4,7 @@ import numpy as np
 
 from slamlab.checks.drives.ex10 import DRIVES
 from slamlab.checks.task import Diagnosis, Law, Task
-from slamlab.checks.tasks.ex10_predict import boxes
+from slamlab.checks.tasks.ex10_motions import boxes
 
 ROWS = 32
 EMPTY, WHOLE = slice(0, 4), slice(4, 8)  # rows of which nothing is left, and all

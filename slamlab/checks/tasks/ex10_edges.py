@@ -4,7 +4,7 @@ import numpy as np
 
 from slamlab.checks.drives.ex10 import DRIVES
 from slamlab.checks.task import Diagnosis, Law, Task
-from slamlab.checks.tasks.ex10_predict import boxes
+from slamlab.checks.tasks.ex10_motions import boxes
 
 ROWS = 24
 CLOSE = 1e-4  # [m]
