@@ -104,6 +104,8 @@ def test_the_weight_of_scaling_is_the_slope_of_its_cost(value, phi):
     low, high = scaling.weight(value + step, phi), scaling.weight(value, phi)
     assert low - 1e-6 <= slope <= high + 1e-6
     assert scaling.cost(value, phi) <= 3 * phi
+    assert scaling.cost(phi, phi) == pytest.approx(phi)
+    assert scaling.cost(phi * (1 + 1e-9), phi) == pytest.approx(phi)
 
 
 def test_the_usual_phi_keeps_99_percent_of_true_edges_whole():
@@ -196,12 +198,31 @@ def test_the_order_and_direction_of_edges_and_poses_do_not_matter():
 
 @pytest.mark.parametrize("seed", range(10))
 def test_true_robust_edges_are_kept_however_far_the_guesses_drifted(seed):
-    graph, _ = tour(np.random.default_rng(seed), noise=0.5, drift=3.0, robust=True)
-    trusting, _ = tour(np.random.default_rng(seed), noise=0.5, drift=3.0)
+    graph, _ = tour(np.random.default_rng(seed), noise=0.5, drift=8.0, robust=True)
+    trusting, _ = tour(np.random.default_rng(seed), noise=0.5, drift=8.0)
     optimum = graph.optimise()
     trusting.optimise()
     assert optimum.converged and optimum.weights.min() == 1
     assert spread(graph, graph.poses, trusting.poses) < 0.01
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_a_loop_that_drift_alone_makes_look_false_is_closed(seed):
+    rng = np.random.default_rng(seed)
+    graph, true = tour(rng, rounds=1)
+    del graph.edges[4 * SIDE - 1 :]
+    last = between(true[-2], true[-1])
+    graph.add_edge(4 * SIDE - 1, 4 * SIDE, last, INFORMATION)
+    for edge in graph.edges:  # reckoned from what was measured: the drift is that of the edges
+        graph.poses[edge.j] = compose(graph.poses[edge.i], edge.measured)
+    seen = between(true[-1], true[0]) + 0.05 * SIGMA * rng.standard_normal(3)
+    sharp = 400 * INFORMATION
+    error = edges.error(graph.poses[-1], graph.poses[0], seen)
+    assert error @ sharp @ error > 100 * scaling.PHI
+    graph.add_edge(4 * SIDE, 0, seen, sharp, robust=True)
+    assert graph.optimise().weights[-1] == 1
+    error = edges.error(graph.poses[-1], graph.poses[0], seen)
+    assert error @ sharp @ error < scaling.PHI
 
 
 @pytest.mark.parametrize("seed", range(20))
@@ -256,6 +277,14 @@ def test_the_covariances_are_blocks_of_the_dense_inverse():
             block, P[3 * k : 3 * k + 3, 3 * k : 3 * k + 3], rtol=1e-4, atol=1e-9
         )
     assert not graph.covariances()[0].any()
+
+    i, j, z = 7, 30, np.array([1.0, -0.5, 0.3])
+    J = np.zeros((3, len(P)))
+    J[:, 3 * i - 3 : 3 * i] = jacobians.J_i(graph.poses[i], graph.poses[j], z)
+    J[:, 3 * j - 3 : 3 * j] = jacobians.J_j(graph.poses[i], graph.poses[j], z)
+    v = edges.error(graph.poses[i], graph.poses[j], z)
+    expected = v @ np.linalg.inv(J @ P @ J.T + np.linalg.inv(INFORMATION)) @ v
+    assert graph.surprise(i, j, z, INFORMATION) == pytest.approx(expected, rel=1e-4)
 
 
 def test_what_drift_explains_is_no_surprise_and_what_it_does_not_is():
