@@ -270,7 +270,7 @@ IN_EDGES = [
     Wrong("d_θ only", edges(d_abs="(last - first) / 2"), NORMALS | NEAR | SIDES, "bound-forgotten"),
     Wrong("along the bearing", edges(direction="beta"), NORMALS | PLACED, "heading-forgotten"),
     Wrong(
-        "radians twice",
+        "radians of radians",
         edges(
             direction="np.radians((first + last) / 2 + beta)",
             d_abs="np.radians(db + (last - first) / 2)",
