@@ -30,7 +30,7 @@ class Ransac:
     roughness : float, largest mean square residual in units of its variance, when band is None
     grow : bool, whether the wall goes on beyond the window
     gap : float, widest hole of a wall that grows, if one beam goes through it; two end it [m]
-    hidden : float, widest piece of a wall that things before it may hide [m]
+    hidden : float, widest piece of a wall that things before it may hide, in gaps [1]
     shortest : float, least length of a wall [m]
     """
 
@@ -41,7 +41,7 @@ class Ransac:
     roughness: float = 1.6
     grow: bool = True
     gap: float = 0.4
-    hidden: float = 1.0
+    hidden: float = 2.5
     shortest: float = 0.3
 
     def __post_init__(self):
@@ -142,7 +142,7 @@ def _reached(points, free, line, middle, ransac):
     views = np.diff(np.cumsum(through)[on])  # one may be noise
     apart, neighbours = np.abs(np.diff(along[on])), np.diff(on) == 1
     holes = (views > 1) | (views == 1) & (apart > ransac.gap)
-    ends = np.flatnonzero(holes | ~neighbours & (apart > ransac.hidden))
+    ends = np.flatnonzero(holes | ~neighbours & (apart > ransac.hidden * ransac.gap))
     nearest = np.abs(on - (middle - opposite) % len(points)).argmin()
     k = np.searchsorted(ends, nearest)
     first = ends[k - 1] + 1 if k else 0
