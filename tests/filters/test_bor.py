@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from slamlab.filters.bor import BOR, EmptyIntersection
 from slamlab.filters.bor.angles import holds, width
+from slamlab.filters.bor.predict import steered, wheels
 from slamlab.models import h
 from slamlab.studies.boxes import STEPS, Bounded, BoundedRun, anything, counted, inside, outside
 
@@ -185,6 +186,10 @@ def test_more_objects_than_room_were_made_for_find_room():
         (lambda: BOR(POINT, (0, 0), {3: (0, 0, 1, 0)}), "object 3"),
         (lambda: BOR(POINT, (0, np.nan)), "NaN"),
         (lambda: BOR(POINT, (0, 0)).predict((1, 0), (0, 0), (0, 0)), "way: expected low ≤ high"),
+        (lambda: BOR(POINT, (0, 0)).predict(1, (0, 0), (0, 0)), "way is an interval of two"),
+        (lambda: BOR(POINT, (0, 0)).add(1, (1, 0, 0), (0, 0)), "a range and a bearing each"),
+        (lambda: steered((1, 1), (0, 0), 0, 1), "wheel base and period are above zero"),
+        (lambda: wheels((1, 1), (1, 1), -0.1), "distance of the wheels is above zero"),
         (lambda: BOR(POINT, (0, 0)).update(1, (1, 0), (0, 0)), "add it instead"),
         (lambda: BOR(POINT, (0, 0), {1: POINT}).add(1, (1, 0), (0, 0)), "update it instead"),
         (lambda: BOR(POINT, (0, 0)).add(1, (-1, 0), (0, 0)), "a range is positive"),

@@ -90,10 +90,8 @@ class BOR:
         ------
         ValueError
         """
-        for name, interval in (("way", way), ("direction", direction), ("turn", turn)):
-            if not (len(interval) == 2 and -np.inf < interval[0] <= interval[1] < np.inf):
-                raise ValueError(f"{name}: expected low ≤ high, got {interval}")
-        self._robot, self._heading = moved(self._robot, self._heading, way, direction, turn)
+        motion = [_interval(*i) for i in (("way", way), ("direction", direction), ("turn", turn))]
+        self._robot, self._heading = moved(self._robot, self._heading, *motion)
 
     def update(self, i, z, bounds):
         """See an object again: clip its box, the robot's and the heading while they shrink.
@@ -202,9 +200,22 @@ def _box(name, box):
 
 
 def _sighting(z, bounds):
-    (r, bearing), (dr, dtheta) = map(float, z), map(float, bounds)
-    if not all(map(isfinite, (r, bearing, dr, dtheta))):
+    try:
+        (r, bearing), (dr, d_beta) = map(float, z), map(float, bounds)
+    except (TypeError, ValueError):
+        raise ValueError(f"z and bounds are a range and a bearing each: {z}, {bounds}") from None
+    if not all(map(isfinite, (r, bearing, dr, d_beta))):
         raise ValueError("z or bounds hold NaN or infinity")
-    if r <= 0 or dr < 0 or dtheta < 0:
+    if r <= 0 or dr < 0 or d_beta < 0:
         raise ValueError(f"a range is positive, bounds are not negative: {z}, {bounds}")
-    return (r, bearing), (dr, dtheta)
+    return (r, bearing), (dr, d_beta)
+
+
+def _interval(name, value):
+    try:
+        low, high = map(float, value)
+    except (TypeError, ValueError):
+        raise ValueError(f"{name} is an interval of two numbers, not {value!r}") from None
+    if not -np.inf < low <= high < np.inf:
+        raise ValueError(f"{name}: expected low ≤ high, both finite, got {value}")
+    return low, high

@@ -56,7 +56,13 @@ def steered(V, gamma, B, T):
     Returns
     -------
     way, direction, turn : intervals for :func:`moved`
+
+    Raises
+    ------
+    ValueError : a base or a period that is not above zero
     """
+    if not (B > 0 and T > 0):
+        raise ValueError(f"wheel base and period are above zero, not {B} and {T}")
     way = scaled(T, V)
     return way, gamma, scaled(1 / B, product(way, sine(gamma)))
 
@@ -72,7 +78,13 @@ def wheels(left, right, base):
     Returns
     -------
     way, direction, turn : intervals for :func:`moved`
+
+    Raises
+    ------
+    ValueError : a base that is not above zero, or more than a whole turn in a step
     """
+    if not base > 0:
+        raise ValueError(f"the distance of the wheels is above zero, not {base}")
     length = (left[0] + right[0]) / 2, (left[1] + right[1]) / 2
     return arc(length, ((right[0] - left[1]) / base, (right[1] - left[0]) / base))
 
