@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from slamlab.layers import Boxes, Ellipses, Points, Poses, Samples, Segments
+from slamlab.layers import Boxes, Ellipses, Grid, Points, Poses, Samples, Segments
 from slamlab.views import COLOURS
 from slamlab.views.live.packing import Packer, Scene
 
@@ -135,3 +135,11 @@ def test_colours_are_the_views_own_unless_others_are_given():
 def test_what_is_no_layer_is_refused_by_its_type():
     with pytest.raises(TypeError, match="ndarray"):
         _ = Scene([np.zeros(3)]).drawables
+
+
+def test_a_grid_is_shown_by_the_middles_of_its_walls_cells():
+    cells = np.full((3, 4), 0.5)
+    cells[1, 2], cells[0, 0] = 0.97, 0.03
+    (drawn,) = Scene([Grid("map", cells, np.array([-1.0, 2.0]), 0.1)]).drawables
+    assert drawn.kind == "points"
+    np.testing.assert_allclose(drawn.rows, [[-0.75, 2.15]], rtol=1e-6)

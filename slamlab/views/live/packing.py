@@ -6,9 +6,11 @@ from functools import cached_property
 import numpy as np
 from matplotlib.colors import to_hex
 
-from slamlab.layers import Boxes, Ellipses, Layer, Points, Poses, Samples, Segments
+from slamlab.layers import Boxes, Ellipses, Grid, Layer, Points, Poses, Samples, Segments
 from slamlab.views.figures import COLOURS
 from slamlab.views.layers import SIGMAS_95, colour
+
+OCCUPIED = 0.65  # probability beyond which a cell of a grid is a wall, as in ROS' map_server
 
 
 @dataclass(frozen=True)
@@ -71,7 +73,9 @@ class Scene:
     def _drawable(self, layer):
         usual = colour(layer)
         shown = to_hex((self.colours or {}).get(layer.name, usual))
-        return Drawable(type(layer).__name__.lower(), layer.name, shown, rows(layer))
+        # the walls of a grid are shown as the points in their cells' middles
+        kind = "points" if isinstance(layer, Grid) else type(layer).__name__.lower()
+        return Drawable(kind, layer.name, shown, rows(layer))
 
 
 def rows(layer):
@@ -102,6 +106,9 @@ def rows(layer):
             weights = np.asarray(layer.weights, dtype=float)
             xy = np.asarray(layer.rows, dtype=float)[:, :2]
             return _table(np.column_stack([xy, weights * len(weights)]), 3)
+        case Grid():
+            row, column = np.nonzero(np.asarray(layer.cells) > OCCUPIED)
+            return _table(layer.origin + layer.side * (np.column_stack([column, row]) + 0.5), 2)
     raise TypeError(f"cannot pack {type(layer).__name__}: expected a layer of slamlab.layers")
 
 
