@@ -3,6 +3,7 @@
 from slamlab.estimators.base import Estimator
 from slamlab.estimators.bor import BorSlam, bor
 from slamlab.estimators.feet import FootSlam
+from slamlab.estimators.graph import GraphSlam
 from slamlab.estimators.icp import IcpSlam
 from slamlab.estimators.mak import MakSlam, mak
 from slamlab.estimators.montecarlo import CloudSlam, fastslam, montecarlo
@@ -15,6 +16,7 @@ __all__ = [
     "CloudSlam",
     "Estimator",
     "FootSlam",
+    "GraphSlam",
     "IcpSlam",
     "MakSlam",
     "Odometry",
@@ -26,6 +28,7 @@ MAKERS = {
     "odometry": lambda source: Odometry(),
     "icp": lambda source: IcpSlam(),
     "icp-plain": lambda source: IcpSlam(plain=True),
+    "graph": lambda source: GraphSlam(source.robot),
     "mak": mak,
     "mak-first-estimates": lambda source: mak(source, first_estimates=True),
     "bor": bor,

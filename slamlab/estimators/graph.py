@@ -13,7 +13,7 @@ import numpy as np
 
 from slamlab import gridmap
 from slamlab.estimators.base import Estimator
-from slamlab.estimators.loops import Loops
+from slamlab.estimators.loops import Loops, difference
 from slamlab.estimators.mak import Q_arc
 from slamlab.geometry import between, compose, transform, wrap
 from slamlab.layers import Points, Poses, Segments
@@ -28,7 +28,7 @@ STEP, TURN = 0.12, 0.35  # a keyframe every so many reaches of the scans, and ev
 THIN = 0.6  # overlap with the local map below which a keyframe comes early
 SLACK = 0.1, 0.1, 0.15  # deviation that any odometry may have [reach, reach, rad]
 FAR_OFF = 16.3  # χ² of 3 degrees: beyond it a match and the odometry cannot both be right
-BLUR = 0.3  # of the scans' noise: what matches have in common and no covariance of one knows
+BLUR = 1.0  # of the scans' noise: what matches have in common and no covariance of one knows
 DRIFT = 0.003, 0.03, 0.005, 0.05  # odometry's own: reaches, reaches a turn, rad, of the turn
 PAUSE = 5.0  # times the usual time between readings: a gap
 
@@ -217,11 +217,6 @@ class GraphSlam(Estimator):
         )
         if self.loops is not None:
             self.loops.propose(i)
-
-
-def difference(a, b):
-    """(3,) a − b, the turn wrapped."""
-    return np.array([a[0] - b[0], a[1] - b[1], wrap(float(a[2] - b[2]))])
 
 
 def blur(seen):

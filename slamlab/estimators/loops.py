@@ -9,7 +9,7 @@ from collections import deque
 
 import numpy as np
 
-from slamlab.geometry import between
+from slamlab.geometry import between, wrap
 from slamlab.scanmatching import match
 from slamlab.scanmatching.align import paired
 from slamlab.scanmatching.localmap import merged
@@ -23,9 +23,10 @@ RUNS = 3  # stretches of old keyframes asked by a new one
 EACH = 2  # candidates looked at between two readings
 OVERLAP, AGREEMENT = 0.5, 0.85  # of a scan with the old map, and with the old scan alone
 SURPRISE = 60.0  # χ² that a loop may have beside what the graph believes
-NEWS = 1.0  # χ² from which the graph is made anew at once; others wait until there are some
-SOME = 10
-BLUR = 0.5  # of the scans' noise: what two scans of a place differ by beyond it
+CLOSE = 0.02  # reaches, and radians: a loop that moves the graph by less is no surprise
+NEWS = 100.0  # χ² beside where the graph has it, from which it is made anew at once
+SOME = 10  # loops for which it is made anew in any case
+BLUR = 1.0  # of the scans' noise: what two scans of a place differ by beyond it
 ROUNDS = 10
 
 
@@ -41,7 +42,7 @@ class Loops:
 
     def __init__(self, graph, keyframes, counts):
         self.graph, self.keyframes, self.counts = graph, keyframes, counts
-        self._waiting, self._untold = deque(), 0
+        self._waiting, self._untold, self._news = deque(), 0, 0.0
 
     def propose(self, i):
         """Put the old keyframes near keyframe i on the list, the nearest of each stretch."""
@@ -61,12 +62,14 @@ class Loops:
         """Look at a few candidates; move the poses where that closed a loop that tells news."""
         for _ in range(min(EACH, len(self._waiting))):
             self._try(*self._waiting.popleft())
+        if self._news > NEWS or self._untold >= SOME:
+            self.settle()
 
     def settle(self):
         """Take in what was found since the graph was last made anew."""
         if self._untold:
             self.graph.optimise(ROUNDS)
-            self._untold = 0
+            self._untold, self._news = 0, 0.0
 
     def _try(self, j, i):
         """Lay keyframe i over the map round keyframe j; keep what it tells."""
@@ -85,15 +88,17 @@ class Loops:
         sigma = BLUR * np.hypot(seen.sigma, self.keyframes[j].surface.sigma)
         C = found.covariance + np.diag(np.square([sigma, sigma, sigma / seen.reach]))
         information = np.linalg.inv(C)
-        surprise = self.graph.surprise(j, i, found.pose, information)
-        if surprise > SURPRISE:
+        off = difference(found.pose, between(*self.graph.poses[[j, i]]))
+        news = off @ information @ off
+        # what lies where the graph has it anyway need not be asked for how far drift may reach
+        plain = np.hypot(*off[:2]) < CLOSE * seen.reach and abs(off[2]) < CLOSE
+        if not plain and self.graph.surprise(j, i, found.pose, information) > SURPRISE:
             self.counts["loops too surprising"] += 1
             return
         self.graph.add_edge(j, i, found.pose, information, robust=True)
         self.counts["loops closed"] += 1
         self._untold += 1
-        if surprise > NEWS or self._untold >= SOME:
-            self.settle()
+        self._news = max(self._news, news)
 
     def _believable(self, found, seen, old):
         """Whether a match shows the same place: enough overlaps, all is fixed, nothing contradicts
@@ -102,3 +107,8 @@ class Loops:
             return False
         alone = fit(seen, old, paired(seen, old, tuple(found.pose)))
         return alone.agreement >= AGREEMENT
+
+
+def difference(a, b):
+    """(3,) a − b, the turn wrapped."""
+    return np.array([a[0] - b[0], a[1] - b[1], wrap(float(a[2] - b[2]))])
