@@ -202,6 +202,27 @@ def move(rows, u, C, rng):
         {"spread"},
     ),
     Wrong("samples in columns", move(result="rows.T"), {"11-move"}, problem="malformed"),
+    Wrong(
+        "turn forgotten",
+        move(result="np.column_stack([x + d * np.cos(theta), y + d * np.sin(theta), theta])"),
+        {"average", "spread"},
+        "turn-forgotten",
+    ),
+    Wrong(
+        "sine and cosine",
+        move(result=drive_by("(np.pi / 2 - theta)")),
+        {"heading", "average", "spread"},
+        "sine-and-cosine",
+    ),
+    Wrong(
+        "backwards", move(result=drive_by("(theta + np.pi)")), {"average", "spread"}, "backwards"
+    ),
+    Wrong(
+        "noise alone",
+        move(noise="rng.multivariate_normal([0, 0], C, n).T"),
+        {"average"},
+        "noise-alone",
+    ),
     # weigh
     Wrong("not wrapped", weigh(wrap="pass"), {"behind"}, "unwrapped"),
     Wrong(
@@ -304,8 +325,21 @@ def move(rows, u, C, rng):
         {"near", "behind"},
         "largest-only",
     ),
+    Wrong(
+        "range only",
+        weigh(add="logs -= 0.5 * v[:, 0] ** 2 / R[0, 0]"),
+        {"near", "behind"},
+        "one-of-two",
+    ),
+    Wrong(
+        "one pose for all",
+        weigh(v="(seen - h(rows[0], place)) * np.ones((len(rows), 2))"),
+        {"near", "behind", "far"},
+        "all-alike",
+    ),
     Wrong("one number", weigh(result="logs.sum()"), {"11-weigh"}, problem="malformed"),
     # normalise
+    Wrong("NaN", normalise("np.log(-np.exp(logs))"), {"sum", "ratios", "any-size"}, "no-numbers"),
     Wrong(
         "as it stands", normalise("np.exp(logs) / np.sum(np.exp(logs))"), {"any-size"}, "underflow"
     ),
@@ -329,12 +363,7 @@ def normalise(logs):
     ),
     Wrong(
         "the smallest taken off",
-        """
-def normalise(logs):
-    low = np.maximum(logs - 1000, logs.min())
-    weights = np.exp(logs - np.median(logs) if logs.max() < 100 else logs)
-    return weights / weights.sum()
-""",
+        normalise("(lambda w: w / w.sum())(np.exp(logs - logs.min()))"),
         {"any-size"},
         "overflow",
     ),
@@ -439,7 +468,31 @@ def normalise(logs):
         {"11-draw"},
         problem="malformed",
     ),
+    Wrong(
+        "the rest drawn independently",
+        """
+def draw(weights, rng):
+    n = len(weights)
+    whole = np.floor(n * weights).astype(int)
+    rest = n * weights - whole
+    others = rng.choice(n, n - whole.sum(), p=rest / rest.sum())
+    return np.concatenate([np.repeat(np.arange(n), whole), others])
+""",
+        {"share"},
+        "stratified",
+        may_lose={"11-draw:fair"},
+    ),
     # localise
+    Wrong(
+        "weighed before moving",
+        localise(
+            move="logs = np.log(weights) + log_likelihoods(rows, p, z, R)",
+            logs="logs; rows = move(rows, u, C, rng)",
+        ),
+        {"mean", "weights"},
+        "weighed-before-moving",
+        may_lose={"11-localise:spread"},
+    ),
     Wrong(
         "motion in the weight",
         localise(logs=MOTION),

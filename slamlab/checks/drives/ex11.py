@@ -78,6 +78,8 @@ def normalised(functions, inputs):
             raise StudentError(
                 "malformed", f"effective_size returned shape {size.shape}, expected one number"
             )
+        if not np.isfinite(size).all():
+            raise StudentError("malformed", "effective_size returned NaN or infinity")
         sizes.append(size.item())
     return _flagged(weights) | {"sizes": np.array(sizes)}
 

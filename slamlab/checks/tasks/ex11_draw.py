@@ -148,8 +148,9 @@ DRAW = Task(
         ),
         Diagnosis(
             "stratified",
-            "Each tooth has a random number of its own. That is stratified drawing: better than "
-            "tickets, but no comb. One random number shifts all the teeth.",
+            "On average this is right, and calmer than independent draws, but the copies stray "
+            "from n w by more than rounding: more than one random number is at work (one for each "
+            "tooth is stratified drawing). A comb has one for all its teeth.",
             lambda i, o: _fair_on_the_whole(i, o) and not _rounded(i, o).all(),
         ),
         Diagnosis(

@@ -133,9 +133,9 @@ def _gains(i, o):
     return gain - gain[..., :1], np.ptp(w, axis=-1) < 1e-9 / SAMPLES
 
 
-def _scan(i, o):
-    """(k, t, n) log likelihoods of the scans, of the samples that came back."""
-    v = i["zs"][:, :, None] - h(o["rows"][:, :, :, None], i["p"][:, None, None])
+def _scan(i, rows):
+    """(k, t, n) log likelihoods of the scans, given samples."""
+    v = i["zs"][:, :, None] - h(rows[:, :, :, None], i["p"][:, None, None])
     v[..., 1] = wrap(v[..., 1])
     inverse = np.linalg.inv(i["R"])
     logs = -0.5 * np.einsum("ktnma,kab,ktnmb->ktn", v, inverse, v)
@@ -148,7 +148,7 @@ def _same_gain(gain, want, drawn):
 
 def _weighed_right(i, o):
     one = np.abs(o["weights"].sum(axis=-1) - 1) < 1e-9
-    return _same_gain(_gains(i, o)[0], _scan(i, o), _gains(i, o)[1]) & one
+    return _same_gain(_gains(i, o)[0], _scan(i, o["rows"]), _gains(i, o)[1]) & one
 
 
 # ---- mistakes -------------------------------------------------------------------------------
@@ -177,9 +177,14 @@ def _believes(name, hint, *others):
     return Diagnosis(name, hint, matches)
 
 
+def _before(i, o):
+    """(k, t, n, 3) the samples that each step began with."""
+    return np.concatenate([i["rows"][:, None], o["rows"][:, :-1]], axis=1)
+
+
 def _motion(i, o):
     """(k, t, n) logarithm of p(x_t | x_{t−1}, u), where samples stayed in their rows."""
-    before = np.concatenate([i["rows"][:, None], o["rows"][:, :-1]], axis=1)
+    before = _before(i, o)
     noise = driven(before, o["rows"], before[..., 2])[..., :2] - i["us"][:, :, None]
     logs = -0.5 * np.einsum("ktna,kab,ktnb->ktn", noise, np.linalg.inv(i["C"]), noise)
     return logs - logs[..., :1]
@@ -189,7 +194,7 @@ def _forgotten(i, o):
     """The first step's weights are the likelihood alone, those before it forgotten."""
     gain, drawn = _gains(i, o)
     before = np.log(i["weights"])
-    want = _scan(i, o)[:, 0] - (before - before[:, :1])
+    want = _scan(i, o["rows"])[:, 0] - (before - before[:, :1])
     return not drawn[:, 0].all() and _same_gain(gain[:, 0], want, drawn[:, 0]).all()
 
 
@@ -233,7 +238,15 @@ LOCALISE = Task(
             "The samples stand where they stood: move them first.",
             lambda i, o: np.isin(o["rows"][:, 0, :, 0], i["rows"][..., 0]).all(),
         ),
-        _gained("motion-in-the-weight", MOTION_TWICE, lambda i, o: _scan(i, o) + _motion(i, o)),
+        _gained(
+            "weighed-before-moving",
+            "The scan is seen after the drive, but you weigh the samples where they were before "
+            "it. Move first, then weigh the moved ones.",
+            lambda i, o: _scan(i, _before(i, o)),
+        ),
+        _gained(
+            "motion-in-the-weight", MOTION_TWICE, lambda i, o: _scan(i, o["rows"]) + _motion(i, o)
+        ),
         Diagnosis(
             "weights-forgotten",
             "The new weights are the likelihoods alone: what the samples weighed before is lost. "
@@ -243,7 +256,7 @@ LOCALISE = Task(
         _gained(
             "twice",
             "The scan counts twice: the likelihood is multiplied in more than once.",
-            lambda i, o: 2 * _scan(i, o),
+            lambda i, o: 2 * _scan(i, o["rows"]),
         ),
         Diagnosis(
             "weights-kept",

@@ -102,6 +102,11 @@ def _diagonal(C):
     return C * np.eye(2)
 
 
+def _means(i, o):
+    """(k, 2) mean distance and turn."""
+    return _drives(i, o)[..., :2].mean(axis=1)
+
+
 def _all_alike(i, o):
     return np.ptp(_drives(i, o)[..., :2], axis=1).max() < 1e-6
 
@@ -115,7 +120,10 @@ def _along_other(offset):
 
     def matches(i, o):
         turn = _drives(i, o)[..., 1]
-        return np.abs(_drives(i, o, i["rows"][..., 2] + offset * turn)[..., 2]).max() < 1e-6
+        return (
+            np.ptp(turn) > 1e-6
+            and np.abs(_drives(i, o, i["rows"][..., 2] + offset * turn)[..., 2]).max() < 1e-6
+        )
 
     return matches
 
@@ -173,6 +181,26 @@ MOVE = Task(
             "one-heading",
             "All samples went in the same direction. Each drives along its own heading.",
             _one_heading,
+        ),
+        Diagnosis(
+            "turn-forgotten",
+            "The headings came back as they were: θ grows by the turn.",
+            lambda i, o: np.abs(_drives(i, o)[..., 1]).max() < 1e-9,
+        ),
+        Diagnosis(
+            "sine-and-cosine",
+            "Sine and cosine are swapped: x grows by d cos θ, y by d sin θ.",
+            lambda i, o: np.abs(_drives(i, o, np.pi / 2 - i["rows"][..., 2])[..., 2]).max() < 1e-6,
+        ),
+        Diagnosis(
+            "backwards",
+            "Your samples drive backwards: look at the sign of d.",
+            lambda i, o: (np.abs(_means(i, o) + i["u"] * [1, -1]) < 0.05).all(),
+        ),
+        Diagnosis(
+            "noise-alone",
+            "Your samples move by the noise alone: u, which was driven, is missing.",
+            lambda i, o: np.abs(_means(i, o)).max() < 0.05,
         ),
         Diagnosis(
             "turned-first",

@@ -12,12 +12,16 @@ ROWS = 12
 def clouds(rng):
     """Logarithms of usual size, far below what a float's exponential can hold, and far above.
 
+    The last ones lie far apart, too: what is far below the largest weighs nothing.
+
     ``weights`` are for ``effective_size``: equal ones on some of the samples, uneven ones.
     """
     logs = rng.uniform(-6, 0, (ROWS, SAMPLES))
     logs[PLAIN] += rng.uniform(-3, 3, (4, 1))
     logs[LOW] -= rng.uniform(2_000, 1e5, (4, 1))
     logs[HIGH] += rng.uniform(800, 5_000, (4, 1))
+    logs[HIGH, : SAMPLES // 2] -= rng.uniform(2_000, 3_000, (4, 1))
+    logs = rng.permuted(logs, axis=1)
     weights = rng.exponential(size=(ROWS, SAMPLES)) ** 2
     for k in range(6):
         weights[k] = rng.permutation(np.arange(SAMPLES) < rng.integers(1, SAMPLES - 1))
@@ -33,7 +37,7 @@ def _ratios(i, o, rows=PLAIN):
     logs, w = i["logs"][rows], o["logs"][rows]
     top = logs.argmax(axis=1)[:, None]
     want = np.exp(logs - np.take_along_axis(logs, top, 1)) * np.take_along_axis(w, top, 1)
-    return ((np.abs(w - want) < 1e-9 * w.max(axis=1, keepdims=True)) & (w > 0)).all(axis=1)
+    return ((np.abs(w - want) < 1e-9 * w.max(axis=1, keepdims=True)) & (w >= 0)).all(axis=1)
 
 
 def _any_size(i, o):
@@ -93,10 +97,17 @@ NORMALISE = Task(
     laws=(
         Law("sum", 0.5, "the weights sum to one", _sums),
         Law("ratios", 0.5, "their ratios are e to the difference of the logarithms", _ratios),
-        Law("any-size", 1, "so it is for logarithms of −100 000 and of 5000", _any_size),
+        Law(
+            "any-size", 1, "so it is for logarithms of −100 000, of 5000, and far apart", _any_size
+        ),
         Law("effective", 1, "k equal weights among zeros are worth k samples", _worth),
     ),
     diagnoses=(
+        Diagnosis(
+            "no-numbers",
+            "Even logarithms of usual size give NaN or infinity: print what comes of [-1.0, -2.0].",
+            lambda i, o: (o["finite"][PLAIN] == 0).any(),
+        ),
         Diagnosis(
             "not-normalised",
             "The ratios are right, but the weights do not sum to one: divide by their sum.",

@@ -185,6 +185,17 @@ WEIGH = Task(
             _other(_degrees),
         ),
         _is(
+            "one-of-two",
+            "Only the range or only the bearing counts. A sighting is both: v has two entries.",
+            _other(lambda v: wrapped(v) * [1, 0], lambda R: R * np.eye(2)),
+            _other(lambda v: wrapped(v) * [0, 1], lambda R: R * np.eye(2)),
+        ),
+        Diagnosis(
+            "all-alike",
+            "All samples get the same: what each expects to see, h of its own pose, is missing.",
+            lambda i, o: (np.ptp(o["logs"], axis=1) == 0).all(),
+        ),
+        _is(
             "mean-over-landmarks",
             "You take the mean over the landmarks: then ten sightings tell no more than one. "
             "Sightings err independently: their logarithms add up.",
