@@ -16,6 +16,7 @@ class Faults:
     ----------
     flip : float, share of bytes of which a bit is flipped
     lose : float, share of bytes that are lost
+    stale : bytes of former times, still on their way: they come before the next answer, once
     silent : commands that are not answered
     stalled : bool, whether the motor is blocked
     unplugged : bool, whether reading and writing fail
@@ -23,6 +24,7 @@ class Faults:
 
     flip: float = 0.0
     lose: float = 0.0
+    stale: bytes = b""
     silent: set = field(default_factory=set)
     stalled: bool = False
     unplugged: bool = False
@@ -42,10 +44,14 @@ class Line:
     def __init__(self, baud, faults, rng, room=4096):
         self._byte, self._faults, self._rng, self._room = BITS / baud, faults, rng, room
         self._packets, self._waiting, self._free = deque(), 0, 0.0
+        self._sent = []
         self.dropped = 0
 
     def put(self, packet, ready):
         """Let a packet wait behind what is there; ``ready`` is when it can begin [s]."""
+        stale, self._faults.stale = self._faults.stale, b""
+        packet = stale + packet
+        self._send(ready)  # what goes by then needs no room
         if self._waiting + len(packet) > self._room:
             self.dropped += len(packet)
         elif packet:
@@ -53,7 +59,7 @@ class Line:
             self._waiting += len(packet)
 
     def take(self, now):
-        """What has gone over the line by now.
+        """What has gone over the line by now, and was not taken before.
 
         Parameters
         ----------
@@ -63,7 +69,11 @@ class Line:
         -------
         bytes
         """
-        sent = []
+        self._send(now)
+        sent, self._sent = b"".join(self._sent), []
+        return self._damaged(sent)
+
+    def _send(self, now):
         while self._packets:
             ready, packet = self._packets[0]
             self._free = max(self._free, ready)
@@ -72,12 +82,11 @@ class Line:
                 break
             self._free += n * self._byte
             self._waiting -= n
-            sent.append(packet[:n])
+            self._sent.append(packet[:n])
             if n == len(packet):
                 self._packets.popleft()
             else:
                 self._packets[0] = ready, packet[n:]
-        return self._damaged(b"".join(sent))
 
     def _damaged(self, data):
         if not self._faults.flip and not self._faults.lose:

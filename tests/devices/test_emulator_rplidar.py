@@ -1,0 +1,235 @@
+"""The emulated RPLIDAR answers as the real one: requests, timing, bandwidth, motor, faults."""
+
+import struct
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from slamlab.devices.emulator.line import Faults
+from slamlab.devices.emulator.rplidar import BANNER
+from slamlab.devices.rplidar.answers import Answer, Health, Info, conf_value
+from slamlab.devices.rplidar.requests import Command, Conf, conf, express, motor_pwm, request
+from tests.devices.emulated import answers, hear, machine, nodes, smooth_room
+
+INFO, HEALTH, STOP = (request(Command[c]) for c in ("GET_INFO", "GET_HEALTH", "STOP"))
+SCAN, FORCE, RESET = (request(Command[c]) for c in ("SCAN", "FORCE_SCAN", "RESET"))
+ACC = request(Command.GET_ACC_BOARD_FLAG, bytes(4))
+SAMPLES = {SCAN: 1e6 / 508, express(1): 1e6 / 254, express(2): 1e6 / 127}
+
+
+def test_several_requests_in_one_read_are_all_answered_in_their_order():
+    data = INFO + HEALTH + request(Command.GET_SAMPLERATE) + ACC
+    kinds = [kind for kind, _ in answers(hear(machine(), data, 5.0, 0.1))]
+    assert kinds == [Answer.INFO, Answer.HEALTH, Answer.SAMPLERATE, Answer.ACC_BOARD_FLAG]
+
+
+@given(st.lists(st.integers(1, 7), max_size=40), st.binary(max_size=20))
+def test_requests_cut_anywhere_with_anything_before_them_are_understood(cuts, before):
+    before = before.replace(b"\xa5", b"")
+    data, lidar, t, at = before + conf(Conf.MODE_COUNT) + INFO + motor_pwm(0), machine(), 1.0, 0
+    for cut in [*cuts, len(data)]:
+        lidar.feed(data[at : at + cut], t)
+        at, t = at + cut, t + 0.01
+    assert [command for command, _ in lidar.requests] == [
+        Command.GET_LIDAR_CONF,
+        Command.GET_INFO,
+        Command.SET_MOTOR_PWM,
+    ]
+
+
+def test_half_a_request_is_forgotten_after_five_seconds():
+    lidar = machine()
+    lidar.feed(b"\xa5\x82", 1.0)
+    assert lidar.feed(INFO, 5.9) == b"" and not lidar.requests
+    assert answers(hear(lidar, b"", 5.9, 0.2)) == []
+    lidar = machine()
+    lidar.feed(b"\xa5\x82", 1.0)
+    assert [kind for kind, _ in answers(hear(lidar, INFO, 6.1, 0.2))] == [Answer.INFO]
+
+
+def test_a_request_with_a_wrong_checksum_is_no_request():
+    wrong = bytearray(motor_pwm(0))
+    wrong[-1] ^= 1
+    lidar = machine()
+    assert answers(hear(lidar, bytes(wrong) + INFO, 0.0, 0.1))[0][0] == Answer.INFO
+    assert lidar.motor.pwm == 660 and len(lidar.requests) == 1
+
+
+def test_what_it_says_of_itself_is_an_a2m8():
+    (_, info), (_, health) = answers(hear(machine(health=(1, 0x0201)), INFO + HEALTH, 0.0, 0.1))
+    info = Info.unpack(info)
+    assert (info.model, info.firmware, info.hardware) == (0x28, (1, 29), 5)
+    assert Health.unpack(health) == Health(1, 0x0201)
+
+
+def test_modes_are_those_of_an_a2_and_each_answers_as_it_says():
+    lidar, t = machine(), 0.0
+
+    def ask(what, mode=None):
+        nonlocal t
+        t += 1
+        (_, payload), *rest = answers(hear(lidar, conf(what, mode), t, 0.1))
+        assert not rest and int.from_bytes(payload[:4], "little") == what
+        return conf_value(what, payload)
+
+    assert (ask(Conf.MODE_COUNT), ask(Conf.TYPICAL_MODE)) == (3, 2)
+    assert [ask(Conf.NAME, k) for k in range(3)] == ["Standard", "Express", "Boost"]
+    assert [ask(Conf.US_PER_SAMPLE, k) for k in range(3)] == [508, 254, 127]
+    assert [ask(Conf.MAX_DISTANCE, k) for k in range(3)] == [12, 12, 12]
+    assert [ask(Conf.ANSWER_TYPE, k) for k in range(3)] == [0x81, 0x82, 0x84]
+    rotation = answers(hear(lidar, conf(Conf.DESIRED_ROTATION), 20.0, 0.1))[0][1]
+    assert struct.unpack("<IHH", rotation) == (1, 600, 660)
+    assert hear(lidar, conf(Conf.NAME, 3) + conf(0x99), 30.0, 0.1) == b""  # never an empty value
+
+
+def test_old_firmware_is_silent_about_its_configuration_and_older_one_has_no_express():
+    old, older = machine(firmware=(1, 20)), machine(firmware=(1, 10))
+    for lidar in (old, older):
+        assert hear(lidar, conf(Conf.MODE_COUNT) + conf(Conf.DESIRED_ROTATION), 0.0, 0.2) == b""
+    assert hear(old, express(0), 1.0, 0.1)[:7].hex() == "a55a5400004082"
+    assert hear(older, express(0) + request(Command.GET_SAMPLERATE), 1.0, 0.3) == b""
+
+
+@pytest.mark.parametrize("asked", SAMPLES)
+def test_samples_come_as_fast_as_the_mode_says_and_fit_the_room(asked):
+    seconds = 2.0
+    heard = hear(machine(), asked, 3.0, seconds)
+    found, decoder = nodes(heard)
+    assert not decoder.damage
+    in_time = SAMPLES[asked] * seconds
+    assert in_time - 300 < len(found) < in_time
+    assert np.flatnonzero(found["start"]).size in (19, 20, 21)  # ten turns a second
+    seen = smooth_room(None, found["angle_q6"] / 64)
+    # half a step of the scale, and what the angle's last digit makes out on a slanted wall
+    assert np.abs(found["distance_q2"] / 4 - seen).max() < 8 + 6
+
+
+@pytest.mark.parametrize("asked", SAMPLES)
+def test_no_more_bytes_come_than_the_line_can_carry(asked):
+    lidar, t, sent = machine(), 0.0, 0
+    lidar.feed(asked, t)
+    for _ in range(1000):
+        t += 0.0007
+        sent += len(lidar.feed(b"", t))
+        assert sent <= 11520 * t + 1
+    assert sent > 0.8 * 11520 * t and lidar.line.dropped == 0
+
+
+@settings(max_examples=15)
+@given(
+    st.sampled_from(list(SAMPLES)),
+    st.lists(st.floats(0.0005, 0.3), min_size=1, max_size=10),
+)
+def test_however_often_it_is_asked_the_same_bytes_come(asked, pauses):
+    lidar, t, k, heard = machine(), 2.0, 0, b""
+    lidar.feed(asked, t)
+    while t + pauses[k % len(pauses)] < 3.0 and k < 400:
+        t, k = t + pauses[k % len(pauses)], k + 1
+        heard += lidar.feed(b"", t)
+    heard += lidar.feed(b"", 3.0)
+    assert heard == hear(machine(), asked, 2.0, 1.0)
+
+
+def test_any_request_but_the_motor_s_and_the_board_s_ends_a_scan():
+    for other in (STOP, INFO, HEALTH, conf(Conf.MODE_COUNT), request(0x99, b"")):
+        lidar = machine()
+        hear(lidar, SCAN, 0.0, 0.5)
+        hear(lidar, other, 0.5, 0.1)
+        assert hear(lidar, b"", 0.6, 0.5) == b"", other
+    for other in (motor_pwm(600), ACC):
+        lidar = machine()
+        hear(lidar, SCAN, 0.0, 0.5)
+        assert len(hear(lidar, other, 0.5, 1.0)) > 9000, other
+
+
+def test_an_answer_comes_after_the_bytes_already_on_their_way():
+    lidar = machine()
+    hear(lidar, SCAN, 0.0, 1.0)
+    rest = hear(lidar, INFO, 1.0, 0.1)
+    at = rest.index(bytes.fromhex("a55a1400000004"))
+    assert len(rest) == at + 27 and at < 30
+
+
+def test_the_descriptor_comes_at_once_and_data_when_the_motor_turns_evenly():
+    lidar = machine(spinning=False, spin_up=3.0)
+    assert hear(lidar, SCAN, 0.0, 2.0).hex() == "a55a0500004081"  # it does not turn at all
+    assert hear(lidar, motor_pwm(660), 2.0, 2.99) == b""
+    assert len(hear(lidar, b"", 4.99, 1.0)) > 9000
+    hear(lidar, motor_pwm(0), 6.0, 0.1)
+    assert hear(lidar, b"", 6.1, 1.0) == b""
+
+
+def test_a_forced_scan_does_not_wait_and_the_motor_remembers():
+    lidar = machine(spinning=False, spin_up=3.0)
+    hear(lidar, motor_pwm(660) + STOP, 0.0, 0.1)
+    assert len(hear(lidar, FORCE, 0.1, 1.0)) > 9000
+    hear(lidar, STOP, 1.1, 5.0)
+    assert len(hear(lidar, SCAN, 10.0, 1.0)) > 9000  # long turning
+
+
+def test_half_the_voltage_turns_half_as_fast():
+    lidar = machine()
+    hear(lidar, motor_pwm(330), 0.0, 0.1)
+    found, _ = nodes(hear(lidar, SCAN, 0.1, 2.0))
+    turns = np.diff(np.flatnonzero(found["start"]))
+    assert abs(turns.mean() - 200e-3 / 508e-6) < 1
+
+
+def test_in_protection_it_does_not_scan_and_a_reset_may_heal_it():
+    for heals in (True, False):
+        lidar = machine(health=(2, 4), heals=heals)
+        assert hear(lidar, SCAN + express(2), 0.0, 0.5) == b""
+        assert hear(lidar, RESET, 1.0, 1.0) == BANNER % (1, 29)
+        healed = Health.unpack(answers(hear(lidar, HEALTH, 2.0, 0.1))[0][1])
+        assert healed == (Health(0, 0) if heals else Health(2, 4))
+
+
+def test_after_a_reset_it_is_deaf_for_a_while():
+    lidar = machine()
+    lidar.feed(RESET, 0.0)
+    assert hear(lidar, INFO, 0.1, 0.5) == BANNER % (1, 29)
+
+
+def test_a_program_that_died_leaves_it_scanning():
+    heard = hear(machine(scanning=Answer.SCAN), b"", 0.0, 1.0)
+    assert len(heard) > 9000 and heard[0] & 3 in (1, 2)  # no descriptor
+
+
+def test_stale_bytes_come_once_before_the_next_answer():
+    lidar = machine(faults=Faults(stale=bytes(33)))
+    heard = hear(lidar, INFO, 0.0, 0.2)
+    assert heard[:33] == bytes(33) and answers(heard[33:])[0][0] == Answer.INFO
+    assert answers(hear(lidar, HEALTH, 1.0, 0.2))[0][0] == Answer.HEALTH
+
+
+def test_lost_bytes_and_flipped_bits_are_as_many_as_asked_for():
+    clean = hear(machine(), SCAN, 0.0, 4.0)
+    flipped = hear(machine(faults=Faults(flip=0.01)), SCAN, 0.0, 4.0)
+    changed = [(a ^ b).bit_count() for a, b in zip(clean, flipped, strict=True) if a != b]
+    assert 0.006 < len(changed) / len(clean) < 0.014 and set(changed) == {1}
+    fewer = hear(machine(faults=Faults(lose=0.01)), SCAN, 0.0, 4.0)
+    assert 0.006 < 1 - len(fewer) / len(clean) < 0.014
+
+
+def test_silent_commands_stalled_motors_and_pulled_plugs():
+    lidar = machine(faults=Faults(silent={Command.GET_HEALTH}))
+    assert [kind for kind, _ in answers(hear(lidar, HEALTH + INFO, 0.0, 0.2))] == [Answer.INFO]
+    hear(lidar, SCAN, 1.0, 0.5)
+    lidar.faults.stalled = True
+    hear(lidar, b"", 1.5, 0.1)
+    assert hear(lidar, b"", 1.6, 1.0) == b""
+    lidar.faults.stalled = False
+    assert len(hear(lidar, b"", 2.6, 1.0)) > 9000
+    lidar.faults.unplugged = True
+    with pytest.raises(OSError):
+        lidar.feed(b"", 4.0)
+
+
+def test_who_sleeps_too_long_finds_data_lost_and_counted_and_then_goes_on():
+    lidar = machine()
+    hear(lidar, SCAN, 0.0, 0.1)
+    burst = lidar.feed(b"", 60.0)
+    assert len(burst) < 11520 * 1.1
+    assert len(hear(lidar, b"", 60.0, 1.0)) > 9000
