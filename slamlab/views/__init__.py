@@ -13,6 +13,7 @@ from slamlab.views.linked import linked
 from slamlab.views.live import live
 from slamlab.views.overlay import overlay
 from slamlab.views.samples import wheel
+from slamlab.views.shares import shares
 from slamlab.views.sketches import frames
 from slamlab.views.widgets import explore
 
@@ -34,6 +35,7 @@ __all__ = [
     "overlay",
     "panels",
     "png",
+    "shares",
     "show",
     "side_by_side",
     "wheel",
