@@ -224,6 +224,11 @@ LOCALISE = Task(
     ),
     diagnoses=(
         Diagnosis(
+            "not-moved",
+            "The samples stand where they stood: move them first.",
+            lambda i, o: np.isin(o["rows"][:, 0, :, 0], i["rows"][..., 0]).all(),
+        ),
+        Diagnosis(
             "one-place",
             "All samples stand on one place: one sample was copied n times. Draw by weight.",
             _one_place,
@@ -232,11 +237,6 @@ LOCALISE = Task(
             "not-normalised",
             "The weights do not sum to one: normalise them.",
             _unsummed,
-        ),
-        Diagnosis(
-            "not-moved",
-            "The samples stand where they stood: move them first.",
-            lambda i, o: np.isin(o["rows"][:, 0, :, 0], i["rows"][..., 0]).all(),
         ),
         _gained(
             "weighed-before-moving",
