@@ -81,7 +81,9 @@ def port_of(known, found=None):
     -------
     str, or None where it is not plugged in
     """
+    if known is None:
+        return None
     for port in ports() if found is None else found:
-        if known is not None and (port.vid, port.pid, port.serial_number) == known:
+        if (port.vid, port.pid, port.serial_number) == known:
             return port.device
     return None

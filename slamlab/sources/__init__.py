@@ -17,18 +17,20 @@ from slamlab.sources.text import read_bytes
 __all__ = ["Source", "SourceError", "open", "recording", "simulation", "write"]
 
 SIMULATED = "sim:"
+DEVICES = "devices:"
 TOPICS = "#"  # behind a bag's path
 
 
 def open(spec, rng=None):
-    """Open a source: a simulation, a log file, a recording by its name.
+    """Open a source: a simulation, a log file, a recording by its name, devices.
 
     What a file is, its content tells, not its name.
 
     Parameters
     ----------
     spec : str or Path, ``sim:WORLD``, a file, a recording's name, or a ROS bag: its file or folder,
-        where it has several scanners ``BAG#/scan``, where several odometries ``BAG#/scan,/odom``
+        where it has several scanners ``BAG#/scan``, where several odometries ``BAG#/scan,/odom``;
+        or ``devices:LIDAR_PORT,EMIR_PORT``, live
     rng : numpy.random.Generator, for simulations; seed 0 by default
 
     Returns
@@ -43,6 +45,10 @@ def open(spec, rng=None):
     if spec.startswith(SIMULATED):
         rng = np.random.default_rng(0) if rng is None else rng
         return simulation(spec.removeprefix(SIMULATED), rng)
+    if spec.startswith(DEVICES):
+        from slamlab.devices.source import devices  # drivers are no use to a log
+
+        return devices(spec.removeprefix(DEVICES))
     spec = located(spec)
     bag, _, topics = (spec, "", "") if bagfile.is_bag(spec) else spec.rpartition(TOPICS)
     if bagfile.is_bag(bag):

@@ -17,12 +17,12 @@ def room(directions):
 
 
 def stream(answer, samples, measure=room, first_angle=0.0):
-    """Bytes of so many samples, and the packets they consist of."""
+    """Bytes of so many samples."""
     packer, size, ahead = PACKERS[answer]
     step = 360 * TURNS_PER_SECOND * PERIODS[answer]
-    packets = []
-    for at in range(0, samples - size + 1, size):
-        angle = first_angle + step * np.arange(at, at + size + ahead)
+    packets, together = [], samples if size == 1 else size
+    for at in range(0, samples - together + 1, together):
+        angle = first_angle + step * np.arange(at, at + together + ahead)
         packets += packer(angle, step, measure, at == 0)
     assert all(len(packet) == SIZES[answer] for packet in packets)
     return b"".join(packets)

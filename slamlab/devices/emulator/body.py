@@ -109,10 +109,10 @@ class Body:
         while self._time + STEP <= now:
             v, omega = self._speeds
             steps = 1
-            if v == 0 and omega == 0:  # nothing happens: all of it at once
-                steps = int((now - self._time) / STEP)
-            else:
+            if v or omega:
                 self._step(0.0 if self._blocked(v) else v, omega)
+            else:  # nothing happens: all of it at once
+                steps = max(int((now - self._time) / STEP), 1)
             self._time += steps * STEP
             self._poses.append((self._time, self.pose))
 

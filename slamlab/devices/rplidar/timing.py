@@ -11,6 +11,7 @@ DRIFT = 0.01  # how fast the line may rise towards late arrivals [s/s]
 LOST = 0.1  # later than this, samples must have been lost [s]
 WAIT = 1.5  # samples between a measurement and its first byte on the line (Slamtec's SDK)
 BITS = 10  # on the line, for a byte
+SQUEEZED = 0.1  # of their period, at least, samples stay apart
 
 
 class SampleTimes:
@@ -26,6 +27,7 @@ class SampleTimes:
     def __init__(self, period, baud, decoder):
         self.period, self._decoder, self._byte = period, decoder, BITS / baud
         self._next = None  # when the next sample is due [s]
+        self._last = -np.inf  # the last time that was given: none goes back behind it [s]
 
     def of(self, count, arrival):
         """Times of the nodes that the decoder has just returned.
@@ -50,4 +52,9 @@ class SampleTimes:
         else:
             last = min(seen, expected + DRIFT * count * self.period)
         self._next = last + self.period
-        return last + self.period * np.arange(1 - count, 1)
+        first = last - (count - 1) * self.period
+        if first <= self._last:
+            last = max(last, self._last + SQUEEZED * count * self.period)
+            first = self._last + (last - self._last) / count
+        self._last = last
+        return np.linspace(first, last, count)

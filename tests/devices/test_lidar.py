@@ -1,0 +1,425 @@
+"""The lidar's driver against an emulated device in memory, in simulated time: no test waits."""
+
+import numpy as np
+import pytest
+
+from slamlab.devices.clock import SimulatedClock
+from slamlab.devices.emulator.line import Faults
+from slamlab.devices.emulator.rplidar import RplidarMachine
+from slamlab.devices.errors import (
+    ChecksumError,
+    ConnectionLost,
+    DataTimeout,
+    DeviceFault,
+    DeviceNotResponding,
+    DeviceSilent,
+    ProtocolError,
+    SlamlabError,
+    UnexpectedDescriptor,
+    UnsupportedMode,
+)
+from slamlab.devices.memory import MemoryPort
+from slamlab.devices.rplidar import Lidar
+from slamlab.devices.rplidar.answers import Answer, Health
+from slamlab.devices.rplidar.requests import Command
+from slamlab.devices.rplidar.stream import FIRST, STEADY, WINDOW, Stream
+from tests.devices.streams import room, stream
+
+
+def measure(times, directions):
+    return room(directions)
+
+
+class Bench:
+    """A machine, a clock, and the driver between them."""
+
+    def __init__(self, **machine):
+        self.clock, self.ports, self.back_at = SimulatedClock(100.0), 0, None
+        self.faults = machine.setdefault("faults", Faults())
+        self.machine = RplidarMachine(measure, **machine)
+
+    def opener(self, name, baud):
+        self.ports += 1
+        if self.ports == self.back_at:
+            self.faults.unplugged = False
+        if self.faults.unplugged:
+            raise ConnectionLost("unplugged", "it was", "plug it in")
+        return MemoryPort(self.machine, self.clock, name)
+
+    def lidar(self, **options):
+        return Lidar("memory", opener=self.opener, clock=self.clock, **options)
+
+    def at(self, seconds, what):
+        """Do something when the machine's time has come, whoever asks it then."""
+        feed, due = self.machine.feed, self.clock.now() + seconds
+
+        def later(data, now):
+            nonlocal due
+            if now >= due:
+                due = np.inf
+                what()
+            return feed(data, now)
+
+        self.machine.feed = later
+
+    def commands(self):
+        return [command for command, _ in self.machine.requests]
+
+
+def assert_helps(error):
+    """Every error says what, why, and what to do."""
+    assert isinstance(error, SlamlabError)
+    assert error.what and error.cause and error.step
+    assert f"{error.what}. Likely: {error.cause}. Next: {error.step}." == str(error)
+
+
+def assert_right(turn):
+    mm = room(turn.angle_deg)
+    assert np.abs(turn.range_mm - mm).max() < 12  # steps of 8 mm in the ultra mode
+    assert turn.complete
+
+
+def test_who_it_is_and_what_it_can_is_asked_at_once():
+    with Bench().lidar() as lidar:
+        assert lidar.info.firmware == (1, 29)
+        assert lidar.health == Health(0, 0)
+        assert [m.name for m in lidar.modes] == ["Standard", "Express", "Boost"]
+        assert [m.range_max for m in lidar.modes] == [12, 12, 12]
+        assert lidar.typical.name == "Boost"
+        assert "RPLIDAR A2" in repr(lidar)
+
+
+@pytest.mark.parametrize("mode", ["Standard", "Express", "Boost", 0, 1, 2])
+def test_every_mode_gives_whole_right_turns(mode):
+    with Bench().lidar() as lidar:
+        lidar.start(mode)
+        turns = [lidar.turn() for _ in range(3)]
+        for turn in turns:
+            assert_right(turn)
+            assert turn.rate == pytest.approx(10, rel=0.01)
+            assert np.diff(turn.times).min() > 0
+        assert mode in (lidar.mode.name, lidar.mode.number)
+
+
+def test_points_carry_the_time_at_which_they_were_measured():
+    bench, took = Bench(), []
+
+    def stamped(times, directions):
+        took.append((times[: len(directions)], directions))
+        return room(directions)
+
+    bench.machine._measure = stamped
+    with bench.lidar() as lidar:
+        lidar.start("Standard")
+        turn = lidar.turn()
+    times, directions = (np.concatenate(part) for part in zip(*took, strict=True))
+    true = np.interp(turn.times, times, np.unwrap(directions, period=360))
+    off = (true - turn.angle_deg + 180) % 360 - 180
+    assert np.abs(off).max() < 3600 * 0.003  # 3 ms of ten turns a second
+
+
+def test_forced_scanning_does_not_wait_for_an_even_rotation():
+    bench = Bench(spinning=False, spin_up=30.0)
+    with bench.lidar() as lidar:
+        lidar.start("Standard", force=True)
+        assert_right(lidar.turn())
+        assert Command.FORCE_SCAN in bench.commands()
+
+
+@pytest.mark.parametrize("old", [Answer.SCAN, Answer.EXPRESS, Answer.ULTRA])
+def test_the_stream_of_a_program_that_died_is_stopped_and_dropped(old):
+    bench = Bench(scanning=old)
+    bench.machine.feed(b"", 99.5)  # half a second of it stands in the buffers
+    with bench.lidar() as lidar:
+        assert bench.commands()[:2] == [Command.STOP, Command.GET_INFO]
+        assert_right(lidar.turn())
+
+
+def test_thirty_three_stale_bytes_that_come_after_all_are_passed_over():
+    bench = Bench()
+    stale = stream(Answer.SCAN, 2000)[-33:]
+    feed, first = bench.machine.feed, []
+
+    def late(data, now):
+        answer = feed(data, now)
+        if answer and not first:
+            first.append(now)
+            return stale + answer
+        return answer
+
+    bench.machine.feed = late
+    with bench.lidar() as lidar:
+        assert first
+        assert_right(lidar.turn())
+
+
+@pytest.mark.parametrize("firmware", [(1, 15), (1, 20), (1, 29)])
+def test_firmware_that_keeps_silent_about_its_modes_scans_anyway(firmware):
+    bench = Bench(firmware=firmware)
+    bench.faults.silent.add(Command.GET_LIDAR_CONF)
+    with bench.lidar() as lidar:
+        names = ["Standard"] if firmware < (1, 17) else ["Standard", "Express"]
+        assert [m.name for m in lidar.modes] == names
+        assert_right(lidar.turn())
+
+
+def test_a_mode_that_does_not_begin_gives_way_to_the_standard_scan():
+    bench = Bench()
+    bench.faults.silent.add(Command.EXPRESS_SCAN)
+    with bench.lidar() as lidar:
+        assert_right(lidar.turn())
+        assert lidar.mode.name == "Standard"
+        with pytest.raises(DeviceNotResponding) as refused:
+            lidar.start("Boost")
+        assert_helps(refused.value)
+
+
+def test_an_unknown_mode_is_refused_with_those_there_are():
+    with Bench().lidar() as lidar, pytest.raises(UnsupportedMode) as refused:
+        lidar.start("Sensitivity")
+    assert_helps(refused.value)
+    assert "Standard, Express, Boost" in str(refused.value)
+
+
+def test_a_lidar_that_protects_itself_is_reset_once_and_its_boot_text_dropped():
+    bench = Bench(health=(2, 4))
+    with bench.lidar() as lidar:
+        assert bench.commands().count(Command.RESET) == 1
+        assert lidar.health == Health(0, 0)
+        assert_right(lidar.turn())
+
+
+def test_a_lidar_that_stays_ill_is_a_fault_with_its_code():
+    bench = Bench(health=(2, 0x0204), heals=False)
+    with pytest.raises(DeviceFault) as refused:
+        bench.lidar()
+    assert_helps(refused.value)
+    assert refused.value.health == Health(2, 0x0204)
+    assert "0x0204" in str(refused.value)
+    assert bench.commands().count(Command.RESET) == 1
+    assert bench.machine.pwm == 0
+
+
+def test_a_warning_does_not_keep_it_from_scanning():
+    with Bench(health=(1, 7)).lidar() as lidar:
+        assert lidar.health.status == 1
+        assert_right(lidar.turn())
+
+
+def test_silence_is_told_with_the_speeds_tried():
+    bench = Bench()
+    bench.faults.silent |= set(Command)
+    with pytest.raises(DeviceNotResponding) as refused:
+        bench.lidar()
+    assert_helps(refused.value)
+    assert "115200" in str(refused.value) and "nothing comes" in str(refused.value)
+    with pytest.raises(DeviceNotResponding, match="115200, 256000, 460800, 1000000"):
+        bench.lidar(baud=None)
+
+
+@pytest.mark.parametrize(
+    ("junk", "word"), [(b"\xaa\x55\x01\x02" * 9, "YDLIDAR"), (b"\x07" * 40, "speed")]
+)
+def test_what_is_no_rplidar_is_told_apart(junk, word):
+    bench = Bench()
+    said = [0.0]
+
+    def talk(data, now):
+        if now - said[-1] < 0.02:
+            return b""
+        said.append(now)
+        return junk
+
+    bench.machine.feed = talk
+    with pytest.raises(DeviceNotResponding, match=word) as refused:
+        bench.lidar()
+    assert_helps(refused.value)
+
+
+def test_one_that_does_not_say_how_it_is_is_not_trusted():
+    bench = Bench()
+    bench.faults.silent.add(Command.GET_HEALTH)
+    with pytest.raises(UnexpectedDescriptor) as refused:
+        bench.lidar()
+    assert_helps(refused.value)
+
+
+def test_five_seconds_of_spin_up_are_waited_for():
+    bench = Bench(spinning=False, spin_up=5.0)
+    with bench.lidar() as lidar:
+        lidar.start()
+        begin = bench.clock.now()
+        assert_right(lidar.turn())
+        assert lidar._stream is not None
+        assert begin >= 100
+
+
+def test_a_motor_that_never_turns_is_a_timeout():
+    bench = Bench(faults=Faults(stalled=True))
+    with bench.lidar() as lidar, pytest.raises(DataTimeout) as lost:
+        lidar.turn()
+    assert_helps(lost.value)
+    assert not isinstance(lost.value, ConnectionLost)
+
+
+def test_an_unplugged_lidar_is_told_within_a_second():
+    bench, when = Bench(), []
+    with bench.lidar() as lidar:
+        lidar.start()
+
+        def pull():
+            when.append(bench.clock.now())
+            bench.faults.unplugged = True
+
+        bench.at(2.0, pull)
+        with pytest.raises(ConnectionLost) as lost:
+            while lidar.turn():
+                pass
+        assert_helps(lost.value)
+        assert bench.clock.now() - when[0] < 1.0
+        with pytest.raises(ConnectionLost):
+            lidar.turn()
+
+
+def test_a_lidar_cut_off_behind_its_adapter_is_told_within_a_second():
+    bench, when = Bench(), []
+    with bench.lidar() as lidar:
+        lidar.start()
+
+        def cut():
+            when.append(bench.clock.now())
+            bench.faults.stalled = True
+
+        bench.at(2.0, cut)
+        with pytest.raises(DeviceSilent) as lost:
+            while lidar.turn():
+                pass
+        assert bench.clock.now() - when[0] < 1.1
+        assert isinstance(lost.value, ConnectionLost) and isinstance(lost.value, DataTimeout)
+
+
+def test_silence_is_judged_by_the_stream_s_own_clock():
+    quiet = Stream(Answer.SCAN, 508e-6, 115200, now=10.0)
+    quiet.feed(b"", 10.0 + FIRST)
+    with pytest.raises(DataTimeout):
+        quiet.feed(b"", 10.01 + FIRST)
+    begun = Stream(Answer.SCAN, 508e-6, 115200, now=10.0)
+    begun.feed(stream(Answer.SCAN, 10), 10.0 + FIRST)
+    begun.feed(b"", 10.0 + FIRST + STEADY)
+    with pytest.raises(DeviceSilent):
+        begun.feed(b"", 10.01 + FIRST + STEADY)
+    assert STEADY + 0.05 < 1
+
+
+def test_a_stream_of_garbage_is_an_error_but_a_burst_is_not():
+    rng, good = np.random.default_rng(1), stream(Answer.SCAN, 20_000)
+    burst = Stream(Answer.SCAN, 508e-6, 115200, now=0.0)
+    for k in range(10):
+        burst.feed(rng.bytes(8000), k)
+        burst.feed(good, k + 0.5)
+    with pytest.raises(ChecksumError) as refused:
+        for k in range(20):
+            burst.feed(rng.bytes(WINDOW // 2), 20 + k)
+    assert_helps(refused.value)
+    assert isinstance(refused.value, ProtocolError)
+
+
+def test_replugged_it_goes_on_where_that_is_wanted_and_marks_the_gap():
+    bench = Bench()
+    with bench.lidar(reconnect=True) as lidar:
+        lidar.start("Express")
+        bench.at(2.0, lambda: setattr(bench.faults, "unplugged", True))
+        bench.back_at = bench.ports + 3  # two tries are in vain
+        while not lidar.turn().after_gap:
+            pass
+        assert not lidar.turn().after_gap
+        assert_right(lidar.turn())
+        assert lidar.mode.name == "Express"
+        assert lidar.stats["reconnects"] == 1
+
+
+def test_who_comes_late_finds_the_two_newest_turns_and_the_rest_counted():
+    bench = Bench()
+    lidar = bench.lidar()
+    lidar.start()
+    first = lidar.turn()
+    while lidar.stats["turns"] < 20:
+        pass
+    lidar._reader.stop()
+    made = lidar.stats["turns"]
+    rest = [lidar._turns.take()[1], lidar._turns.take()[1]]
+    assert lidar.stats["turns dropped"] == made - 3
+    assert rest[1].times[0] - rest[0].times[0] == pytest.approx(0.1, abs=0.01)
+    assert rest[0].times[0] - first.times[0] == pytest.approx(0.1 * (made - 2), abs=0.02)
+    lidar.close()
+
+
+def test_the_latest_turn_can_be_had_alone():
+    bench = Bench()
+    with bench.lidar() as lidar:
+        lidar.start()
+        while lidar.stats["turns"] < 5:
+            pass
+        lidar._reader.stop()
+        newest = lidar._turns._things[-1]
+        assert lidar.turn(latest=True) is newest
+
+
+def test_bytes_lost_in_a_scan_are_counted_and_the_turn_is_marked():
+    bench = Bench(faults=Faults(lose=2e-4))
+    with bench.lidar() as lidar:
+        lidar.start("Standard")
+        turns = [lidar.turn() for _ in range(30)]
+        while lidar.stats["resyncs"] < 3:
+            turns.append(lidar.turn())
+        assert lidar.stats["bytes dropped"] > 0
+        assert any(turn.complete for turn in turns)
+
+
+def test_stop_and_start_again():
+    bench = Bench()
+    with bench.lidar() as lidar:
+        assert_right(lidar.turn())
+        lidar.stop()
+        assert bench.machine.pwm == 0
+        assert bench.machine._scan is None
+        lidar.start("Express")
+        assert_right(lidar.turn())
+        lidar.start("Standard")
+        assert_right(lidar.turn())
+
+
+def test_closing_stops_scan_and_motor_and_may_be_done_twice():
+    bench = Bench()
+    lidar = bench.lidar()
+    lidar.start()
+    lidar.turn()
+    lidar.close()
+    lidar.close()
+    assert bench.machine.pwm == 0
+    assert bench.machine._scan is None
+    assert bench.commands()[-2:] == [Command.STOP, Command.SET_MOTOR_PWM]
+    while lidar.turn() is not None:
+        pass
+    assert list(lidar) == []
+    with pytest.raises(ConnectionLost) as refused:
+        lidar.start()
+    assert_helps(refused.value)
+
+
+def test_an_exception_in_the_block_stops_the_motor_too():
+    bench = Bench()
+    with pytest.raises(ZeroDivisionError), bench.lidar() as lidar:
+        lidar.turn()
+        _ = 1 / 0
+    assert bench.machine.pwm == 0
+
+
+def test_a_patience_that_is_too_short_says_so():
+    bench = Bench(spinning=False, spin_up=1e6)
+    with bench.lidar() as lidar:
+        lidar._turns.begin()
+        lidar._reader = object.__new__(type("Nobody", (), {"stop": lambda self: None}))
+        with pytest.raises(DataTimeout) as late:
+            lidar.turn(timeout=0.01)
+        assert_helps(late.value)
