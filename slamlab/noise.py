@@ -80,22 +80,3 @@ def R(r, range_error, bearing_sigma, range_sigma=0.0, range_curvature=0.0):
     """
     along = (range_error * r) ** 2 + range_sigma**2 + (range_curvature * r**2) ** 2
     return np.diag([along, bearing_sigma**2])
-
-
-def R_of(sensor, ranges):
-    """Covariances of a sensor's ranges and bearings, :func:`R` of each range.
-
-    Parameters
-    ----------
-    sensor : SensorModel
-    ranges : (m,) [m]
-
-    Returns
-    -------
-    (m, 2, 2) [m², rad²]
-    """
-    s = sensor
-    R_each = [
-        R(r, s.range_error, s.bearing_sigma, s.range_sigma, s.range_curvature) for r in ranges
-    ]
-    return np.reshape(R_each, (-1, 2, 2))

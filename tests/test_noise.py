@@ -6,6 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from slamlab import jacobians, models, noise
+from slamlab.estimators.seen import R_of
 from slamlab.hardware import SensorModel
 from tests.laws import odometry_controls, poses
 
@@ -36,7 +37,7 @@ def test_the_covariances_of_a_sensor_are_R_of_each_range(ranges, k, beta, consta
     sensor = SensorModel(
         range_error=k, range_sigma=constant, bearing_sigma=beta, range_curvature=curvature
     )
-    R = noise.R_of(sensor, ranges)
+    R = R_of(sensor, ranges)
     assert R.shape == (len(ranges), 2, 2)
     for r, R_r in zip(ranges, R, strict=True):
         np.testing.assert_allclose(R_r, np.diag([sensor.sigma(r) ** 2, beta**2]), rtol=1e-12)

@@ -3,13 +3,12 @@
 import numpy as np
 import pytest
 
-from slamlab.estimators.seen import Names, seen
+from slamlab.estimators.seen import R_of, Names, seen
 from slamlab.evaluation import nees
 from slamlab.geometry import wrap
 from slamlab.landmarks.corners import corners
 from slamlab.landmarks.ransac import Ransac, lines
 from slamlab.models import g, h
-from slamlab.noise import R_of
 from slamlab.readings import Observations, Reading
 from slamlab.sensors import RPLIDAR_A2
 from slamlab.sources.arena import ArenaRun

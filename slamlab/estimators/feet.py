@@ -8,9 +8,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from slamlab import noise
 from slamlab.estimators.base import Estimator
 from slamlab.estimators.mak import predict
+from slamlab.estimators.seen import R_of
 from slamlab.filters.mak import MAK
 from slamlab.geometry import transform
 from slamlab.landmarks.ransac import THESIS, lines
@@ -113,7 +113,7 @@ class FootSlam(Estimator):
         """Feet as if they had been seen: z and R."""
         z = h(self.filter.pose, np.array(feet))
         blunt = replace(self.sensor, bearing_sigma=max(self.sensor.bearing_sigma, 0.01))
-        return z, noise.R_of(blunt, z[:, 0])
+        return z, R_of(blunt, z[:, 0])
 
     def _bury(self, paired):
         """Every landmark that was not seen loses a life; at none it leaves database, x and P."""

@@ -31,7 +31,7 @@ def seen(reading, sensor, rng, ransac=None):
     if reading.observations is not None:
         z, ids, R = (getattr(reading.observations, name) for name in ("z", "ids", "R"))
         z = np.asarray(z, dtype=float).reshape(-1, 2)
-        return Observations(z, np.asarray(ids), noise.R_of(sensor, z[:, 0]) if R is None else R)
+        return Observations(z, np.asarray(ids), R_of(sensor, z[:, 0]) if R is None else R)
     found = [] if reading.scan is None else _corners(reading.scan, sensor, rng, ransac)
     z, R = ([getattr(corner, name) for corner in found] for name in "zR")
     ids = np.full(len(found), -1)
@@ -81,3 +81,22 @@ def _corners(scan, sensor, rng, ransac):
     if sensor.range_max >= SHORT_SIGHTED:
         return corners(lines(scan, sensor, rng, ransac))
     return corners(lines(scan, sensor, rng, ransac or CLOSE), reach=CLOSE_REACH)
+
+
+def R_of(sensor, ranges):
+    """Covariances of a sensor's ranges and bearings, :func:`slamlab.noise.R` of each range.
+
+    Parameters
+    ----------
+    sensor : SensorModel
+    ranges : (m,) [m]
+
+    Returns
+    -------
+    (m, 2, 2) [m², rad²]
+    """
+    s = sensor
+    R_each = [
+        noise.R(r, s.range_error, s.bearing_sigma, s.range_sigma, s.range_curvature) for r in ranges
+    ]
+    return np.reshape(R_each, (-1, 2, 2))
