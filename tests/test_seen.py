@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from slamlab.estimators.seen import R_of, Names, seen
+from slamlab.estimators.seen import Names, R_of, seen
 from slamlab.evaluation import nees
 from slamlab.geometry import wrap
 from slamlab.landmarks.corners import corners
