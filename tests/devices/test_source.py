@@ -1,0 +1,179 @@
+"""Lidar and robot as a source of readings: one clock, odometry between turns, drivable."""
+
+import numpy as np
+import pytest
+
+from slamlab import sources, worlds
+from slamlab.devices import source
+from slamlab.devices.clock import Clock
+from slamlab.devices.emir import Calibration, Emir
+from slamlab.devices.emir.odometry import Odometry
+from slamlab.devices.emulator.body import COUNTS, Body
+from slamlab.devices.emulator.emir import EmirMachine
+from slamlab.devices.emulator.rplidar import RplidarMachine
+from slamlab.devices.emulator.sight import Sight
+from slamlab.devices.errors import ConnectionLost
+from slamlab.devices.memory import MemoryPort
+from slamlab.devices.rplidar import Lidar
+from slamlab.devices.rplidar.turns import Turn
+from slamlab.geometry import between, compose
+from slamlab.sources import SourceError
+from tests.laws import assert_same_pose
+
+GONE = ConnectionLost("it is gone", "unplugged", "plug it in")
+
+
+def turn(end, complete=True):
+    angles = np.arange(0, 360, 1.0)
+    times = end - 0.1 + 0.1 * np.arange(1, 361) / 360
+    ones = np.ones(360, int)
+    return Turn(angles, 1000.0 * ones, ones, times, complete, int(not complete), False, 2.8e-4)
+
+
+class ReadyLidar:
+    """A lidar whose turns are made already."""
+
+    name = "lidar"
+
+    def __init__(self, turns, error=None):
+        self._turns, self._error, self.closed = turns, error, False
+
+    def __iter__(self):
+        yield from self._turns
+        if self._error is not None:
+            raise self._error
+
+    def close(self):
+        self.closed = True
+
+
+class ReadyEmir:
+    """A robot that has driven already: a count ahead and one to the left every 0.1 s."""
+
+    name, error = "emir", None
+
+    def __init__(self):
+        self.driven, self.closed, self.odometry = [], False, Odometry(Calibration())
+        for k in range(100):
+            self.odometry.advance(k, k, 50.0 + 0.1 * k)
+        self.pose_at = self.odometry.pose_at
+
+    def drive(self, v, omega):
+        self.driven.append((v, omega))
+
+    def close(self):
+        self.closed = True
+
+
+def test_the_odometry_of_a_reading_is_the_way_from_turn_to_turn():
+    emir, ends = ReadyEmir(), [51.0, 51.1, 51.25, 53.0]
+    devices = source.Devices(ReadyLidar([turn(end) for end in ends]), emir)
+    readings = list(devices)
+    assert [r.time for r in readings] == pytest.approx([0, 0.1, 0.25, 2.0])
+    assert_same_pose(readings[0].odometry, np.zeros(3))
+    pose = emir.pose_at(ends[0])
+    for reading, end in zip(readings[1:], ends[1:], strict=True):
+        pose = compose(pose, reading.odometry)
+        assert_same_pose(pose, emir.pose_at(end))
+    assert np.hypot(*readings[1].odometry[:2]) == pytest.approx(0.01, rel=1e-3)
+    assert readings[1].odometry[2] == pytest.approx(np.radians(2))
+
+
+def test_a_scan_is_in_the_robot_s_frame_however_the_lidar_is_turned():
+    (straight,) = source.Devices(ReadyLidar([turn(51.0)]))
+    (turned,) = source.Devices(ReadyLidar([turn(51.0)]), front=90.0)
+    assert straight.scan.valid.all()
+    assert np.allclose(straight.scan.angles, -np.radians(np.arange(360)))
+    assert np.allclose(turned.scan.angles - straight.scan.angles, np.pi / 2)
+
+
+def test_turns_with_gaps_are_counted_and_not_lost():
+    devices = source.Devices(ReadyLidar([turn(51.0), turn(51.1, complete=False)]))
+    assert len(list(devices)) == 2
+    assert devices.damage == {"turns with a gap": 1}
+
+
+def test_it_is_drivable_where_there_is_a_robot():
+    emir = ReadyEmir()
+    devices = source.Devices(ReadyLidar([turn(51.0)]), emir)
+    assert devices.drivable and len(devices) == 0 and devices.name == "devices:lidar,emir"
+    assert devices.drive([0.2, -0.3]) is None
+    assert emir.driven == [(0.2, -0.3)]
+    (reading,) = devices
+    assert np.array_equal(reading.control, [0.2, -0.3])
+    alone = source.Devices(ReadyLidar([]))
+    assert not alone.drivable
+    with pytest.raises(SourceError, match="no robot"):
+        alone.drive([0, 0])
+
+
+@pytest.mark.parametrize("command", [None, "fast", [1], [np.nan, 0], [1, 2, 3]])
+def test_a_command_that_makes_no_sense_is_refused(command):
+    emir = ReadyEmir()
+    with pytest.raises(SourceError, match="command"):
+        source.Devices(ReadyLidar([]), emir).drive(command)
+    assert not emir.driven
+
+
+def test_what_is_lost_on_the_way_is_an_error_of_the_source_in_one_line():
+    with pytest.raises(SourceError, match="Next:") as refused:
+        list(source.Devices(ReadyLidar([turn(51.0)], GONE), ReadyEmir()))
+    assert "\n" not in str(refused.value)
+    emir = ReadyEmir()
+    emir.error = GONE
+    with pytest.raises(SourceError, match="gone"):
+        list(source.Devices(ReadyLidar([turn(51.0)]), emir))
+
+
+def test_closing_closes_both():
+    lidar, emir = ReadyLidar([]), ReadyEmir()
+    with source.Devices(lidar, emir):
+        pass
+    assert lidar.closed and emir.closed
+
+
+def test_ports_that_do_not_open_are_told_in_one_line():
+    for spec in ("devices:/dev/ttyNOSUCH0,/dev/ttyNOSUCH1", "devices:a,b,c"):
+        with pytest.raises(SourceError) as refused:
+            sources.open(spec)
+        assert "\n" not in str(refused.value)
+
+
+def test_a_robot_is_closed_again_where_the_lidar_does_not_open(monkeypatch):
+    emir = ReadyEmir()
+    monkeypatch.setattr(source, "Emir", lambda port: emir)
+    with pytest.raises(SourceError, match="there is no port"):
+        sources.open("devices:/dev/ttyNOSUCH0,e")
+    assert emir.closed
+
+
+def test_live_the_readings_follow_the_robot():
+    """In real time, but whatever the machine's speed: late turns are dropped, the way is not."""
+    rng, clock = np.random.default_rng(0), Clock()
+    body = Body(worlds.by_name("room"), rng)
+    machines = {"e": EmirMachine(body), "l": RplidarMachine(Sight(body, rng))}
+
+    def opener(name, baud):
+        return MemoryPort(machines[name], clock, name, baud)
+
+    counts = Calibration(path=COUNTS[0], angle=COUNTS[1])
+    emir = Emir("e", opener=opener, calibration=counts)
+    start, believed = body.pose, np.zeros(3)
+    with source.Devices(Lidar("l", opener=opener), emir) as devices:
+        commands = {3: (0.3, 0.5), 15: (0.0, 0.0)}
+        for k, reading in enumerate(devices):
+            believed = compose(believed, reading.odometry)
+            if k in commands:
+                devices.drive(commands[k])
+            if k == 15:
+                stopped = reading.time
+            if k > 15 and reading.time > stopped + 1.0:
+                break
+        moved = between(start, body.pose)
+        assert np.hypot(*moved[:2]) > 0.1
+        assert_same_pose(believed, moved, 0.1)  # slip, and whole counts
+        scan = reading.scan
+        ranges = body.world.cast(body.pose[:2], body.pose[2] + scan.angles)
+        assert np.nanmedian(np.abs(ranges - scan.ranges)) < 0.02
+    assert not body._speeds.any()
+    assert machines["l"].requests[-1][1] == b"\0\0"  # PWM 0

@@ -1,0 +1,210 @@
+"""Ports: real ones where the system has pseudo-terminals, TCP, and what is said when none opens."""
+
+import contextlib
+import errno
+import os
+import socket
+import sys
+from types import SimpleNamespace
+
+import pytest
+
+from slamlab.devices.errors import (
+    ConnectionLost,
+    DataTimeout,
+    DeviceFault,
+    DeviceNotResponding,
+    DeviceSilent,
+    PortBusy,
+    PortError,
+    PortNotFound,
+    PortPermission,
+    ProtocolError,
+    SlamlabError,
+    UnsupportedMode,
+)
+from slamlab.devices.ports import LIDAR_USB, identity, lidar_port, port_of
+from slamlab.devices.refusals import why_not_open
+from slamlab.devices.transport import open_port
+
+terminals = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no pseudo-terminals")
+
+
+@pytest.fixture
+def terminal():
+    """The other end of a pseudo-terminal, and its name."""
+    import tty
+
+    other, end = os.openpty()
+    tty.setraw(end)
+    yield other, os.ttyname(end)
+    for fd in (other, end):
+        with contextlib.suppress(OSError):
+            os.close(fd)
+
+
+@terminals
+def test_bytes_go_both_ways_through_a_terminal(terminal):
+    other, name = terminal
+    port = open_port(name, 256000)
+    os.write(other, b"hello")
+    assert port.read(2, 1.0) + port.read(100, 1.0) == b"hello"
+    assert port.read(10, 0.01) == b""
+    port.write(b"\x00\xa5\x0a")
+    assert os.read(other, 10) == b"\x00\xa5\x0a"
+    port.close()
+    port.close()
+
+
+@terminals
+def test_a_terminal_without_modem_lines_is_no_error(terminal):
+    port = open_port(terminal[1])
+    assert port.set_dtr(True) in (True, False)
+    port.close()
+
+
+@terminals
+def test_a_port_belongs_to_one_program_at_a_time(terminal):
+    port = open_port(terminal[1])
+    with pytest.raises(PortBusy, match="another program"):
+        open_port(terminal[1])
+    port.close()
+    open_port(terminal[1]).close()
+
+
+@terminals
+def test_a_closed_other_end_is_a_lost_connection():
+    import tty
+
+    other, end = os.openpty()
+    tty.setraw(end)
+    port = open_port(os.ttyname(end))
+    os.close(end)
+    os.close(other)
+    with pytest.raises(ConnectionLost):
+        for _ in range(3):
+            port.read(10, 0.1)
+    port.close()
+
+
+@terminals
+def test_a_port_closed_here_is_a_lost_connection_for_who_still_reads(terminal):
+    port = open_port(terminal[1])
+    port.close()
+    for use in (lambda: port.read(1, 0.1), lambda: port.write(b"x")):
+        with pytest.raises(ConnectionLost):
+            use()
+    assert not port.set_dtr(True)
+
+
+def test_tcp_goes_both_ways_and_its_end_is_a_lost_connection():
+    server = socket.create_server(("127.0.0.1", 0))
+    name = f"socket://127.0.0.1:{server.getsockname()[1]}"
+    port = open_port(name)
+    other, _ = server.accept()
+    other.sendall(b"hello")
+    assert port.read(100, 5.0) == b"hello"
+    assert port.read(100, 0.01) == b""
+    port.write(b"back")
+    assert other.recv(10) == b"back"
+    other.close()
+    with pytest.raises(ConnectionLost):
+        port.read(10, 5.0)
+    port.close()
+    port.close()
+    with pytest.raises(ConnectionLost):
+        port.read(10, 0.1)
+    server.close()
+    with pytest.raises(PortNotFound, match="emulator"):
+        open_port(name)
+
+
+@pytest.mark.parametrize("name", ["socket://here", "socket://here:there", "socket://x:99999999"])
+def test_a_tcp_name_that_makes_no_sense_is_refused(name):
+    with pytest.raises(PortError, match="Next:"):
+        open_port(name)
+
+
+def test_a_port_that_is_not_there_is_named_with_those_that_are():
+    with pytest.raises(PortNotFound, match="there are now"):
+        open_port("/dev/ttyNOSUCH0")
+
+
+@pytest.mark.parametrize(
+    ("error", "kind"),
+    [
+        (OSError(errno.EACCES, "denied"), PortPermission),
+        (OSError(errno.EAGAIN, "locked"), PortBusy),
+        (OSError(errno.EBUSY, "busy"), PortBusy),
+        (OSError(errno.ENOENT, "none"), PortNotFound),
+        (OSError("could not open port 'COM7': FileNotFoundError(2, …)"), PortNotFound),
+        (OSError(errno.ENOTTY, "no terminal"), PortError),
+        (ValueError("Invalid baud rate"), PortError),
+    ],
+)
+def test_a_refusal_is_of_its_kind_and_says_what_to_do(error, kind):
+    refused = why_not_open("/dev/x", error)
+    assert type(refused) is kind
+    assert refused.cause in str(refused) and refused.step in str(refused)
+
+
+def test_on_windows_a_port_in_use_is_not_taken_for_a_forbidden_one(monkeypatch):
+    monkeypatch.setattr(sys, "platform", "win32")
+    error = OSError("could not open port 'COM3': PermissionError(13, 'Access is denied.')")
+    assert type(why_not_open("COM3", error)) is PortBusy
+
+
+def test_errors_are_of_python_s_kinds_too():
+    assert issubclass(PortError, OSError) and issubclass(PortNotFound, FileNotFoundError)
+    assert issubclass(ConnectionLost, ConnectionError)
+    assert issubclass(DataTimeout, TimeoutError) and issubclass(DeviceNotResponding, TimeoutError)
+    assert issubclass(DeviceSilent, ConnectionLost) and issubclass(DeviceSilent, DataTimeout)
+    for kind in (PortError, ProtocolError, DeviceFault, ConnectionLost, UnsupportedMode):
+        assert issubclass(kind, SlamlabError)
+
+
+def usb(device, vid=0x10C4, pid=0xEA60, serial="0001"):
+    return SimpleNamespace(device=device, vid=vid, pid=pid, serial_number=serial, description="")
+
+
+def test_the_lidar_s_port_is_found_by_its_usb_adapter():
+    assert (0x10C4, 0xEA60) in LIDAR_USB
+    other = usb("/dev/ttyUSB0", vid=0x0403)
+    assert lidar_port([other, usb("/dev/ttyUSB1")]) == "/dev/ttyUSB1"
+    with pytest.raises(PortNotFound, match="no USB adapter"):
+        lidar_port([other])
+    with pytest.raises(PortNotFound, match="/dev/a, /dev/b"):
+        lidar_port([usb("/dev/a"), usb("/dev/b")])
+
+
+def test_an_adapter_plugged_in_again_is_known_by_its_serial_number():
+    known = identity("/dev/ttyUSB0", [usb("/dev/ttyUSB0", serial="7"), usb("/dev/ttyUSB1")])
+    assert port_of(known, [usb("/dev/ttyUSB2", serial="7"), usb("/dev/ttyUSB0")]) == "/dev/ttyUSB2"
+    assert port_of(known, [usb("/dev/ttyUSB0", serial="8")]) is None
+    assert identity("/dev/x", [usb("/dev/ttyUSB0")]) is None
+    assert port_of(None, [usb("/dev/ttyUSB0")]) is None
+
+
+@terminals
+def test_devices_are_closed_when_the_program_ends_or_is_told_to():
+    import subprocess
+    import textwrap
+
+    script = textwrap.dedent("""
+        import os, signal, sys
+        from slamlab.devices.closing import closed_at_exit
+        class Device:
+            def __init__(self, name): self.name = name
+            def close(self):
+                print("closed", self.name, flush=True)
+                if self.name == "bad": raise OSError("unplugged")
+        kept = [Device("bad"), Device("good")]
+        for device in kept: closed_at_exit(device)
+        if sys.argv[1] == "term": os.kill(os.getpid(), signal.SIGTERM)
+    """)
+    for how, code in (("exit", 0), ("term", -15)):
+        ended = subprocess.run(
+            [sys.executable, "-c", script, how], capture_output=True, text=True, timeout=60
+        )
+        assert ended.returncode == code
+        assert sorted(ended.stdout.split("\n")[:2]) == ["closed bad", "closed good"]
