@@ -4,7 +4,7 @@ import numpy as np
 
 from slamlab import noise
 from slamlab.estimators.base import Estimator
-from slamlab.estimators.seen import seen
+from slamlab.estimators.seen import need_landmarks, seen
 from slamlab.filters.bor import BOR, EmptyIntersection
 from slamlab.filters.bor.predict import odometry
 from slamlab.layers import Boxes, Points, Poses
@@ -122,10 +122,5 @@ def bor(source):
     ------
     ValueError : no reading holds landmarks or a scan
     """
-    # a source that goes on for ever, such as a robot, has no length and is not run through
-    if len(source) and all(r.observations is None and r.scan is None for r in source):
-        raise ValueError(
-            f"{source.name} holds neither landmarks nor scans, of which bor needs one; "
-            "sim:landmarks has landmarks"
-        )
+    need_landmarks(source, "bor")
     return BorSlam(source.robot, source.sensor)

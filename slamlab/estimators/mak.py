@@ -4,7 +4,7 @@ import numpy as np
 
 from slamlab import noise
 from slamlab.estimators.base import Estimator
-from slamlab.estimators.seen import Names, seen
+from slamlab.estimators.seen import Names, need_landmarks, seen
 from slamlab.filters.association import paired, squared_distances
 from slamlab.filters.mak import MAK
 from slamlab.geometry import compose, wrap
@@ -148,10 +148,5 @@ def mak(source, first_estimates=False):
     ------
     ValueError : no reading holds landmarks or a scan
     """
-    # a source that goes on for ever, such as a robot, has no length and is not run through
-    if len(source) and all(r.observations is None and r.scan is None for r in source):
-        raise ValueError(
-            f"{source.name} holds neither landmarks nor scans, of which mak needs one; "
-            "sim:landmarks has landmarks"
-        )
+    need_landmarks(source, "mak")
     return MakSlam(source.robot, source.sensor, first_estimates)

@@ -3,7 +3,7 @@
 import numpy as np
 
 from slamlab.estimators.base import Estimator
-from slamlab.estimators.seen import seen
+from slamlab.estimators.seen import need_landmarks, seen
 from slamlab.filters.montecarlo.association import pair
 from slamlab.filters.montecarlo.fastslam import FastSLAM
 from slamlab.filters.montecarlo.sets import SampleSets
@@ -156,10 +156,5 @@ def fastslam(source, seed=0, **options):
 
 def _rngs(name, source, seed):
     """Generators for the filter and for RANSAC, or an error where there is nothing to see."""
-    # a source that goes on for ever, such as a robot, has no length and is not run through
-    if len(source) and all(r.observations is None and r.scan is None for r in source):
-        raise ValueError(
-            f"{source.name} holds neither landmarks nor scans, of which {name} needs one; "
-            "sim:landmarks has landmarks"
-        )
+    need_landmarks(source, name)
     return np.random.default_rng(seed).spawn(2)

@@ -100,3 +100,23 @@ def R_of(sensor, ranges):
         noise.R(r, s.range_error, s.bearing_sigma, s.range_sigma, s.range_curvature) for r in ranges
     ]
     return np.reshape(R_each, (-1, 2, 2))
+
+
+def need_landmarks(source, name):
+    """Refuse a source in which an estimator of landmarks has nothing to see.
+
+    Parameters
+    ----------
+    source : Source
+    name : str, of the estimator
+
+    Raises
+    ------
+    ValueError : no reading holds landmarks or a scan
+    """
+    # a source that goes on for ever, such as a robot, has no length and is not run through
+    if len(source) and all(r.observations is None and r.scan is None for r in source):
+        raise ValueError(
+            f"{source.name} holds neither landmarks nor scans, of which {name} needs one; "
+            "sim:landmarks has landmarks"
+        )
