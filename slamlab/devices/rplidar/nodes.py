@@ -58,6 +58,8 @@ class Decoder:
         for at in range(0, len(data), BLOCK):
             self._buffer += data[at : at + BLOCK]
             found += self._decode()
+        if len(found) == 1:
+            return found[0]
         return np.concatenate(found) if found else NOTHING
 
     def _decode(self):

@@ -57,4 +57,4 @@ class SampleTimes:
             last = max(last, self._last + SQUEEZED * count * self.period)
             first = self._last + (last - self._last) / count
         self._last = last
-        return np.linspace(first, last, count)
+        return first + (last - first) / max(count - 1, 1) * np.arange(count)

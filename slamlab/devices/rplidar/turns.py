@@ -114,42 +114,46 @@ class Assembler:
         -------
         list of Turn, those that ended
         """
-        turns, at = [], 0
-        while at < len(nodes):
-            n, marked = self._upto(nodes[at:])
-            self._keep(nodes[at : at + n], times[at : at + n])
-            at += n
-            if at < len(nodes):
-                turns += self._end(marked)
-                self._begun = marked
-                self._keep(nodes[at : at + 1], times[at : at + 1])
-                at += 1
-        return turns
+        if not len(nodes):
+            return []
+        steps = self._steps(nodes["angle_q6"])
+        turns, begin, search = [], 0, 0
+        while True:
+            end, marked = self._upto(nodes["start"][search:], steps[begin:], search - begin)
+            end += begin
+            self._keep(nodes[begin:end], times[begin:end], steps[begin:end])
+            if end == len(nodes):
+                return turns
+            turns += self._end(marked)
+            self._begun, steps[end] = marked, 0
+            begin, search = end, end + 1  # the node that ends one turn begins the next
 
-    def _upto(self, nodes):
-        """How many nodes still belong to this turn, and whether a mark ends it."""
-        start = nodes["start"]
-        n = int(start.argmax()) if start.any() else len(nodes)
-        marked = n < len(nodes)
-        overdue = np.flatnonzero(self._travel + np.cumsum(self._steps(nodes[:n])) > OVERDUE)
-        if len(overdue):
-            n, marked = int(overdue[0]), False
+    def _steps(self, angle):
+        """(n,) how far the angle goes from node to node, the shorter way [1/64 degree]."""
+        steps = np.empty(len(angle), np.int64)
+        steps[0] = 0 if self._last is None else angle[0] - self._last
+        np.subtract(angle[1:], angle[:-1], out=steps[1:])
+        self._last = int(angle[-1])
+        return (steps + TURN // 2) % TURN - TURN // 2
+
+    def _upto(self, start, steps, own):
+        """How many nodes still belong to this turn, and whether a mark ends it.
+
+        ``own`` of them do, whatever their marks; ``start`` are the marks of the rest.
+        """
+        at = int(start.argmax()) if len(start) else 0
+        marked = len(start) > 0 and bool(start[at])
+        n = own + at if marked else len(steps)
+        reached = self._travel + np.add.accumulate(steps[:n])
+        if n and reached.max() > OVERDUE:
+            n, marked = int((reached > OVERDUE).argmax()), False
         if self._count + n > MOST:
-            n, marked = max(MOST - self._count, 0), False
+            n, marked = MOST - self._count, False
         return n, marked
 
-    def _steps(self, nodes):
-        """(n,) how far the angle goes from node to node, the shorter way [1/64 degree]."""
-        angle = nodes["angle_q6"]
-        if not len(angle):
-            return np.empty(0, int)
-        first = angle[0] if self._last is None else self._last
-        return (np.diff(angle, prepend=first) + TURN // 2) % TURN - TURN // 2
-
-    def _keep(self, nodes, times):
+    def _keep(self, nodes, times, steps):
         if len(nodes):
-            self._travel += int(self._steps(nodes).sum())
-            self._last = int(nodes["angle_q6"][-1])
+            self._travel += int(steps.sum())
             self._count += len(nodes)
             self._nodes.append(nodes)
             self._times.append(times)
@@ -162,7 +166,7 @@ class Assembler:
             self._after_gap = False
         self._first = False
         self._nodes, self._times = [], []
-        self._count, self._travel, self._last = 0, 0, None
+        self._count = self._travel = 0
         return turns
 
     def _turn(self, nodes, times, marked):

@@ -1,0 +1,85 @@
+"""What decoding one second of a lidar's bytes costs, as it arrives, from bytes to whole turns."""
+
+import sys
+
+import numpy as np
+
+from benchmarks.common import cpu_times, main, row
+from slamlab.devices.emir.frames import Framer
+from slamlab.devices.emir.status import Status
+from slamlab.devices.emulator.packets import PACKERS
+from slamlab.devices.rplidar.answers import Answer
+from slamlab.devices.rplidar.connect import Mode
+from slamlab.devices.rplidar.stream import Stream
+
+TITLE = "devices: decoding one second of data (CPU time, one thread, methods taking turns)"
+BAUD = 115200
+READ = 0.01  # how often bytes are read: an adapter hands them on every 1 to 16 ms [s]
+LIMITS = {Answer.SCAN: 1.0, Answer.EXPRESS: 3.0, Answer.ULTRA: 3.0}  # share of a core [%]
+MODES = (
+    Mode(0, "SCAN", 508e-6, 12.0, Answer.SCAN),
+    Mode(1, "EXPRESS", 254e-6, 12.0, Answer.EXPRESS),
+    Mode(2, "ultra", 127e-6, 12.0, Answer.ULTRA),
+)
+STATUS_RATE = 10  # eMIR's status frames a second
+
+
+def room(directions):
+    """Distances with edges, empty places and noise [mm]."""
+    rng = np.random.default_rng(0)
+    walls = 1500 / np.maximum(np.abs(np.cos(np.radians(directions))), 0.3)
+    walls[rng.random(len(walls)) < 0.05] = 0
+    return walls * (1 + 0.003 * rng.standard_normal(len(walls)))
+
+
+def second(mode):
+    """The bytes of one second of a mode, in the pieces in which they are read."""
+    packer, size, ahead = PACKERS[mode.answer]
+    step, packets = 3600 * mode.period, []
+    for at in range(0, int(1 / mode.period), size):
+        packets += packer(step * np.arange(at, at + size + ahead), step, room, at == 0)
+    data = b"".join(packets)
+    n = int(len(data) * READ)
+    return [data[at : at + n] for at in range(0, len(data), n)]
+
+
+def decode(mode, pieces):
+    """From bytes to whole turns; the stream goes on from call to call."""
+    stream, now = Stream(mode.answer, mode.period, BAUD, 0.0), 0.0
+
+    def one_second():
+        nonlocal now
+        turns = 0
+        for piece in pieces:
+            now += READ
+            turns += len(stream.feed(piece, now))
+        return turns
+
+    return one_second
+
+
+def frames():
+    """eMIR's status frames of one second."""
+    framer, data = Framer(), Status(path=3, angle=-7).pack()
+    return lambda: [Status.unpack(f) for _ in range(STATUS_RATE) for f in framer.feed(data)]
+
+
+def run(quick):
+    """Rows: share of a core, and how many times less than the limit."""
+    methods = {mode.answer: decode(mode, second(mode)) for mode in MODES}
+    for mode in MODES:
+        turns = sum(methods[mode.answer]() for _ in range(3))
+        if not 25 <= turns <= 31:
+            raise AssertionError(f"{mode.name}: {turns} turns in three seconds, not about 30")
+    times = cpu_times({**methods, "eMIR": frames()}, quick)
+    rows = [
+        row(f"{m.name}: share of a core", 100 * times[m.answer], "%", f"limit {LIMITS[m.answer]} %",
+            LIMITS[m.answer] / 100 / times[m.answer])
+        for m in MODES
+    ]  # fmt: skip
+    share = 100 * times["eMIR"]
+    return [*rows, row("eMIR: share of a core", share, "%", "limit 1.0 %", 1.0 / share)]
+
+
+if __name__ == "__main__":
+    sys.exit(main({TITLE: run}, "python -m benchmarks.devices"))
