@@ -13,6 +13,7 @@ import numpy as np
 
 from slamlab import gridmap
 from slamlab.estimators.base import Estimator
+from slamlab.estimators.elsewhere import Elsewhere
 from slamlab.estimators.loops import Loops, difference
 from slamlab.estimators.mak import Q_arc
 from slamlab.geometry import between, compose, transform, wrap
@@ -26,7 +27,7 @@ FEWEST = 10  # points without which a scan tells nothing
 RECENT = 15  # keyframes in the local map
 STEP, TURN = 0.12, 0.35  # a keyframe every so many reaches of the scans, and every such turn [rad]
 THIN = 0.6  # overlap with the local map below which a keyframe comes early
-SLACK = 0.1, 0.1, 0.15  # deviation that any odometry may have [reach, reach, rad]
+SLACK = 0.03, 0.1, 0.15  # deviation that any odometry may have: reaches, of the way, rad
 FAR_OFF = 16.3  # χ² of 3 degrees: beyond it a match and the odometry cannot both be right
 BLUR = 1.0  # of the scans' noise: what matches have in common and no covariance of one knows
 DRIFT = 0.003, 0.03, 0.005, 0.05  # odometry's own: reaches, reaches a turn, rad, of the turn
@@ -62,7 +63,10 @@ class GraphSlam(Estimator):
         super().__init__()
         self.robot, self.naive_pose = robot, np.zeros(3)
         self.graph, self.keyframes, self.counts = PoseGraph(), [], Counter()
-        self.loops = Loops(self.graph, self.keyframes, self.counts) if loops else None
+        self.loops = self.elsewhere = None
+        if loops:
+            self.loops = Loops(self.graph, self.keyframes, self.counts)
+            self.elsewhere = Elsewhere(self.loops)
         self._relative, self._doubt = (
             np.zeros(3),
             np.zeros((3, 3)),
@@ -87,6 +91,7 @@ class GraphSlam(Estimator):
                 self.skipped += 1
         if self.loops is not None:
             self.loops.work()
+            self.elsewhere.work()
         self._anchors.append(len(self.keyframes) - 1)
         self._ways.append(self._relative)
         self._naive.append(self.naive_pose)
@@ -189,15 +194,16 @@ class GraphSlam(Estimator):
 
     def _slack(self, seen):
         """(3, 3) what odometry may be off by for no reason that it knows of."""
-        return np.diag(np.square([SLACK[0] * seen.reach, SLACK[1] * seen.reach, SLACK[2]]))
+        way = SLACK[0] * seen.reach + SLACK[1] * np.hypot(*self._relative[:2])
+        return np.diag(np.square([way, way, SLACK[2]]))
 
     def _correct(self, found, seen):
         """Weigh the match and the odometry by their covariances."""
-        P, C = self._doubt, found.covariance + blur(seen)
+        P, C = self._doubt, found.doubt(BLUR * seen.sigma)
         K = P @ np.linalg.inv(P + C)
         x = self._relative + K @ difference(found.pose, self._relative)
         self._relative = np.array([x[0], x[1], wrap(float(x[2]))])
-        self._doubt = (P - K @ P + (P - K @ P).T) / 2 + 1e-3 * blur(seen)
+        self._doubt = (P - K @ P + (P - K @ P).T) / 2
 
     def _keep(self, seen, scan, information=None, piece=0):
         """Make a scan a keyframe, tied to the last one by what was measured."""
@@ -217,12 +223,7 @@ class GraphSlam(Estimator):
         )
         if self.loops is not None:
             self.loops.propose(i)
-
-
-def blur(seen):
-    """(3, 3) variance of a match that its points' noise does not explain."""
-    sigma = BLUR * seen.sigma
-    return np.diag(np.square([sigma, sigma, sigma / seen.reach]))
+            self.elsewhere.propose(i)
 
 
 def joined(poses, clouds):

@@ -15,7 +15,6 @@ from slamlab.scanmatching.align import paired
 from slamlab.scanmatching.localmap import merged
 from slamlab.scanmatching.verdict import fit
 
-LOOSE = np.diag([1e-6, 1e-6, 1e-2])  # information of a motion of which nothing is known
 APART = 20  # keyframes between two that may close a loop
 NEAR = 0.6  # of the scan's reach: so near an old keyframe must be
 AROUND = 4  # keyframes to either side of an old one in its local map
@@ -43,6 +42,7 @@ class Loops:
     def __init__(self, graph, keyframes, counts):
         self.graph, self.keyframes, self.counts = graph, keyframes, counts
         self._waiting, self._untold, self._news = deque(), 0, 0.0
+        self.tied = {0}  # pieces that a loop ties to others
 
     def propose(self, i):
         """Put the old keyframes near keyframe i on the list, the nearest of each stretch."""
@@ -74,22 +74,12 @@ class Loops:
     def _try(self, j, i):
         """Lay keyframe i over the map round keyframe j; keep what it tells."""
         seen, poses = self.keyframes[i].surface, self.graph.poses
-        piece = self.keyframes[j].piece
-        around = range(max(0, j - AROUND), min(len(self.keyframes), j + AROUND + 1))
-        around = [k for k in around if self.keyframes[k].piece == piece]
-        around.sort(key=lambda k: abs(k - j))
-        target = merged(
-            [self.keyframes[k].surface for k in around], between(poses[j], poses[around])
-        )
-        found = match(seen, target, between(poses[j], poses[i]))
-        if not self._believable(found, seen, self.keyframes[j].surface):
+        found = match(seen, map_round(self.keyframes, poses, j), between(poses[j], poses[i]))
+        if not believable(found, seen, self.keyframes[j].surface):
             self.counts["loops refused"] += 1
             return
-        sigma = BLUR * np.hypot(seen.sigma, self.keyframes[j].surface.sigma)
-        C = found.covariance + np.diag(np.square([sigma, sigma, sigma / seen.reach]))
-        information = np.linalg.inv(C)
-        off = difference(found.pose, between(*self.graph.poses[[j, i]]))
-        news = off @ information @ off
+        information = certainty(found, seen, self.keyframes[j].surface)
+        off = difference(found.pose, between(*poses[[j, i]]))
         # what lies where the graph has it anyway need not be asked for how far drift may reach
         plain = np.hypot(*off[:2]) < CLOSE * seen.reach and abs(off[2]) < CLOSE
         if not plain and self.graph.surprise(j, i, found.pose, information) > SURPRISE:
@@ -97,16 +87,31 @@ class Loops:
             return
         self.graph.add_edge(j, i, found.pose, information, robust=True)
         self.counts["loops closed"] += 1
+        self.tied.update((self.keyframes[i].piece, self.keyframes[j].piece))
         self._untold += 1
-        self._news = max(self._news, news)
+        self._news = max(self._news, off @ information @ off)
 
-    def _believable(self, found, seen, old):
-        """Whether a match shows the same place: enough overlaps, all is fixed, nothing contradicts
-        the old scan itself."""
-        if not found.good or found.fit.overlap < OVERLAP or not found.observability.fixed.all():
-            return False
-        alone = fit(seen, old, paired(seen, old, tuple(found.pose)))
-        return alone.agreement >= AGREEMENT
+
+def map_round(keyframes, poses, j):
+    """The keyframes round keyframe j as one surface, seen from it."""
+    around = range(max(0, j - AROUND), min(len(keyframes), j + AROUND + 1))
+    around = [k for k in around if keyframes[k].piece == keyframes[j].piece]
+    around.sort(key=lambda k: abs(k - j))
+    return merged([keyframes[k].surface for k in around], between(poses[j], poses[around]))
+
+
+def believable(found, seen, old, overlap=OVERLAP, agreement=AGREEMENT):
+    """Whether a match shows the same place: enough overlaps, walls fix all, and nothing contradicts
+    the old scan itself."""
+    if not found.good or found.fit.overlap < overlap or not found.observability.fixed.all():
+        return False
+    return fit(seen, old, paired(seen, old, tuple(found.pose))).agreement >= agreement
+
+
+def certainty(found, seen, old):
+    """(3, 3) information of a match between scans of other times."""
+    sigma = BLUR * np.hypot(seen.sigma, old.sigma)
+    return np.linalg.inv(found.doubt(sigma))
 
 
 def difference(a, b):

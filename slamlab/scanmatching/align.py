@@ -14,8 +14,9 @@ BESIDE = 4.0  # times the spacing: so far along a wall its next point may be
 LEAST = 10  # pairs, or a tenth of the points where that is more
 UNSEEN = 1e-4  # an eigenvalue below this share of their sum is none
 PRETENDED = 3.0  # times the information that the normals' noise makes up: more is real
-CALM = 15  # rounds after which steps are damped: pairs that flip to and fro would never rest
+CALM = 12  # rounds after which who comes back to where he was goes in circles and may rest there
 UNIT = np.eye(3)
+CIRCLE = 8  # rounds that a circle may take
 REST = 0.2  # of the standard deviation that noise leaves: a step below it changes nothing
 
 
@@ -102,7 +103,7 @@ def align(source, target, pose, rounds, watch=None):
     pose = tuple(map(float, pose))
     noise = np.sqrt(source.sigma**2 + target.sigma**2)
     enough = least(source)
-    width, rest, fixed = np.inf, False, False
+    width, rest, fixed, before = np.inf, False, False, []
     for done in range(rounds + 1):
         pairs = paired(source, target, pose)
         if watch is not None:
@@ -114,11 +115,19 @@ def align(source, target, pose, rounds, watch=None):
         width = max(2 * noise, min(SHRINK * width, 2 * spread))
         w = weights(pairs, width, width < 6 * noise)
         step, fixed = gauss_newton(pairs, w, target)
-        step *= 0.9 ** max(0, done - CALM)
+        before.append(pose)
         pose = pose[0] + step[0], pose[1] + step[1], pose[2] + step[2] / source.reach
+        # who creeps along a wall that holds him badly is not let rest
+        still = REST * noise / np.sqrt(len(sizes))
+        last = before[-1:] if done < CALM else before[-CIRCLE:]
         narrow = width <= 2.5 * noise + 1.5 * spread
-        rest = narrow and float(np.abs(step).max()) < REST * noise / np.sqrt(len(sizes))
+        rest = narrow and any(way(pose, other, source.reach) < still for other in last)
     raise AssertionError("the last round returns")
+
+
+def way(a, b, reach):
+    """The largest of the ways along x, along y and by turning, from pose to pose [m]."""
+    return max(abs(a[0] - b[0]), abs(a[1] - b[1]), reach * abs(a[2] - b[2]))
 
 
 def least(source):

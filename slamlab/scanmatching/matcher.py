@@ -37,6 +37,27 @@ class Alignment(Match):
         """(3, 3) covariance of the pose by the points' noise [m, m, rad]; see ``censi``."""
         return censi(*self._end)
 
+    def doubt(self, sigma):
+        """Covariance where, beside the points' own noise, whole walls are off.
+
+        Errors that points have in common do not average out: in a direction that holds its full
+        share of the information they shift the pose by as much, in one that few points fix by more.
+
+        Parameters
+        ----------
+        sigma : float, how far walls are off [m]
+
+        Returns
+        -------
+        (3, 3) [m, m, rad]
+        """
+        seen = self.observability
+        values = np.where(seen.fixed, seen.eigenvalues, np.inf)
+        common = sigma**2 * seen.eigenvalues.sum() / 3 / np.maximum(values, 1e-300)
+        scale = np.array([1, 1, 1 / seen.reach])
+        common = (seen.directions * common) @ seen.directions.T
+        return self.covariance + common * scale * scale[:, None]
+
     @cached_property
     def observability(self) -> Observability:
         """What the walls fix."""

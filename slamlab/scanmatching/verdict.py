@@ -7,8 +7,9 @@ import numpy as np
 from slamlab.geometry import inverse
 from slamlab.scanmatching.align import paired
 
-ON = 3.0  # standard deviations within which a point lies on a line
-BEFORE = 4.0  # standard deviations by which a point stands before what was seen behind it
+ON = 3.0, 0.01  # standard deviations, and share of the range, within which a point lies on a line
+BEFORE = 4.0, 0.03  # the same by which a point stands before what was seen behind it
+# the shares are for what real scans are beside noisy: taken on the move, of walls not quite upright
 OVERLAP = 0.3  # least share of the source's points that must lie on the target
 PLENTY = 0.7  # share of the points on the target that leaves nothing to ask the target's points
 AGREEMENT = 0.8  # least share of these among them and the points that contradict
@@ -62,7 +63,7 @@ def fit(source, target, pairs):
     -------
     Fit
     """
-    inliers = pairs.seen & (np.abs(pairs.residuals) < ON * np.sqrt(pairs.variance))
+    inliers = pairs.seen & (np.abs(pairs.residuals) < tolerance(pairs, *ON))
     hits, against = np.count_nonzero(inliers), contradictions(pairs, target)
     if source.bearings is not None and hits < PLENTY * len(inliers):
         against += contradictions(paired(target, source, inverse(pairs.pose)), source)
@@ -73,6 +74,11 @@ def contradictions(pairs, target):
     """How many points stand clearly nearer to the target's scanner than what it saw there."""
     if target.bearings is None:
         return 0
-    off = BEFORE * np.sqrt(pairs.variance)
+    off = tolerance(pairs, *BEFORE)
     short = target.ranges[pairs.place] - pairs.ranges > off
     return np.count_nonzero(pairs.seen & short & (np.abs(pairs.residuals) > off))
+
+
+def tolerance(pairs, deviations, share):
+    """(n,) how far a point may be off [m]."""
+    return deviations * np.sqrt(pairs.variance) + share * pairs.ranges
