@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from slamlab.devices.deskew import deskewed
 from slamlab.devices.emir import Emir
 from slamlab.devices.errors import SlamlabError
 from slamlab.devices.rplidar import Lidar
@@ -47,12 +48,7 @@ class Devices(Source):
                 last = pose
                 self.damage["turns with a gap"] += not turn.complete
                 self._check()
-                yield Reading(
-                    time=time - begin,
-                    odometry=odometry,
-                    scan=turn.scan(self.sensor.range_max, self.sensor.range_min, self.front),
-                    control=self._command,
-                )
+                yield Reading(time - begin, odometry, self._scan(turn), control=self._command)
         except SlamlabError as error:
             raise SourceError(str(error)) from error
 
@@ -93,6 +89,14 @@ class Devices(Source):
         if self.emir is not None:
             self.emir.close()
         self.lidar.close()
+
+    def _scan(self, turn):
+        """The turn as a scan from where it ended."""
+        scan = turn.scan(self.sensor.range_max, self.sensor.range_min, self.front)
+        if self.emir is None:
+            return scan
+        first, last = (self.emir.pose_at(float(t)) for t in turn.times[[0, -1]])
+        return deskewed(scan, turn.times, first, last)
 
     def _check(self):
         if self.emir is not None and self.emir.error is not None:

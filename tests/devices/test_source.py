@@ -2,10 +2,12 @@
 
 import numpy as np
 import pytest
+from hypothesis import given
 
 from slamlab import sources, worlds
 from slamlab.devices import source
 from slamlab.devices.clock import Clock
+from slamlab.devices.deskew import deskewed
 from slamlab.devices.emir import Calibration, Emir
 from slamlab.devices.emir.odometry import Odometry
 from slamlab.devices.emulator.body import COUNTS, Body
@@ -16,9 +18,10 @@ from slamlab.devices.errors import ConnectionLost
 from slamlab.devices.memory import MemoryPort
 from slamlab.devices.rplidar import Lidar
 from slamlab.devices.rplidar.turns import Turn
-from slamlab.geometry import between, compose
+from slamlab.geometry import between, compose, transform
+from slamlab.readings import Scan
 from slamlab.sources import SourceError
-from tests.laws import assert_same_pose
+from tests.laws import assert_same_pose, poses
 
 GONE = ConnectionLost("it is gone", "unplugged", "plug it in")
 
@@ -177,3 +180,26 @@ def test_live_the_readings_follow_the_robot():
         assert np.nanmedian(np.abs(ranges - scan.ranges)) < 0.02
     assert not body._speeds.any()
     assert machines["l"].requests[-1][1] == b"\0\0"  # PWM 0
+
+
+@given(poses, poses)
+def test_a_scan_taken_on_the_move_shows_the_room_as_seen_from_its_end(begin, motion):
+    motion = np.append(motion[:2] / 40, motion[2] / 3)  # half a metre and a radian at most
+    end, times = compose(begin, motion), np.linspace(7.0, 7.1, 200)
+    share = (times - 7.0) / 0.1
+    angles = np.linspace(0, -2 * np.pi, 200)
+    wall = transform(begin, 5 * np.column_stack([np.cos(2 * angles), np.sin(3 * angles)]))
+    seen = between(compose(begin, share[:, None] * motion), np.column_stack([wall, 0 * share]))
+    skewed = Scan(np.arctan2(seen[:, 1], seen[:, 0]), np.hypot(seen[:, 0], seen[:, 1]))
+    skewed.ranges[3] = np.nan
+    straight = deskewed(skewed, times, begin, end)
+    assert np.isnan(straight.ranges[3]) and straight.angles[3] == skewed.angles[3]
+    rest = np.arange(200) != 3
+    xy = np.column_stack([np.cos(straight.angles), np.sin(straight.angles)])
+    found = transform(end, (straight.ranges[:, None] * xy)[rest])
+    assert np.allclose(found, wall[rest], atol=1e-6)
+
+
+def test_a_scan_from_a_robot_that_stands_is_left_as_it_is():
+    scan, pose = turn(51.0).scan(), np.array([1.0, 2.0, 3.0])
+    assert deskewed(scan, turn(51.0).times, pose, pose) is scan
