@@ -51,7 +51,7 @@ class Emir:
     ):
         self.name, self.clock = port, clock or Clock()
         self.odometry = Odometry(calibration or Calibration(), saturates)
-        self.status, self.error, self._closed = None, None, False
+        self.status, self.error, self._closed, self._gone = None, None, False, False
         self._framer, self._counts = Framer(), Counter()
         self._writing, self._news = threading.RLock(), threading.Condition()
         self._frame = None  # the command that is repeated
@@ -164,15 +164,16 @@ class Emir:
 
     def close(self):
         """Stop the robot and let go of the port; may be called again."""
-        if self._closed:
+        self._closed = True  # from now on nobody sets it going
+        if self._gone:
             return
-        self._frame = None
-        with contextlib.suppress(SlamlabError):
+        with self._writing, contextlib.suppress(SlamlabError):
+            self._frame = None
             self._send(commands.move(0, 0), commands.stop(), commands.info(False))
             self.clock.sleep(0.01)
-        self._closed = True
         self._reader.stop()
         self._port.close()
+        self._gone = True  # a signal may have come on the way: then all of it is done again
         self._ended(None)
 
     def __enter__(self):
@@ -184,9 +185,11 @@ class Emir:
     def _command(self, frame, repeated=False):
         if self.error is not None:
             raise self.error
-        if self._closed:
-            raise ConnectionLost(f"eMIR on {self.name} is closed", "close() was called", "open it")
         with self._writing:
+            if self._closed:
+                raise ConnectionLost(
+                    f"eMIR on {self.name} is closed", "close() was called", "open it anew"
+                )
             self._frame = frame if repeated else None
             self._send(frame)
 
