@@ -1,9 +1,8 @@
 """A robot that was picked up: where it was put down, found by looking at all old keyframes.
 
 Where no scan fits what odometry says, a new piece of track begins, tied by odometry alone. As long
-as no loop ties it, its first keyframes are compared with old ones everywhere, some between two
-readings. Only where several say the
-same, and few anything else, is the piece moved.
+as no loop ties it, its keyframes are compared with old ones everywhere, some between two readings.
+Only where several say the same, and few anything else, is the piece moved.
 """
 
 from collections import deque
@@ -16,6 +15,7 @@ from slamlab.scanmatching import match
 
 LOOSE = np.diag([1e-6, 1e-6, 1e-3])  # information of a motion of which nothing is known
 FIRST = 6  # keyframes of a piece that are compared
+AGAIN = 4  # of the later ones every so many, until they say where they are
 SPARSE = 0.5  # of the reach: old keyframes nearer to each other than that show the same
 EACH = 3  # comparisons between two readings
 OVERLAP, AGREEMENT = 0.6, 0.9  # a place out of all must fit better than one that is expected
@@ -39,7 +39,8 @@ class Elsewhere:
         """Put a keyframe of a piece that is not tied on the list, with old ones from everywhere."""
         piece = self.keyframes[i].piece
         pieces = np.array([keyframe.piece for keyframe in self.keyframes[: i + 1]])
-        if piece in self.loops.tied or np.count_nonzero(pieces == piece) > FIRST:
+        asked = np.count_nonzero(pieces == piece)
+        if piece in self.loops.tied or (asked > FIRST and asked % AGAIN):
             return
         kept = []
         for j in np.flatnonzero(pieces < piece):
@@ -79,7 +80,6 @@ class Elsewhere:
         asked = sum(keyframe.piece == piece for keyframe in self.keyframes)
         if asked < FIRST or piece in self.loops.tied:
             return
-        self._answers = []
         groups = []
         for answer in answers:
             group = next((g for g in groups if alike(g[0], answer)), None)
@@ -90,9 +90,8 @@ class Elsewhere:
         groups.sort(key=voters)
         sizes = [0, *map(voters, groups)]
         if sizes[-1] >= ENOUGH and sizes[-1] > sizes[-2] + 1:
+            self._answers = []
             self._put_down([answer[-1] for answer in groups[-1]], groups[-1][0][1])
-        else:
-            self.loops.counts["times nobody knows where"] += 1
 
     def _put_down(self, edges, shift):
         """Move a piece, tie it by what was found, and let go of odometry's tie."""

@@ -29,7 +29,7 @@ STEP, TURN = 0.12, 0.35  # a keyframe every so many reaches of the scans, and ev
 THIN = 0.6  # overlap with the local map below which a keyframe comes early
 SLACK = 0.03, 0.1, 0.15  # deviation that any odometry may have: reaches, of the way, rad
 FAR_OFF = 16.3  # χ² of 3 degrees: beyond it a match and the odometry cannot both be right
-BLUR = 1.0  # of the scans' noise: what matches have in common and no covariance of one knows
+BLUR = 0.5  # of the scans' noise: what matches have in common and no covariance of one knows
 DRIFT = 0.003, 0.03, 0.005, 0.05  # odometry's own: reaches, reaches a turn, rad, of the turn
 PAUSE = 5.0  # times the usual time between readings: a gap
 

@@ -2,7 +2,7 @@
 
 from slamlab.worlds.arena import arena, table_legs
 from slamlab.worlds.files import load, parse, save, text_of
-from slamlab.worlds.rooms import corridor, polygon, room
+from slamlab.worlds.rooms import corridor, polygon, room, twins
 from slamlab.worlds.shapes import box, ring
 from slamlab.worlds.situations import situation_1, situation_2
 
@@ -22,11 +22,13 @@ __all__ = [
     "situation_2",
     "table_legs",
     "text_of",
+    "twins",
 ]
 
 WORLDS = {
     "room": room,
     "corridor": corridor,
+    "twins": twins,
     "polygon": polygon,
     "situation-1": situation_1,
     "situation-2": situation_2,

@@ -1,4 +1,4 @@
-"""Rooms for a lidar: a living room, a corridor that closes, Tuček's polygon."""
+"""Rooms for a lidar: a living room, a corridor that closes, twin rooms, Tuček's polygon."""
 
 import numpy as np
 
@@ -37,6 +37,29 @@ def corridor():
     cupboards = [box((9.3, -0.8), (1.2, 0.4)), box((11.2, 5.6), (0.4, 0.9))]
     pillars = [(1.3, 0.85, 0.15), (4.9, 8.8, 0.2), (-1.85, 1.9, 0.15)]
     return World(np.concatenate([ring(outer), ring(block), *cupboards]), pillars, "corridor")
+
+
+def twins():
+    """Two rooms alike to the last chair, side by side off one corridor: a trap for loop closure."""
+    corridor = [
+        [(-2.0, -1.0), (15.0, -1.0)],
+        [(15.0, -1.0), (15.0, 1.0)],
+        [(15.0, 1.0), (10.5, 1.0)],
+        [(9.5, 1.0), (3.5, 1.0)],
+        [(2.5, 1.0), (-2.0, 1.0)],
+        [(-2.0, 1.0), (-2.0, -1.0)],
+    ]
+    walls, pillars = [np.array(corridor).reshape(-1, 4), box((-1.7, 0.7), (0.4, 0.4))], []
+    for x in (0.0, 7.0):
+        doors = [(x + 3.5, 1.0), (x + 3.5, 1.2), (x + 6.0, 1.2), (x + 6.0, 6.0), (x, 6.0)]
+        shell = ring([*doors, (x, 1.2), (x + 2.5, 1.2), (x + 2.5, 1.0)])[:-1]  # the last is open
+        table, shelf = (
+            box((x + 1.2, 4.6), (1.4, 0.8), np.radians(25)),
+            box((x + 5.5, 3.0), (0.6, 1.6)),
+        )
+        walls += [shell, table, shelf]
+        pillars.append((x + 3.9, 5.2, 0.25))
+    return World(np.concatenate(walls), pillars, "twins")
 
 
 def polygon():
