@@ -9,7 +9,7 @@ from importlib import import_module
 
 from slamlab import __version__
 
-COMMANDS = ("run", "convert", "emulate", "check", "grade", "marks")
+COMMANDS = ("run", "convert", "emulate", "record", "replay", "check", "grade", "marks")
 SECOND_WORDS = {"grade": ("merge", "adjust", "export")}
 """Words that make a command of two; a folder of such a name is given as ./merge."""
 

@@ -13,24 +13,11 @@ def add_parser(subparsers):
         description=(
             "Emulate an RPLIDAR A2M8 on an eMIR in a world. Programs open the two ports that are "
             "printed as if the devices hung there. Runs until Ctrl-C; faults can be typed "
-            "meanwhile: 'help' lists them."
+            "meanwhile: any other word lists them."
         ),
     )
     parser.add_argument("--world", metavar="WORLD", default="polygon", help="a ready world or file")
-    parser.add_argument(
-        "--tcp", action="store_true", help="TCP instead of pseudo-terminals (Windows, remote use)"
-    )
-    parser.add_argument(
-        "--host", metavar="HOST", default="127.0.0.1", help="where to listen (127.0.0.1)"
-    )
-    parser.add_argument(
-        "--ports",
-        metavar="N",
-        nargs=2,
-        type=int,
-        default=(0, 0),
-        help="TCP ports of lidar and eMIR; any that are free by default",
-    )
+    add_ports(parser)
     parser.add_argument("--firmware", metavar="X.Y", default="1.29", help="the lidar's (1.29)")
     parser.add_argument(
         "--typical", metavar="MODE", type=int, default=2, help="0 standard, 1 express, 2 boost (2)"
@@ -63,7 +50,6 @@ def run(arguments) -> int:
 
     try:
         rng = generator(arguments.seed)
-        tcp = (arguments.host, *arguments.ports) if arguments.tcp else None
         options = {"firmware": _version(arguments.firmware), "typical": arguments.typical}
         if not 0 <= arguments.typical <= 2:
             raise ValueError(f"--typical is 0, 1 or 2, not {arguments.typical}")
@@ -71,7 +57,7 @@ def run(arguments) -> int:
         running = bench(
             _world(arguments.world),
             rng,
-            tcp,
+            tcp_of(arguments),
             lidar=options | {"spinning": not arguments.stopped},
             emir=robot,
         )
@@ -89,6 +75,29 @@ def run(arguments) -> int:
         return listen(running, lambda text: switch(running, text, rng))
 
 
+def add_ports(parser):
+    """Add the words that say what the ports are to be."""
+    parser.add_argument(
+        "--tcp", action="store_true", help="TCP instead of pseudo-terminals (Windows, remote use)"
+    )
+    parser.add_argument(
+        "--host", metavar="HOST", default="127.0.0.1", help="where to listen (127.0.0.1)"
+    )
+    parser.add_argument(
+        "--ports",
+        metavar="N",
+        nargs=2,
+        type=int,
+        default=(0, 0),
+        help="TCP ports of lidar and eMIR; any that are free by default",
+    )
+
+
+def tcp_of(arguments):
+    """Where to listen, as a bench takes it."""
+    return (arguments.host, *arguments.ports) if arguments.tcp else None
+
+
 def announce(running):
     """Say which ports there are.
 
@@ -102,22 +111,22 @@ def announce(running):
     print("Ctrl-C ends it.", flush=True)
 
 
-def listen(running, act):
+def listen(running, act=None):
     """Do what is typed, until Ctrl-C.
 
     Parameters
     ----------
     running : Bench
-    act : callable(text), raises ValueError
-    """
-    from slamlab.devices.emulator.switches import HELP
+    act : callable(text) that raises ValueError, or None where typing does nothing
 
+    Returns
+    -------
+    int, 0
+    """
     with contextlib.suppress(KeyboardInterrupt):
-        for line in sys.stdin:
+        for line in sys.stdin if act is not None else ():
             try:
-                if line.strip() in ("help", "?"):
-                    print(HELP, flush=True)
-                elif line.strip():
+                if line.strip():
                     act(line)
             except ValueError as error:
                 print(error, file=sys.stderr)

@@ -102,20 +102,34 @@ def bench(world, rng, tcp=None, lidar=None, emir=None, body=None):
         LIDAR: RplidarMachine(Sight(robot, rng), rng=damage, **(lidar or {})),
         EMIR: EmirMachine(robot, rng=damage, **(emir or {})),
     }
-    running = Bench(_wired(machines, tcp))
+    running = Bench(wired(machines, tcp))
     running.body = robot
     return running
 
 
-def _wired(devices, tcp):
-    """Each device with an end of its own."""
-    wired = {}
-    host, *ports = tcp or (None, None, None)
+def wired(devices, tcp=None):
+    """Give each device an end of its own.
+
+    Parameters
+    ----------
+    devices : dict by name
+    tcp : (host, a port each) to listen on, or None for pseudo-terminals
+
+    Returns
+    -------
+    dict of (device, End) by name
+
+    Raises
+    ------
+    PortError
+    """
+    pairs = {}
+    host, *ports = tcp or (None, *[None] * len(devices))
     try:
-        for (name, device), port in zip(devices.items(), ports, strict=True):
-            wired[name] = device, PtyEnd(name) if tcp is None else TcpEnd(host, port)
+        for (name, device), port in zip(devices.items(), ports, strict=False):
+            pairs[name] = device, PtyEnd(name) if tcp is None else TcpEnd(host, port)
     except BaseException:
-        for _, end in wired.values():
+        for _, end in pairs.values():
             end.close()
         raise
-    return wired
+    return pairs

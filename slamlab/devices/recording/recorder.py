@@ -1,0 +1,170 @@
+"""Write down what goes over the ports of devices while programs use them."""
+
+import contextlib
+import gzip
+import shutil
+import threading
+from datetime import UTC, datetime
+from pathlib import Path
+
+from slamlab import __version__
+from slamlab.devices.clock import Clock
+from slamlab.devices.errors import ConnectionLost
+from slamlab.devices.recording.records import EVENT, LONGEST, RX, TX, Record, header_line
+from slamlab.devices.transport import Transport, open_port
+
+FLUSH = 1.0  # so much is lost at most when the machine fails [s]
+
+
+class Recorder:
+    """A raw recording that is being made; only ever appended to.
+
+    Where the name ends in .gz the file is packed when it is closed, and has no .gz until then.
+
+    Parameters
+    ----------
+    path : str or Path, of a file that is not there yet
+    devices : dict by channel, "lidar" or "emir", of what is known: port, baud
+    clock : Clock, the drivers' one
+
+    ``error`` is why it could not write on, if so: the devices go on.
+
+    Raises
+    ------
+    FileExistsError, OSError
+    """
+
+    def __init__(self, path, devices, clock=None):
+        path = Path(path)
+        self.clock, self.error = clock or Clock(), None
+        self._packed = path if path.suffix == ".gz" else None
+        self.path = path.with_suffix("") if self._packed else path
+        if self._packed and path.exists():
+            raise FileExistsError(17, "File exists", str(path))
+        self._file, self._lock = self.path.open("xb"), threading.Lock()
+        self._flushed = self.clock.now()
+        header = {
+            "slamlab": __version__,
+            "created": datetime.now(UTC).isoformat(timespec="seconds"),
+            "monotonic_ns": self._now(),
+            "devices": devices,
+        }
+        self._file.write(header_line(header))
+        self._file.flush()
+
+    def opener(self, channel, opener=open_port):
+        """What opens a port so that all that goes over it is recorded.
+
+        Parameters
+        ----------
+        channel : str, "lidar" or "emir"
+        opener : callable(name, baud) -> Transport
+
+        Returns
+        -------
+        callable(name, baud) -> Transport, as drivers take it
+        """
+
+        def opened(name, baud):
+            port = RecordedPort(opener(name, baud), self, channel)
+            self.event(channel, f"opened {name} at {baud} baud")
+            return port
+
+        return opened
+
+    def event(self, channel, text):
+        """Write down that something happened."""
+        self.put(EVENT, channel, text.encode())
+
+    def put(self, kind, channel, data):
+        """Write down bytes, of now.
+
+        Parameters
+        ----------
+        kind : RX, TX or EVENT
+        channel : str
+        data : bytes
+        """
+        with self._lock:
+            if self._file is None or self.error is not None:
+                return
+            try:
+                for at in range(0, len(data) or 1, LONGEST):
+                    record = Record(kind, channel, self._now(), data[at : at + LONGEST])
+                    self._file.write(record.pack())
+                if self.clock.now() - self._flushed >= FLUSH:
+                    self._file.flush()
+                    self._flushed = self.clock.now()
+            except OSError as error:
+                self.error = error
+
+    def close(self):
+        """End the recording; may be called again."""
+        with self._lock:
+            file, self._file = self._file, None
+            if file is None:
+                return
+            try:
+                file.close()
+                if self._packed is not None:
+                    with self.path.open("rb") as plain, gzip.open(self._packed, "xb") as packed:
+                        shutil.copyfileobj(plain, packed)
+                    self.path.unlink()
+                    self.path = self._packed
+            except OSError as error:
+                self.error = self.error or error
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *exc):
+        self.close()
+
+    def _now(self):
+        return round(self.clock.now() * 1e9)
+
+
+class RecordedPort(Transport):
+    """A port of which every byte is written down, in the pieces in which it was read.
+
+    Parameters
+    ----------
+    port : Transport
+    recorder : Recorder
+    channel : str
+    """
+
+    def __init__(self, port, recorder, channel):
+        self._port, self._recorder, self._channel = port, recorder, channel
+        self.name, self.baud = port.name, port.baud
+
+    def read(self, n, timeout):
+        """See :meth:`Transport.read`."""
+        with self._watched():
+            data = self._port.read(n, timeout)
+        if data:
+            self._recorder.put(RX, self._channel, data)
+        return data
+
+    def write(self, data):
+        """See :meth:`Transport.write`."""
+        self._recorder.put(TX, self._channel, bytes(data))  # before it: answers come after
+        with self._watched():
+            self._port.write(data)
+
+    def set_dtr(self, on):
+        """See :meth:`Transport.set_dtr`."""
+        return self._port.set_dtr(on)
+
+    def close(self):
+        """See :meth:`Transport.close`."""
+        self._port.close()
+        self._recorder.event(self._channel, "closed")
+
+    @contextlib.contextmanager
+    def _watched(self):
+        try:
+            yield
+        except ConnectionLost as error:
+            self._recorder.event(self._channel, f"gap: {error.what}")
+            raise
