@@ -1,6 +1,7 @@
 """Decoders give the nodes that Slamtec's SDK gives, at any cut, and survive whatever comes."""
 
 import json
+import struct
 from pathlib import Path
 
 import numpy as np
@@ -183,9 +184,25 @@ GOOD = {
 }
 
 
-@pytest.mark.parametrize("answer", [Answer.EXPRESS, Answer.ULTRA])
-def test_capsules_lost_whole_leave_a_gap_not_stretched_angles(answer):
+@pytest.mark.parametrize("lost", [1, 2, 3, 4])
+@pytest.mark.parametrize("at", [1000, 1001, 1002, 1003, 1004])
+def test_distances_that_look_like_nodes_do_not_lead_out_of_step(at, lost):
+    """Read from its fourth byte on this stream has all marks of nodes, at one angle for ever."""
+    rows = [struct.pack("<BHH", 0x3E, 117 * k % TURN << 1 | 1, 8001) for k in range(1000)]
+    data = b"".join(rows)
+    nodes, _ = decoded(Answer.SCAN, data[:at] + data[at + lost :])
+    assert (nodes["distance_q2"] != 8001).sum() <= 4
+    assert len(nodes) >= 990
+
+
+@pytest.mark.parametrize("odd", [0, 7])
+@pytest.mark.parametrize(
+    ("answer", "lost"),
+    [(Answer.EXPRESS, 1), (Answer.EXPRESS, 12), (Answer.EXPRESS, 13), (Answer.ULTRA, 2)],
+)
+def test_capsules_lost_whole_leave_a_gap_not_wrong_angles(answer, lost, odd):
+    """Twelve capsules are nearly a turn, so that the next one seems to follow."""
     data, size = ROUGH[answer], DECODERS[answer].size
-    nodes, _ = decoded(answer, data[: 9 * size] + data[11 * size :])
+    nodes, _ = decoded(answer, data[: 9 * size] + data[(9 + lost) * size + odd :])
     assert nodes["after_gap"].sum() == 1
     assert set(nodes[["angle_q6", "distance_q2"]].tolist()) <= GOOD[answer]

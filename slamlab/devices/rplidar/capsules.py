@@ -13,7 +13,7 @@ from slamlab.devices.rplidar.nodes import NODE, NOTHING, TURN, Decoder
 
 QUALITY = 0x2F  # of a point that has a distance: capsules carry none
 HEADER = 4  # bytes before the distances
-LEAP = 1.5  # a capsule that turns so much farther than the one before follows a lost one
+LEAP = 1.3  # a capsule that turns so much more or less than the one before follows lost ones
 
 
 class CapsuleDecoder(Decoder):
@@ -75,7 +75,8 @@ class CapsuleDecoder(Decoder):
             return NOTHING
         start = _start_q8(previous)
         turned = (_start_q8(capsule) - start) % (TURN << 2)
-        leapt = self._turned is not None and turned > LEAP * self._turned
+        before = self._turned or turned
+        leapt = not before <= LEAP * turned <= LEAP**2 * before
         self._turned = turned
         if leapt:
             self._gap = True

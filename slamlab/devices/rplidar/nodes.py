@@ -20,6 +20,7 @@ NODE = np.dtype(
 )
 BLOCK = 1024  # bytes decoded at a time: the work stays proportional to what comes
 NOTHING = np.empty(0, NODE)
+UNLIKE = np.array([-1, -2, -3])  # angles that no node has
 
 
 class Decoder:
@@ -76,7 +77,8 @@ class ScanDecoder(Decoder):
 
     The first byte holds S, not S and quality, the next two C = 1 and the angle, the last two the
     distance. A quarter of all random bytes passes those marks, so that a step once lost is taken
-    up again only where RUN nodes in a row fit and their angles advance a little each.
+    up again only where RUN nodes in a row fit and their angles advance a little; and where RUN
+    angles in a row are the same, equal distances are being read as nodes: the step is lost.
     """
 
     size = 5
@@ -87,6 +89,7 @@ class ScanDecoder(Decoder):
     def __init__(self):
         super().__init__()
         self._in_step, self._gap = True, False
+        self._before = UNLIKE
 
     def _decode(self):
         while len(self._buffer) >= (self.size if self._in_step else self.WINDOW):
@@ -99,7 +102,7 @@ class ScanDecoder(Decoder):
         """The nodes up to the first that cannot be one."""
         rows = np.frombuffer(self._buffer, np.uint8, len(self._buffer) // 5 * 5).reshape(-1, 5)
         flags, angle = rows[:, 0], _u16(rows[:, 1], rows[:, 2])
-        bad = np.flatnonzero(~_plausible(flags, angle))
+        bad = np.flatnonzero(~_plausible(flags, angle) | self._same(angle))
         n = int(bad[0]) if len(bad) else len(rows)
         nodes = np.empty(n, NODE)
         nodes["angle_q6"] = angle[:n] >> 1
@@ -111,10 +114,16 @@ class ScanDecoder(Decoder):
             nodes["after_gap"][0], self._gap = self._gap, False
         self._buffer = self._buffer[5 * n :]
         if len(bad):
-            self._in_step, self._gap = False, True
+            self._in_step, self._gap, self._before = False, True, UNLIKE
             self.damage["resyncs"] += 1
             self._drop(1)
         return nodes
+
+    def _same(self, angle):
+        """(n,) bool: where the angle is that of the three nodes before."""
+        run = np.concatenate([self._before, angle])
+        self._before = run[1 - self.RUN :]
+        return (run[3:] == run[2:-1]) & (run[3:] == run[1:-2]) & (run[3:] == run[:-3])
 
     def _search(self):
         """Drop bytes up to where the step is found, or as far as can be decided."""
