@@ -742,6 +742,7 @@ for name, (error, value, _) in found.items():
 # | and bad at | fine sensors, many dimensions, changing their mind |
 # | sets with random partners | cheap, not much worse, and far too sure |
 #
-# **Next:** lesson 12 lets boxes, ellipses and samples drive the same robot.
+# **Next:** in [12 · Three filters, one robot](12_three_filters.ipynb) boxes, ellipses and samples
+# drive the same robot.
 #
 # **Exercise:** [samples](../exercises/11_samples.ipynb).
