@@ -128,6 +128,15 @@ def test_a_frame_with_a_flipped_bit_is_no_frame():
                 assert not Framer(STATUS).feed(TOLD[:at] + bytes([digit]) + TOLD[at + 1 :])
 
 
+@pytest.mark.parametrize("n", range(1, len(TOLD)))
+def test_a_frame_cut_short_does_not_take_the_next_one_with_it(n):
+    framer = Framer(STATUS)
+    assert framer.feed(TOLD[:n] + TOLD + RECORDED[0]) == [
+        bytes.fromhex(frame[1:-3].decode()) for frame in (TOLD, RECORDED[0])
+    ]
+    assert framer.damage["bytes dropped"] == n
+
+
 @given(st.lists(st.integers(-127, 127), max_size=60), bytes_)
 def test_counters_that_run_over_are_unwrapped(steps, first):
     counter, value = Counter8(), first
