@@ -27,9 +27,12 @@ FEWEST = 10  # points without which a scan tells nothing
 RECENT = 15  # keyframes in the local map
 STEP, TURN = 0.12, 0.35  # a keyframe every so many reaches of the scans, and every such turn [rad]
 THIN = 0.6  # overlap with the local map below which a keyframe comes early
+UNTOLD = 1.0  # turn that standing still is taken for: it may be that nobody counts the wheels [rad]
 SLACK = 0.03, 0.1, 0.15  # deviation that any odometry may have: reaches, of the way, rad
+TRACKED = 0.4, 0.65  # overlap and agreement of a match that odometry backs
+STRANGE = 0.75  # agreement below which odometry may not be what brought the robot here
 FAR_OFF = 16.3  # χ² of 3 degrees: beyond it a match and the odometry cannot both be right
-BLUR = 0.5  # of the scans' noise: what matches have in common and no covariance of one knows
+BLUR = 0.7  # of the scans' noise: what matches have in common and no covariance of one knows
 DRIFT = 0.003, 0.03, 0.005, 0.05  # odometry's own: reaches, reaches a turn, rad, of the turn
 PAUSE = 5.0  # times the usual time between readings: a gap
 
@@ -42,7 +45,7 @@ class Keyframe:
     ----------
     surface : Surface
     scan : Scan
-    piece : int, which stretch it belongs to; a new one begins where nothing matched
+    piece : int, which stretch it belongs to; a new one begins where nothing fits
     """
 
     surface: Surface
@@ -71,8 +74,8 @@ class GraphSlam(Estimator):
             np.zeros(3),
             np.zeros((3, 3)),
         )  # as seen from the last keyframe
-        self._map, self._reach = None, 0.0
-        self._anchors, self._ways, self._naive = [], [], []
+        self._map, self._reach, self._strange = None, 0.0, False
+        self.anchors, self._ways, self._naive = [], [], []
 
     def step(self, reading):
         """Take a reading in: predict by odometry, match, keep or not, look for loops.
@@ -92,7 +95,7 @@ class GraphSlam(Estimator):
         if self.loops is not None:
             self.loops.work()
             self.elsewhere.work()
-        self._anchors.append(len(self.keyframes) - 1)
+        self.anchors.append(len(self.keyframes) - 1)
         self._ways.append(self._relative)
         self._naive.append(self.naive_pose)
         self.pose = compose(self._anchor(), self._relative)
@@ -106,7 +109,7 @@ class GraphSlam(Estimator):
             return super().trajectory()
         if self.loops is not None:
             self.loops.settle()
-        anchors, ways = np.array(self._anchors), np.array(self._ways)
+        anchors, ways = np.array(self.anchors), np.array(self._ways)
         poses = compose(self.graph.poses[np.maximum(anchors, 0)], ways)
         poses[anchors < 0] = ways[anchors < 0]
         return Trajectory(np.array(self._times), poses)
@@ -114,7 +117,7 @@ class GraphSlam(Estimator):
     def layers(self):
         """Map and track by odometry alone and as corrected, and the loops that were closed."""
         poses, shown = self.graph.poses, self.trajectory().poses
-        firsts = np.unique(self._anchors, return_index=True)[1][-len(self.keyframes) or None :]
+        firsts = np.flatnonzero(np.diff(self.anchors, prepend=-1) > 0)
         naive = np.array(self._naive).reshape(-1, 3)
         clouds = [keyframe.surface.points for keyframe in self.keyframes]
         loops = [(e.i, e.j) for e in self.graph.edges if e.robust]
@@ -162,7 +165,7 @@ class GraphSlam(Estimator):
         A[:2, 2] = before[1] - self._relative[1], self._relative[0] - before[0]
         self._doubt = A @ self._doubt @ A.T + Q_arc(before, odometry, self.robot)
         # the scanner need not sit where the odometry's frame turns
-        turn = abs(odometry[2])
+        turn = abs(odometry[2]) if odometry.any() else UNTOLD  # or there is no odometry at all
         way = (DRIFT[0] + DRIFT[1] * turn) * self._reach
         self._doubt += np.diag(np.square([way, way, DRIFT[2] + DRIFT[3] * turn]))
 
@@ -172,10 +175,10 @@ class GraphSlam(Estimator):
             self._keep(seen, scan)
             return
         found = self._matched(seen)
-        if found is None:  # odometry alone ties what follows to what was before
+        if found is None:  # odometry alone ties what follows, if that was a way at all
             self.counts["not matched"] += 1
             slack = self._slack(seen)
-            self._keep(seen, scan, np.linalg.inv(self._doubt + slack), piece=1)
+            self._keep(seen, scan, np.linalg.inv(self._doubt + slack), self._strange)
             return
         self._correct(found, seen)
         gone = np.hypot(*self._relative[:2]) > STEP * seen.reach
@@ -185,11 +188,15 @@ class GraphSlam(Estimator):
     def _matched(self, seen):
         """The scan on the local map, or None where nothing that odometry allows fits."""
         allowed = np.linalg.inv(self._doubt + self._slack(seen))
+        agreements = []
         for target, search in ((self._map, 0), (self.keyframes[-1].surface, 0), (self._map, 0.8)):
             found = match(seen, target, self._relative, search=search)
             off = difference(found.pose, self._relative)
-            if found.good and off @ allowed @ off < FAR_OFF:
+            sure = found.converged and found.fit.overlap > TRACKED[0]
+            if sure and found.fit.agreement > TRACKED[1] and off @ allowed @ off < FAR_OFF:
                 return found
+            agreements.append(found.fit.agreement)
+        self._strange = max(agreements[:2]) < STRANGE  # the searched one fits anywhere
         return None
 
     def _slack(self, seen):
@@ -205,9 +212,9 @@ class GraphSlam(Estimator):
         self._relative = np.array([x[0], x[1], wrap(float(x[2]))])
         self._doubt = (P - K @ P + (P - K @ P).T) / 2
 
-    def _keep(self, seen, scan, information=None, piece=0):
-        """Make a scan a keyframe, tied to the last one by what was measured."""
-        piece += self.keyframes[-1].piece if self.keyframes else 0
+    def _keep(self, seen, scan, information=None, new=False):
+        """Make a scan a keyframe, tied to the last one by what was measured; new: a new piece."""
+        piece = self.keyframes[-1].piece + int(new) if self.keyframes else 0
         i = self.graph.add_pose(compose(self._anchor(), self._relative))
         if i:
             self.graph.add_edge(i - 1, i, self._relative, information)

@@ -14,9 +14,8 @@ BESIDE = 4.0  # times the spacing: so far along a wall its next point may be
 LEAST = 10  # pairs, or a tenth of the points where that is more
 UNSEEN = 1e-4  # an eigenvalue below this share of their sum is none
 PRETENDED = 3.0  # times the information that the normals' noise makes up: more is real
-CALM = 12  # rounds after which who comes back to where he was goes in circles and may rest there
+CALM, SPOT = 10, 0.5  # who got no farther in so many rounds than this share of the noise may rest
 UNIT = np.eye(3)
-CIRCLE = 8  # rounds that a circle may take
 REST = 0.2  # of the standard deviation that noise leaves: a step below it changes nothing
 
 
@@ -112,16 +111,17 @@ def align(source, target, pose, rounds, watch=None):
         if rest or done == rounds or len(sizes) < enough:
             return pairs, done, rest, width, fixed
         spread = 1.4826 * median(sizes)
+        if done >= CALM:  # what does not settle is not as sharp as its noise: a scan on the move
+            noise = max(noise, spread)
         width = max(2 * noise, min(SHRINK * width, 2 * spread))
         w = weights(pairs, width, width < 6 * noise)
         step, fixed = gauss_newton(pairs, w, target)
         before.append(pose)
         pose = pose[0] + step[0], pose[1] + step[1], pose[2] + step[2] / source.reach
-        # who creeps along a wall that holds him badly is not let rest
-        still = REST * noise / np.sqrt(len(sizes))
-        last = before[-1:] if done < CALM else before[-CIRCLE:]
-        narrow = width <= 2.5 * noise + 1.5 * spread
-        rest = narrow and any(way(pose, other, source.reach) < still for other in last)
+        still = way(pose, before[-1], source.reach) < REST * noise / np.sqrt(len(sizes))
+        # pairs that flip to and fro keep it moving on the spot; who creeps along a wall gets away
+        flips = done >= CALM and way(pose, before[-CALM], source.reach) < SPOT * noise
+        rest = (still or flips) and width <= 2.5 * noise + 1.5 * spread
     raise AssertionError("the last round returns")
 
 

@@ -1,0 +1,232 @@
+"""Graph SLAM: loops close where they are and nowhere else, and nothing that comes in stops it."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from slamlab import estimators, sources, worlds
+from slamlab.estimators.graph import GraphSlam
+from slamlab.geometry import between, compose
+from slamlab.hardware import RobotModel
+from slamlab.readings import Reading, Scan
+from slamlab.runner import run
+from slamlab.scanmatching import match, surface
+from slamlab.scanmatching.localmap import merged
+from slamlab.sensors import RPLIDAR_A2, Scanner
+from slamlab.world import World
+from slamlab.worlds import ring
+
+EMPTY = Scan(np.linspace(-3, 3, 400), np.full(400, np.nan))
+POINT = Scan(np.array([0.3]), np.array([1.5]))
+
+
+def toured(name, seed=0, change=None):
+    """Readings of a tour, changed if asked for, its true poses, and the estimator after them."""
+    source = sources.open(f"sim:{name}", np.random.default_rng(seed))
+    readings, truth = list(source), source.truth.poses
+    if change is not None:
+        readings, truth = change(readings, truth)
+    slam = GraphSlam(source.robot)
+    for reading in readings:
+        slam.step(reading)
+    return slam, truth
+
+
+def errors(slam, truth):
+    """(n,) how far each pose is from the true one, both seen from the first [m]."""
+    poses = slam.trajectory().poses
+    e = between(between(truth[0], truth), between(poses[0], poses))
+    return np.hypot(e[:, 0], e[:, 1])
+
+
+def false_loops(slam, truth):
+    """How many loops are not what the true poses say."""
+    true = truth[np.flatnonzero(np.diff(slam.anchors, prepend=-1) > 0)]
+    loops = [e for e in slam.graph.edges if e.robust]
+    off = [between(between(true[e.i], true[e.j]), e.measured) for e in loops]
+    return sum(np.hypot(x, y) > 0.15 or abs(turn) > 0.1 for x, y, turn in off), len(loops)
+
+
+def test_the_corridor_closes():
+    slam, truth = toured("corridor")
+    end = errors(slam, truth)[-1]
+    false, loops = false_loops(slam, truth)
+    assert end < 0.02
+    assert errors(slam, truth).max() < 0.1
+    assert false == 0
+    assert loops > 0
+
+
+def test_without_loops_it_drifts_more():
+    with_loops, truth = toured("corridor", 3)
+    alone = GraphSlam(with_loops.robot, loops=False)
+    for reading in sources.open("sim:corridor", np.random.default_rng(3)):
+        alone.step(reading)
+    assert errors(with_loops, truth)[-1] < errors(alone, truth)[-1]
+    assert not any(edge.robust for edge in alone.graph.edges)
+
+
+def test_of_two_rooms_alike_none_is_taken_for_the_other():
+    slam, truth = toured("twins")
+    false, loops = false_loops(slam, truth)
+    assert false == 0
+    assert loops > 5
+    assert errors(slam, truth).max() < 0.05
+
+
+@pytest.mark.parametrize("name", ["room", "situation-1", "situation-2"])
+def test_a_tour_comes_out_near_the_truth_by_the_same_parameters(name):
+    slam, truth = toured(name, 1)
+    assert errors(slam, truth).max() < 0.06
+    assert slam.counts["not matched"] == 0
+
+
+def test_it_is_an_estimator_as_the_others_are():
+    source = sources.open("sim:room", np.random.default_rng(0))
+    slam = estimators.make("graph", source)
+    result = run(source, slam)
+    assert np.allclose(result.trajectory.poses[-1], slam.trajectory().poses[-1])
+    assert len(result.trajectory) == len(source)
+    shown = {(type(layer).__name__, layer.name) for layer in slam.layers()}
+    assert {("Points", "naive"), ("Points", "corrected"), ("Poses", "corrected")} <= shown
+    assert "keyframes" in slam.status
+
+
+def test_the_grid_shows_walls_where_they_are():
+    slam, _ = toured("room")
+    grid = slam.grid(0.05)
+    cells = np.argwhere(grid.states == 1)[:, ::-1]
+    centres = grid.origin + grid.resolution * (cells + 0.5)
+    walls = worlds.room().outline()
+    a, way = walls[:, :2], walls[:, 2:] - walls[:, :2]
+    share = np.einsum("nij,ij->ni", centres[:, None] - a, way) / np.sum(way**2, axis=1)
+    feet = a + np.clip(share, 0, 1)[..., None] * way
+    away = np.linalg.norm(centres[:, None] - feet, axis=2).min(axis=1)
+    assert len(cells) > 300
+    assert np.mean(away < 0.1) > 0.95
+
+
+def damaged(kind):
+    """A change of a tour's readings and true poses."""
+
+    def change(readings, truth):
+        middle = len(readings) // 2
+        if kind == "empty scans":
+            for i in range(middle, middle + 4):
+                readings[i] = replace(readings[i], scan=EMPTY)
+        elif kind == "one-point scans":
+            for i in range(3, len(readings), 7):
+                readings[i] = replace(readings[i], scan=POINT)
+        elif kind == "no scans":
+            for i in range(0, len(readings), 3):
+                readings[i] = replace(readings[i], scan=None)
+        elif kind == "a gap":
+            readings = [
+                replace(r, time=r.time + (10.0 if i >= middle else 0.0))
+                for i, r in enumerate(readings)
+            ]
+        elif kind == "stamps repeated":
+            readings[middle] = replace(readings[middle], time=readings[middle - 1].time)
+        elif kind == "stamps going back":
+            readings[middle] = replace(readings[middle], time=readings[middle - 9].time)
+        elif kind == "odometry not finite":
+            readings[middle] = replace(readings[middle], odometry=np.full(3, np.nan))
+        return readings, truth
+
+    return change
+
+
+@pytest.mark.parametrize(
+    ("kind", "counted"),
+    [
+        ("empty scans", ""),
+        ("one-point scans", ""),
+        ("no scans", ""),
+        ("a gap", "gaps"),
+        ("stamps repeated", "stamps repeated"),
+        ("stamps going back", "stamps going back"),
+        ("odometry not finite", "odometries not finite"),
+    ],
+)
+def test_it_goes_on_counts_and_says_so_whatever_comes_in(kind, counted):
+    slam, truth = toured("room", 2, damaged(kind))
+    assert errors(slam, truth).max() < 0.2
+    assert errors(slam, truth)[-1] < 0.05
+    if counted:
+        assert slam.counts[counted] >= 1
+        assert counted in slam.status
+    if kind == "empty scans":
+        assert slam.skipped == 4
+    if kind == "one-point scans":
+        assert slam.skipped == len(range(3, len(truth), 7))
+    if kind == "no scans":
+        assert slam.skipped == 0
+
+
+def test_nothing_but_empty_scans_is_odometry():
+    slam, poses = GraphSlam(RobotModel()), [np.zeros(3)]
+    for i in range(5):
+        slam.step(Reading(float(i), np.array([0.1, 0.0, 0.1]), EMPTY))
+        poses.append(compose(poses[-1], [0.1, 0.0, 0.1]))
+    assert np.allclose(slam.trajectory().poses, poses[1:])
+    assert slam.skipped == 5
+    assert slam.layers()
+
+
+@pytest.mark.parametrize("name", ["room", "situation-1"])
+def test_a_robot_put_down_elsewhere_is_found_there(name):
+    def put_down(readings, truth):
+        away, back = int(0.7 * len(readings)), int(0.3 * len(readings))
+        order = [*range(away), *range(back, len(readings))]
+        moved = [replace(readings[i], time=0.5 * k) for k, i in enumerate(order)]
+        moved[away] = replace(moved[away], odometry=np.zeros(3))
+        return moved, truth[order]
+
+    slam, truth = toured(name, 0, put_down)
+    assert slam.counts["times put down elsewhere"] == 1
+    assert "put down elsewhere" in slam.status
+    assert np.median(errors(slam, truth)[-20:]) < 0.1
+
+
+def test_a_robot_without_odometry_is_led_by_its_scans():
+    def still(readings, truth):
+        return [replace(r, odometry=np.zeros(3)) for r in readings[:25]], truth[:25]
+
+    slam, truth = toured("room", 0, still)
+    assert errors(slam, truth).max() < 0.05
+
+
+@pytest.mark.parametrize(
+    ("beams", "field", "scale"), [(180, 180, 4.0), (682, 240, 0.7), (3600, 360, 1.0)]
+)
+def test_other_scanners_and_sizes_need_no_other_parameters(beams, field, scale):
+    room = worlds.room()
+    world = World(room.walls * scale, room.circles * scale)
+    lidar = Scanner(
+        beams, 0.02, 80.0, np.radians(field), range_error=0.003, range_sigma=0.002 * scale
+    )
+    rng, pose, slam, truth = np.random.default_rng(0), np.zeros(3), GraphSlam(RobotModel()), []
+    for i in range(16):
+        motion = np.array([0.12 * scale, 0.0, 0.12 if i > 4 else -0.1]) * (i > 0)
+        pose = compose(pose, motion)
+        truth.append(pose)
+        told = motion * (1 + 0.04 * rng.standard_normal(3))
+        slam.step(Reading(0.1 * i, told, lidar.scan(world, pose, rng)))
+    assert slam.counts["not matched"] == 0
+    assert errors(slam, np.array(truth)).max() < 0.03 * scale
+
+
+def test_scans_merged_show_each_wall_once_and_both_its_sides():
+    # a wall 5 cm thick is seen from either side; what is matched lies on the side it was seen from
+    rooms = np.vstack([ring([(-3, -2), (0, -2), (0, 2), (-3, 2)])])
+    rooms = np.vstack([rooms, ring([(0.05, -2), (4, -2), (4, 2), (0.05, 2)])])
+    world, places = World(rooms), np.array([[-1.5, 0.2, 0.0], [2.0, 0.1, 0.4]])
+    rng = np.random.default_rng(1)
+    scans = [surface(RPLIDAR_A2.scan(world, p, rng).points()) for p in places]
+    both = merged(scans, places)
+    assert len(both) < len(scans[0]) + len(scans[1])
+    true = np.array([1.8, -0.1, 0.3])
+    found = match(RPLIDAR_A2.scan(world, true, rng).points(), both, true + 0.03)
+    assert found.good
+    assert np.abs(found.pose - true).max() < 0.01
