@@ -119,6 +119,17 @@ def test_a_second_client_is_sent_away():
         second.close()
 
 
+def test_who_leaves_makes_room_at_once_whatever_was_unread():
+    with running(LOCAL, lidar={"scanning": Answer.SCAN}) as it:
+        for _ in range(20):
+            port = open_port(it.ports["lidar"])
+            port.write(request(Command.GET_INFO))
+            assert port.read(100, 10.0)
+            port.write(request(Command.SCAN))
+            port.read(7, 10.0)
+            port.close()
+
+
 class Sdk:
     """Slamtec's ultra_simple as it is seen on the wire: asks, and must be answered."""
 

@@ -150,19 +150,10 @@ class TcpEnd(End):
         """See :meth:`End.receive`."""
         if not self.plugged:
             return b""
+        heard = self._hear()  # first: who has gone makes room for who comes
         with contextlib.suppress(BlockingIOError):
             self._accept(self._listener.accept()[0])
-        if self._client is None:
-            return b""
-        try:
-            data = self._client.recv(MOST)
-        except BlockingIOError:
-            return b""
-        except OSError:
-            data = b""
-        if not data:
-            self._let_go()
-        return data
+        return heard
 
     def send(self, data):
         """See :meth:`End.send`; without a client there is nobody to keep anything for."""
@@ -193,6 +184,20 @@ class TcpEnd(End):
             self.plugged = False
             self._let_go()
             self._listener.close()
+
+    def _hear(self):
+        heard = b""
+        while self._client is not None:
+            try:
+                data = self._client.recv(MOST)
+            except BlockingIOError:
+                break
+            except OSError:
+                data = b""
+            heard += data
+            if not data:
+                self._let_go()
+        return heard
 
     def _accept(self, client):
         if self._client is not None:

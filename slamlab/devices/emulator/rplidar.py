@@ -45,7 +45,7 @@ class RplidarMachine:
     spin_up : float, time until the rotation is even [s]
     faults : Faults
     baud : int [bit/s]
-    rng : numpy.random.Generator, of the faults
+    rng : numpy.random.Generator, of the faults and of where the head stands at first
 
     ``requests`` are those that came.
     """
@@ -68,8 +68,9 @@ class RplidarMachine:
         self._measure, self.firmware, self.modes, self.typical = measure, firmware, modes, typical
         self.health, self._heals = health, heals
         self.faults = faults or Faults()
-        self.line = Line(baud, self.faults, rng or np.random.default_rng(0))
-        self.motor = Motor(FULL_PWM if spinning else 0, spin_up)
+        rng = rng or np.random.default_rng(0)
+        self.line = Line(baud, self.faults, rng)
+        self.motor = Motor(FULL_PWM if spinning else 0, spin_up, rng.uniform(0, 360))
         self._parser, self._scan, self._deaf = RequestParser(), None, -np.inf
         self._scanning, self._begun = scanning, False
         self.requests = []
@@ -99,7 +100,7 @@ class RplidarMachine:
             raise OSError(errno.EIO, "Input/output error")
         if not self._begun:  # time begins with the first call
             self._begun = True
-            self.motor.turn(self.pwm, now)
+            self.motor.begin(now)
             for mode in self.modes:
                 if mode.answer == self._scanning:
                     self._begin(mode, now)

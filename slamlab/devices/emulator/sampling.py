@@ -18,16 +18,21 @@ class Motor:
     ----------
     pwm : int, 0 to 1023
     spin_up : float, time until the rotation is even [s]
+    angle : float, where it stands at first [degree]
     """
 
-    def __init__(self, pwm, spin_up):
+    def __init__(self, pwm, spin_up, angle=0.0):
         self.pwm, self.spin_up = pwm, spin_up
-        self.even, self._known = -np.inf, (0.0, 0.0)
+        self.even, self._known = -np.inf, (0.0, angle)
 
     @property
     def rate(self):
         """float, turns a second [Hz]."""
         return self.pwm / FULL_PWM * FULL_RATE
+
+    def begin(self, now):
+        """It stands where it stands at first just now."""
+        self._known = now, self._known[1]
 
     def turn(self, pwm, now):
         """Turn as fast as that from now on."""
