@@ -35,7 +35,7 @@ def export(marks, url):
         from nbgrader.api import Gradebook
         from sqlalchemy.exc import SAWarning, SQLAlchemyError
     except ImportError:
-        raise NoNbgrader("nbgrader is not installed: python -m pip install nbgrader") from None
+        raise NoNbgrader('nbgrader is not installed: pip install "slamlab[nbgrader]"') from None
     graded = [mark for mark in marks if mark.total is not None]
     try:
         with warnings.catch_warnings(), _programs_found(), Gradebook(url) as book:
