@@ -7,7 +7,7 @@ import sys
 import benchmarks
 from benchmarks.common import main
 
-SHARED = {"common", "__main__"}
+SHARED = {"common", "icp_peers", "__main__"}
 
 
 def found():
