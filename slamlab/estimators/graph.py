@@ -12,10 +12,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from slamlab import gridmap
+from slamlab.estimators import drift
 from slamlab.estimators.base import Estimator
 from slamlab.estimators.elsewhere import Elsewhere
+from slamlab.estimators.icp import joined
 from slamlab.estimators.loops import Loops, difference
-from slamlab.estimators.mak import Q_arc
 from slamlab.geometry import between, compose, transform, wrap
 from slamlab.layers import Points, Poses, Segments
 from slamlab.posegraph import PoseGraph
@@ -27,14 +28,10 @@ FEWEST = 10  # points without which a scan tells nothing
 RECENT = 15  # keyframes in the local map
 STEP, TURN = 0.12, 0.35  # a keyframe every so many reaches of the scans, and every such turn [rad]
 THIN = 0.6  # overlap with the local map below which a keyframe comes early
-UNTOLD = 1.0  # turn that standing still is taken for: it may be that nobody counts the wheels [rad]
-SLACK = 0.03, 0.1, 0.15  # deviation that any odometry may have: reaches, of the way, rad
 TRACKED = 0.4, 0.65  # overlap and agreement of a match that odometry backs
 STRANGE = 0.75  # agreement below which odometry may not be what brought the robot here
 FAR_OFF = 16.3  # χ² of 3 degrees: beyond it a match and the odometry cannot both be right
 BLUR = 0.7  # of the scans' noise: what matches have in common and no covariance of one knows
-DRIFT = 0.003, 0.03, 0.005, 0.05  # odometry's own: reaches, reaches a turn, rad, of the turn
-PAUSE = 5.0  # times the usual time between readings: a gap
 
 
 @dataclass(frozen=True)
@@ -84,7 +81,7 @@ class GraphSlam(Estimator):
         ----------
         reading : Reading
         """
-        self._mind_the_clock(reading.time)
+        self.counts.update(drift.odd_stamps(self._times, reading.time))
         self._drive(reading.odometry)
         if reading.scan is not None:
             points = reading.scan.points()
@@ -122,8 +119,8 @@ class GraphSlam(Estimator):
         clouds = [keyframe.surface.points for keyframe in self.keyframes]
         loops = [(e.i, e.j) for e in self.graph.edges if e.robust]
         return [
-            Points("naive", joined(naive[firsts], clouds)),
-            Points("corrected", joined(poses, clouds)),
+            Points("naive", joined(map(transform, naive[firsts], clouds))),
+            Points("corrected", joined(map(transform, poses, clouds))),
             Segments(
                 "loop", np.array([[*poses[i, :2], *poses[j, :2]] for i, j in loops]).reshape(-1, 4)
             ),
@@ -143,16 +140,6 @@ class GraphSlam(Estimator):
     def _anchor(self):
         return self.graph.poses[-1] if self.keyframes else np.zeros(3)
 
-    def _mind_the_clock(self, time):
-        """Count what is odd about a stamp; poses hang on none."""
-        steps = np.diff(self._times[-20:])
-        if len(self._times) and time == self._times[-1]:
-            self.counts["stamps repeated"] += 1
-        elif len(self._times) and time < self._times[-1]:
-            self.counts["stamps going back"] += 1
-        elif len(steps) and time - self._times[-1] > PAUSE * max(np.median(np.abs(steps)), 0.1):
-            self.counts["gaps"] += 1
-
     def _drive(self, odometry):
         """Move by odometry, and know less."""
         odometry = np.asarray(odometry, dtype=float)
@@ -160,14 +147,9 @@ class GraphSlam(Estimator):
             self.counts["odometries not finite"] += 1
             odometry = np.zeros(3)
         self.naive_pose = compose(self.naive_pose, odometry)
-        before, self._relative = self._relative, compose(self._relative, odometry)
-        A = np.eye(3)
-        A[:2, 2] = before[1] - self._relative[1], self._relative[0] - before[0]
-        self._doubt = A @ self._doubt @ A.T + Q_arc(before, odometry, self.robot)
-        # the scanner need not sit where the odometry's frame turns
-        turn = abs(odometry[2]) if odometry.any() else UNTOLD  # or there is no odometry at all
-        way = (DRIFT[0] + DRIFT[1] * turn) * self._reach
-        self._doubt += np.diag(np.square([way, way, DRIFT[2] + DRIFT[3] * turn]))
+        self._relative, self._doubt = drift.driven(
+            self._relative, self._doubt, odometry, self.robot, self._reach
+        )
 
     def _see(self, seen, scan):
         """Match a scan; make it a keyframe where it shows enough that is new."""
@@ -177,7 +159,7 @@ class GraphSlam(Estimator):
         found = self._matched(seen)
         if found is None:  # odometry alone ties what follows, if that was a way at all
             self.counts["not matched"] += 1
-            slack = self._slack(seen)
+            slack = drift.slack(self._relative, seen.reach)
             self._keep(seen, scan, np.linalg.inv(self._doubt + slack), self._strange)
             return
         self._correct(found, seen)
@@ -187,7 +169,7 @@ class GraphSlam(Estimator):
 
     def _matched(self, seen):
         """The scan on the local map, or None where nothing that odometry allows fits."""
-        allowed = np.linalg.inv(self._doubt + self._slack(seen))
+        allowed = np.linalg.inv(self._doubt + drift.slack(self._relative, seen.reach))
         agreements = []
         for target, search in ((self._map, 0), (self.keyframes[-1].surface, 0), (self._map, 0.8)):
             found = match(seen, target, self._relative, search=search)
@@ -198,11 +180,6 @@ class GraphSlam(Estimator):
             agreements.append(found.fit.agreement)
         self._strange = max(agreements[:2]) < STRANGE  # the searched one fits anywhere
         return None
-
-    def _slack(self, seen):
-        """(3, 3) what odometry may be off by for no reason that it knows of."""
-        way = SLACK[0] * seen.reach + SLACK[1] * np.hypot(*self._relative[:2])
-        return np.diag(np.square([way, way, SLACK[2]]))
 
     def _correct(self, found, seen):
         """Weigh the match and the odometry by their covariances."""
@@ -231,9 +208,3 @@ class GraphSlam(Estimator):
         if self.loops is not None:
             self.loops.propose(i)
             self.elsewhere.propose(i)
-
-
-def joined(poses, clouds):
-    """Clouds at their poses as one array (n, 2), also where there are none."""
-    placed = [transform(p, c) for p, c in zip(poses, clouds, strict=True)]
-    return np.concatenate([np.empty((0, 2)), *placed])

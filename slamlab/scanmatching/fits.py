@@ -9,6 +9,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.spatial import cKDTree
 
+from slamlab.scanmatching.windows import Windows, windows_of
+
 SMOOTH, OF_NORMAL = 0.3, 0.3853  # share of a scan that is wall; that quantile of |N(0, 1)|
 WORST = 0.03  # no scanner's noise is a larger share of its ranges: more is clutter
 FLAT = 0.25  # largest spread across a line as a share of that along it
@@ -40,42 +42,7 @@ class Fits:
     across: np.ndarray
     tilt: np.ndarray
     good: np.ndarray
-    windows: "Windows | None" = None
-
-
-@dataclass(frozen=True)
-class Windows:
-    """Neighbours in a ring of n points: i is j's neighbour where j is i's.
-
-    Parameters
-    ----------
-    ring : (n + 2k,) int, the points in order, k more at either end
-    first, last : (n,) int, places in the ring between which a point's neighbours stand
-    """
-
-    ring: np.ndarray
-    first: np.ndarray
-    last: np.ndarray
-
-    @property
-    def count(self):
-        """(n,) how many neighbours each point has, itself among them."""
-        return self.last - self.first
-
-    def sums(self, values):
-        """Sums over each point's neighbours, as differences of running sums.
-
-        Parameters
-        ----------
-        values : (m, n)
-
-        Returns
-        -------
-        (m, n)
-        """
-        running = np.zeros((len(values), len(self.ring) + 1))
-        np.cumsum(values.take(self.ring, axis=1), axis=1, out=running[:, 1:])
-        return running.take(self.last, axis=1) - running.take(self.first, axis=1)
+    windows: Windows | None = None
 
 
 def noise(r, step):
@@ -139,16 +106,7 @@ def ordered_fits(x, y, r, step, closed):
     if not closed:
         jump[-1] = True
 
-    ring = np.arange(-k, n + k) % n
-    place = np.arange(n + 2 * k)
-    begins = jump[ring - 1]  # a surface begins here
-    ends = jump[ring]
-    start = np.maximum.accumulate(np.where(begins, place, 0))[k:-k]
-    stop = np.minimum.accumulate(np.where(ends, place, n + 2 * k)[::-1])[::-1][k:-k]
-    own = place[k:-k]
-    first = np.maximum(own - k, start)
-    last = np.minimum(own + k, stop) + 1
-    windows = Windows(ring, first, last)
+    windows = windows_of(jump, k)
     count = windows.count.astype(float)
     means = windows.sums(np.array((x, y, x * x, y * y, x * y))) / count
     fits = lines(count, *means, windows)
