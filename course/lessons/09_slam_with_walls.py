@@ -987,5 +987,4 @@ views.show(fig, "Lines found on a round tower from two places: each place has it
 # **Exercise:** [place a wall, keep its life, update, drive a corridor, thin
 # points](../exercises/09_slam_with_walls.ipynb).
 #
-# **Next:** lessons 10 to 12 are to come (scan matching without landmarks does not need them). What
-# can be read now: [lesson 13](13_scan_matching.ipynb) does without landmarks altogether.
+# **Next:** [lesson 10](10_boxes.ipynb) asks what is left when errors have no likelihood, only bounds.
