@@ -57,6 +57,9 @@ class GraphSlam(Estimator):
     ----------
     robot : RobotModel
     loops : bool, whether loops are closed
+
+    ``graph`` and ``keyframes`` hold what it knows, ``anchors`` the keyframe that each reading hangs
+    on (−1 before the first), ``counts`` what happened on the way.
     """
 
     def __init__(self, robot, loops=True):
@@ -67,10 +70,8 @@ class GraphSlam(Estimator):
         if loops:
             self.loops = Loops(self.graph, self.keyframes, self.counts)
             self.elsewhere = Elsewhere(self.loops)
-        self._relative, self._doubt = (
-            np.zeros(3),
-            np.zeros((3, 3)),
-        )  # as seen from the last keyframe
+        # as seen from the last keyframe
+        self._relative, self._doubt = np.zeros(3), np.zeros((3, 3))
         self._map, self._reach, self._strange = None, 0.0, False
         self.anchors, self._ways, self._naive = [], [], []
 
@@ -117,13 +118,11 @@ class GraphSlam(Estimator):
         firsts = np.flatnonzero(np.diff(self.anchors, prepend=-1) > 0)
         naive = np.array(self._naive).reshape(-1, 3)
         clouds = [keyframe.surface.points for keyframe in self.keyframes]
-        loops = [(e.i, e.j) for e in self.graph.edges if e.robust]
+        loops = np.array([(e.i, e.j) for e in self.graph.edges if e.robust], int).reshape(-1, 2)
         return [
             Points("naive", joined(map(transform, naive[firsts], clouds))),
             Points("corrected", joined(map(transform, poses, clouds))),
-            Segments(
-                "loop", np.array([[*poses[i, :2], *poses[j, :2]] for i, j in loops]).reshape(-1, 4)
-            ),
+            Segments("loop", np.hstack([poses[loops[:, 0], :2], poses[loops[:, 1], :2]])),
             Poses("naive", naive),
             Poses("corrected", shown),
         ]
@@ -198,13 +197,10 @@ class GraphSlam(Estimator):
         self.keyframes.append(Keyframe(seen, scan, piece))
         self._relative, self._doubt, self._reach = np.zeros(3), np.zeros((3, 3)), seen.reach
         poses = self.graph.poses
-        recent = [
-            k for k in range(max(0, i + 1 - RECENT), i + 1) if self.keyframes[k].piece == piece
-        ]
-        self._map = merged(
-            [self.keyframes[k].surface for k in recent[::-1]],
-            between(poses[i], poses[recent[::-1]]),
-        )
+        recent = range(i, max(-1, i - RECENT), -1)
+        recent = [k for k in recent if self.keyframes[k].piece == piece]
+        surfaces = [self.keyframes[k].surface for k in recent]
+        self._map = merged(surfaces, between(poses[i], poses[recent]))
         if self.loops is not None:
             self.loops.propose(i)
             self.elsewhere.propose(i)
