@@ -114,5 +114,5 @@ def test_the_polygon_has_eight_corners_a_box_and_a_cylinder():
 
 
 def test_an_unknown_world_is_refused_with_the_names_there_are():
-    with pytest.raises(ValueError, match="no world 'garden'; there are: room, corridor, polygon"):
+    with pytest.raises(ValueError, match="no world 'garden'; there are: room, corridor, twins"):
         worlds.by_name("garden")

@@ -371,14 +371,14 @@ def normalise(logs):
         "by the largest weight",
         normalise("np.exp(logs - logs.max())"),
         {"sum", "any-size"},
-        "not-normalised",
+        "over-the-largest",
     ),
     Wrong("not divided", normalise("np.exp(logs)"), {"sum", "any-size"}, "not-normalised"),
     Wrong(
         "length one",
         normalise("(lambda w: w / np.linalg.norm(w))(np.exp(logs - logs.max()))"),
         {"sum", "any-size"},
-        "not-normalised",
+        "length-one",
     ),
     Wrong(
         "logarithms divided", normalise("logs / logs.sum()"), {"ratios", "any-size"}, "logs-divided"
@@ -442,7 +442,7 @@ def normalise(logs):
         "no-random-number",
     ),
     Wrong(
-        "a generator of its own",
+        "a generator of its own for the draw",
         draw(teeth="(np.random.default_rng().random() + np.arange(n)) / n"),
         {"seed"},
         "another-generator",
@@ -551,7 +551,7 @@ def draw(weights, rng):
     ),
     Wrong("not moved", localise(move="pass"), {"mean", "spread"}, "not-moved"),
     Wrong(
-        "largest weight",
+        "localised by the largest weight",
         localise(draw="rows, weights = rows[[weights.argmax()] * n], np.full(n, 1 / n)"),
         {"mean", "spread"},
         "one-place",

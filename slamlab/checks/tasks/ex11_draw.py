@@ -159,11 +159,5 @@ DRAW = Task(
             "much. The teeth are at (u + k)/n, k from 0 to n − 1, u from 0 to 1.",
             _first_too_often,
         ),
-        Diagnosis(
-            "few-places",
-            "The comb has too few places to stand: u is any number from 0 to 1, drawn by "
-            "rng.random().",
-            lambda i, o: _rounded(i, o).all(),
-        ),
     ),
 )

@@ -109,11 +109,6 @@ NORMALISE = Task(
             lambda i, o: (o["finite"][PLAIN] == 0).any(),
         ),
         Diagnosis(
-            "not-normalised",
-            "The ratios are right, but the weights do not sum to one: divide by their sum.",
-            lambda i, o: _ratios(i, o).all() and not _sums(i, o).any(),
-        ),
-        Diagnosis(
             "logs-divided",
             "You divide the logarithms by their sum. Weights are e to the logarithms; these are to "
             "be divided.",
@@ -128,6 +123,11 @@ NORMALISE = Task(
             "length-one",
             "Your weights have length one, √Σ w² = 1, as a vector has. Probabilities sum to one.",
             _like(lambda logs: np.exp(logs) / np.sqrt((np.exp(logs) ** 2).sum(1, keepdims=True))),
+        ),
+        Diagnosis(
+            "not-normalised",
+            "The ratios are right, but the weights do not sum to one: divide by their sum.",
+            lambda i, o: _ratios(i, o).all() and not _sums(i, o).any(),
         ),
         Diagnosis(
             "underflow",
