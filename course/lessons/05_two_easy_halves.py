@@ -319,7 +319,8 @@ z_one, z_two = models.h(vague, two)
 rng = np.random.default_rng(5)
 headings = rng.normal(vague[2], 0.4, 6000)
 looks = rng.multivariate_normal(z_one, R, 6000)
-one_agrees = np.column_stack([two[0] - models.g([0, 0, headings], looks), headings])
+turned = np.column_stack([np.zeros((6000, 2)), headings])
+one_agrees = np.column_stack([two[0] - models.g(turned, looks), headings])
 
 # of these, those that agree with the second sighting, too
 v = np.array([models.h(pose, two[1]) for pose in one_agrees]) - z_two
