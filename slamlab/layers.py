@@ -55,6 +55,10 @@ class Samples:
     weights: np.ndarray
 
 
+OCCUPIED = 0.65
+"""Probability beyond which a cell of a grid is called a wall, as by ROS' map_server."""
+
+
 @dataclass(frozen=True)
 class Grid:
     """(rows, columns) probabilities that cells of a side [m] are occupied; row 0 lies lowest.

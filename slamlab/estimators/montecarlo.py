@@ -3,7 +3,7 @@
 import numpy as np
 
 from slamlab.estimators.base import Estimator
-from slamlab.estimators.seen import need_landmarks, seen
+from slamlab.estimators.seen import Names, need_landmarks, seen
 from slamlab.filters.montecarlo.association import pair
 from slamlab.filters.montecarlo.fastslam import FastSLAM
 from slamlab.filters.montecarlo.sets import SampleSets
@@ -27,8 +27,12 @@ class CloudSlam(Estimator):
     def __init__(self, filter, robot, sensor, rng):
         super().__init__()
         self.filter, self.robot, self.sensor, self.rng = filter, robot, sensor, rng
-        self.unclear = 0
-        self._next = -1  # ids of our own are negative: a source's names never are
+        self.names = Names()
+
+    @property
+    def unclear(self):
+        """int, sightings left out, see :class:`Names`."""
+        return self.names.unclear
 
     def step(self, reading):
         """Take a reading in: move the samples, weigh them by landmarks, add the new ones.
@@ -47,27 +51,15 @@ class CloudSlam(Estimator):
 
     def _take(self, found):
         """Correct by the known among the sightings, add the new ones."""
-        names, known = self._named(found), set(self.filter.ids)
+        names = self.names.of(found, self.filter.ids, self._pair)
+        known = set(self.filter.ids)
         for take, is_known in ((self.filter.update, True), (self.filter.add, False)):
             rows = {k: i for i, k in names.items() if (i in known) == is_known}
             if rows:
                 take(list(rows.values()), found.z[list(rows)], found.R[list(rows)])
 
-    def _named(self, found):
-        """{id: row} of the sightings that are clear: by the source's names, else by pairing."""
-        names = {}
-        for k in np.flatnonzero(found.ids >= 0):
-            names.setdefault(int(found.ids[k]), k)
-        rest = np.flatnonzero(found.ids < 0)
-        if len(rest):
-            pairs, strange = pair(found.z[rest], found.R[rest], self.filter.expected())
-            for k, j in pairs.items():
-                names.setdefault(self.filter.ids[j], rest[k])
-            for k in strange:
-                names[self._next] = rest[k]
-                self._next -= 1
-        self.unclear += len(found.z) - len(names)
-        return names
+    def _pair(self, z, R):
+        return pair(z, R, self.filter.expected())
 
 
 class SampleSlam(CloudSlam):

@@ -43,7 +43,8 @@ def write_report(out, marks):
     exercises = {}
     for id in sorted({record.exercise for record in graded}):
         of_this = [record for record in graded if record.exercise == id]
-        totals = sorted(m.total for m in marks if m.record in of_this and m.total is not None)
+        mine = [m for m in marks if m.record.graded and m.record.exercise == id]
+        totals = sorted(m.total for m in mine if m.total is not None)
         exercises[id] = {
             "exercise": catalogue.exercise(id),
             "count": len(of_this),

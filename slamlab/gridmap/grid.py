@@ -9,11 +9,11 @@ import numpy as np
 
 from slamlab.geometry import transform
 from slamlab.gridmap.rays import crossed
-from slamlab.layers import Grid
+from slamlab.layers import OCCUPIED, Grid
 
 HIT, MISS = 0.7, 0.4  # that a cell is occupied, told by one scan that ends in it or crosses it
 CERTAIN = 0.97  # no cell is believed more occupied, or more free, than this
-OCCUPIED, FREE = 0.65, 0.196  # beyond these a cell is called so: thresholds of ROS' map_server
+FREE = 0.196  # below this a cell is called free, as by ROS' map_server
 MARGIN = 64  # cells added beyond what a scan needs, at least
 MOST = 100_000_000  # cells; more means that a pose or a range is wrong
 

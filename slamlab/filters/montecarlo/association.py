@@ -5,6 +5,7 @@ from math import log
 
 import numpy as np
 
+from slamlab.filters.association import paired
 from slamlab.geometry import wrap
 from slamlab.models import h
 
@@ -74,10 +75,4 @@ def pair(z, R, seen, probability=0.99, new=0.9999):
     v[..., 1] = wrap(v[..., 1])
     S = seen.S + R[:, None]
     d2 = np.einsum("ijk,ijk->ij", v, np.linalg.solve(S, v[..., None])[..., 0])
-    far = d2.min(axis=1) > -2 * log(1 - new)
-    pairs, gate = {}, -2 * log(1 - probability)
-    while d2.min() <= gate:
-        k, j = np.unravel_index(d2.argmin(), d2.shape)
-        pairs[int(k)] = int(j)
-        d2[k], d2[:, j] = np.inf, np.inf
-    return pairs, np.flatnonzero(far).tolist()
+    return paired(d2, -2 * log(1 - probability), -2 * log(1 - new))

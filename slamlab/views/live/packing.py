@@ -6,11 +6,9 @@ from functools import cached_property
 import numpy as np
 from matplotlib.colors import to_hex
 
-from slamlab.layers import Boxes, Ellipses, Grid, Layer, Points, Poses, Samples, Segments
+from slamlab.layers import OCCUPIED, Boxes, Ellipses, Grid, Layer, Points, Poses, Samples, Segments
 from slamlab.views.figures import COLOURS
 from slamlab.views.layers import SIGMAS_95, colour
-
-OCCUPIED = 0.65  # probability beyond which a cell of a grid is a wall, as in ROS' map_server
 
 
 @dataclass(frozen=True)
