@@ -192,7 +192,8 @@ def _without_inputs(kind, problem):
     """What a worker says of a task, without what its functions may have put in of their inputs."""
     if kind != "raised":
         return _NUMBER.sub("…", problem[:200])
-    name, where = _RAISED.fullmatch(problem).groups() if _RAISED.fullmatch(problem) else ("", "")
+    match = _RAISED.fullmatch(problem)
+    name, where = match.groups() if match else ("", "")
     if not isinstance(getattr(builtins, name, None), type):
         name = "an exception of its own"
     return f"raised {name}{where or ''}; check(…) in the notebook shows what it says"

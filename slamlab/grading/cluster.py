@@ -37,10 +37,12 @@ def grade_on(scheduler, found, secret, level, default=None, known=None):
     ------
     RunError : no scheduler answers, or a machine of the cluster was lost
     """
+    mine = {}
+    for key, record in (known or {}).items():
+        mine.setdefault(record.submission, {})[key] = record
     for start in range(0, len(found), CHUNK):
-        jobs = [
-            _Job(submission, secret, level, default, known) for submission in found[start:][:CHUNK]
-        ]
+        chunk = found[start : start + CHUNK]
+        jobs = [_Job(s, secret, level, default, mine.get(s.name)) for s in chunk]
         yield from map_runs(_Job.run, jobs, scheduler=scheduler)
 
 
@@ -49,8 +51,7 @@ class _Job:
 
     def __init__(self, submission, secret, level, default, known):
         self.submission, self.secret = submission, secret
-        self.level, self.default = level, default
-        self.known = {k: r for k, r in (known or {}).items() if r.submission == submission.name}
+        self.level, self.default, self.known = level, default, known
         self.handed_in, self.content = submission.handed_in, None
         if submission.problem is None and submission.path.is_file():
             with open(submission.path, "rb") as file:
