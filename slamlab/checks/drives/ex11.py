@@ -4,6 +4,8 @@ import numpy as np
 
 from slamlab.checks.drives import Drive, StudentError, numbers, rows
 
+AGAIN = 20  # seeds drawn twice: one draw comes out the same by chance now and then
+
 
 def moved(functions, inputs):
     """Call move twice with the same seed, then with another one.
@@ -85,7 +87,7 @@ def normalised(functions, inputs):
 
 
 def drawn(functions, inputs):
-    """Call draw for every seed, and once more with the first.
+    """Call draw for every seed, and once more for the first of them.
 
     Parameters
     ----------
@@ -94,7 +96,7 @@ def drawn(functions, inputs):
 
     Returns
     -------
-    {"copies": (k, s, n) how often each sample was drawn, "again": (k, n) of the first seed anew}
+    {"copies": (k, s, n) how often each was drawn, "again": (k, AGAIN, n) the first seeds anew}
 
     Raises
     ------
@@ -104,10 +106,10 @@ def drawn(functions, inputs):
     for weights, seeds in rows(inputs):
         calls = [
             _copies(draw(weights.copy(), np.random.default_rng(int(seed))), len(weights))
-            for seed in (*seeds, seeds[0])
+            for seed in (*seeds, *seeds[:AGAIN])
         ]
-        copies.append(calls[:-1])
-        again.append(calls[-1])
+        copies.append(calls[: len(seeds)])
+        again.append(calls[len(seeds) :])
     return {"copies": np.array(copies), "again": np.array(again)}
 
 

@@ -5,7 +5,7 @@ The band of fairness is seven standard deviations wide, so that chance fails nob
 
 import numpy as np
 
-from slamlab.checks.drives.ex11 import DRIVES
+from slamlab.checks.drives.ex11 import AGAIN, DRIVES
 from slamlab.checks.task import Diagnosis, Law, Task
 
 CLOUDS, SAMPLES, SEEDS = 2, 12, 250
@@ -48,9 +48,12 @@ def _fair(i, o):
     return (np.abs(_scores(i, o)) < BAND).all(axis=1)
 
 
+def _same_again(o):
+    return (o["copies"][:, :AGAIN] == o["again"]).all(axis=(1, 2))
+
+
 def _by_the_seed(i, o):
-    same = (o["copies"][:, 0] == o["again"]).all(axis=1)
-    return same & (np.ptp(o["copies"], axis=1) > 0).any(axis=1)
+    return _same_again(o) & (np.ptp(o["copies"], axis=1) > 0).any(axis=1)
 
 
 # ---- mistakes -------------------------------------------------------------------------------
@@ -105,7 +108,7 @@ DRAW = Task(
     title="Draw, with a comb",
     drive=DRIVES["11-draw"],
     inputs=clouds,
-    shapes={"copies": (CLOUDS, SEEDS, SAMPLES), "again": (CLOUDS, SAMPLES)},
+    shapes={"copies": (CLOUDS, SEEDS, SAMPLES), "again": (CLOUDS, AGAIN, SAMPLES)},
     laws=(
         Law("share", 2, "each sample gets n w copies, rounded up or down, every time", _rounded),
         Law("fair", 1, "over many seeds each gets n w copies on average", _fair),
@@ -116,7 +119,7 @@ DRAW = Task(
             "another-generator",
             "The same seed draws other samples: draw from the rng that is passed in, none from "
             "np.random or a generator of your own.",
-            lambda i, o: not (o["copies"][:, 0] == o["again"]).all(),
+            lambda i, o: not _same_again(o).all(),
         ),
         Diagnosis(
             "largest-weight",
