@@ -4,6 +4,7 @@ Drawing takes plain arrays (:mod:`slamlab.layers`): it computes no pose and no m
 """
 
 from slamlab.views import boxes
+from slamlab.views.cells import cells
 from slamlab.views.compare import cloud, curves
 from slamlab.views.correlation import correlation
 from slamlab.views.figures import COLOURS, axes, chart, panels, png, show
@@ -21,6 +22,7 @@ __all__ = [
     "COLOURS",
     "axes",
     "boxes",
+    "cells",
     "chart",
     "cloud",
     "correlation",

@@ -8,6 +8,7 @@ import io
 
 from IPython.display import display
 from matplotlib.figure import Figure
+from PIL import Image
 
 # Okabe and Ito's palette: told apart with any kind of colour vision
 COLOURS = {
@@ -92,7 +93,9 @@ def chart(xlabel, ylabel, title=None, size=(6, 4)):
 
 
 def png(fig):
-    """The figure as PNG, the same bytes every time.
+    """The figure as PNG of at most 256 colours, the same bytes every time.
+
+    A figure of lines and letters looks the same in a palette and takes well under half the bytes.
 
     Parameters
     ----------
@@ -102,9 +105,11 @@ def png(fig):
     -------
     bytes
     """
-    buffer = io.BytesIO()
-    fig.savefig(buffer, format="png", dpi=fig.dpi, metadata={"Software": None})
-    return buffer.getvalue()
+    drawn, small = io.BytesIO(), io.BytesIO()
+    fig.savefig(drawn, format="png", dpi=fig.dpi)
+    picture = Image.open(drawn).convert("RGB")
+    picture.quantize(method=Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE).save(small, "PNG")
+    return small.getvalue()
 
 
 def bundle(fig, alt):

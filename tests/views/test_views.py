@@ -1,11 +1,13 @@
 """Figures as data: what was drawn, where, in which colour; never pixels."""
 
+import io
 import subprocess
 import sys
 
 import ipywidgets
 import numpy as np
 import pytest
+from PIL import Image
 
 from slamlab import models, views
 from slamlab.layers import Boxes, Ellipses, Points, Poses, Samples, Segments
@@ -145,6 +147,21 @@ def test_the_same_figure_is_the_same_bytes():
         return views.png(fig)
 
     assert drawn() == drawn()
+
+
+def test_a_palette_keeps_every_colour_of_a_figure_and_halves_its_bytes():
+    rng, whole = np.random.default_rng(0), io.BytesIO()
+    fig, ax = views.axes("map")
+    for name in views.COLOURS:
+        views.draw(ax, Points(name, rng.normal(size=(60, 2))))
+    ax.legend()
+    fig.savefig(whole, format="png", dpi=fig.dpi)
+    exact = np.asarray(Image.open(whole).convert("RGB"), dtype=float)
+    found = np.asarray(Image.open(io.BytesIO(views.png(fig))).convert("RGB"), dtype=float)
+    off = np.abs(found - exact).max(axis=2)
+    assert off.mean() < 1
+    assert (off > 24).mean() < 1e-3
+    assert len(views.png(fig)) < 0.5 * whole.tell()
 
 
 class Recorder:
