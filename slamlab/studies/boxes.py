@@ -20,7 +20,8 @@ from slamlab.geometry import compose, wrap
 from slamlab.models import f_steered, h
 from slamlab.parallel import map_runs
 from slamlab.simulator import arc
-from slamlab.studies.command import TABLES, made_with, parser, write
+from slamlab.studies import command
+from slamlab.studies.command import TABLES, made_with, seeds
 
 BASE, PERIOD = 0.3, 1.0  # of wheels and axles [m], of a step [s]
 STEPS = 200  # a run
@@ -211,9 +212,7 @@ def study(runs, world=None, jobs=None, scheduler=None):
     -------
     dict : "versions", "seeds", "world", "counted"
     """
-    if runs < 1:
-        raise ValueError(f"runs is how many, at least 1, not {runs}")
-    found = map_runs(partial(counted, world=world), range(runs), jobs, scheduler)
+    found = map_runs(partial(counted, world=world), seeds(runs, least=1), jobs, scheduler)
     return {
         "versions": made_with(),
         "seeds": [0, runs - 1],
@@ -223,12 +222,8 @@ def study(runs, world=None, jobs=None, scheduler=None):
 
 
 def main(words=None):
-    """The command; its exit code is 0 when the table was written."""
-    words = sys.argv[1:] if words is None else words
-    made = parser("boxes", 5000)
-    options = made.parse_args(words)
-    make = partial(study, options.runs, None, options.jobs, options.scheduler)
-    return write(made.prog, words, options.out, make)
+    """The command; 0 when written, 2 when something is wrong with what was asked."""
+    return command.main("boxes", 5000, study, words)
 
 
 def _arc(length, turn):

@@ -4,6 +4,7 @@ import argparse
 import json
 import platform
 import sys
+from functools import partial
 from importlib.metadata import version
 from pathlib import Path
 
@@ -32,6 +33,26 @@ def parser(name, runs):
     return made
 
 
+def seeds(runs, least=3):
+    """Seeds 0 to runs − 1.
+
+    Parameters
+    ----------
+    runs, least : int
+
+    Returns
+    -------
+    range
+
+    Raises
+    ------
+    ValueError : fewer runs than the least of which a table can be made
+    """
+    if runs < least:
+        raise ValueError(f"--runs is at least {least}, not {runs}")
+    return range(runs)
+
+
 def made_with():
     """Versions that a table depends on, by name."""
     return {"python": platform.python_version()} | {
@@ -45,6 +66,27 @@ def rounded(table):
         name: {key: round(float(value), 4) for key, value in numbers.items()}
         for name, numbers in table.items()
     }
+
+
+def main(name, runs, study, words=None):
+    """The whole command of a study that needs to know no more than how many runs, and where.
+
+    Parameters
+    ----------
+    name : str, of its module and of the file it writes
+    runs : int, the default
+    study : callable(runs, jobs=, scheduler=) -> dict, the table
+    words : list of str, the command's arguments; those of this process by default
+
+    Returns
+    -------
+    int, what the command ends with: 0 when written, 2 when something is wrong with what was asked
+    """
+    words = sys.argv[1:] if words is None else words
+    command = parser(name, runs)
+    asked = command.parse_args(words)
+    make = partial(study, asked.runs, jobs=asked.jobs, scheduler=asked.scheduler)
+    return write(command.prog, words, asked.out, make)
 
 
 def write(prog, words, out, make):

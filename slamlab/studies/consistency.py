@@ -15,7 +15,7 @@ from slamlab.evaluation import band, consistency, nees
 from slamlab.geometry import compose, wrap
 from slamlab.parallel import map_runs
 from slamlab.sources.landmarks import LandmarkRun, Loop
-from slamlab.studies.command import TABLES, made_with, parser, rounded, write
+from slamlab.studies.command import TABLES, made_with, parser, rounded, seeds, write
 from slamlab.studies.ideal import IdealFilter
 
 FILTERS = ("ideal", "first estimates", "standard")
@@ -122,11 +122,9 @@ def study(loop, runs, jobs=None, scheduler=None):
     ------
     ValueError : too few runs or steps
     """
-    if runs < 3:
-        raise ValueError(f"--runs is at least 3, not {runs}")
     if loop.steps < SETTLED:
         raise ValueError(f"--steps is at least {SETTLED}, not {loop.steps}")
-    results = map_runs(partial(errors_of, loop=loop), range(runs), jobs, scheduler)
+    results = map_runs(partial(errors_of, loop=loop), seeds(runs), jobs, scheduler)
     return {
         "versions": made_with(),
         "seeds": [0, runs - 1],

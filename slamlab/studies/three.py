@@ -15,7 +15,8 @@ from slamlab.estimators import BorSlam
 from slamlab.estimators.seen import seen
 from slamlab.parallel import map_runs
 from slamlab.sources.arena import LAPS, SETS, ArenaRun, data_set
-from slamlab.studies.command import TABLES, made_with, parser, write
+from slamlab.studies import command
+from slamlab.studies.command import TABLES, made_with, seeds
 from slamlab.studies.three_costs import costs
 
 TABLE = TABLES / "three.json"
@@ -210,9 +211,7 @@ def study(runs, jobs=None, scheduler=None):
     ------
     ValueError : fewer runs than 3
     """
-    if runs < 3:
-        raise ValueError(f"--runs is at least 3, not {runs}")
-    results = map_runs(run, range(runs), jobs, scheduler)
+    results = map_runs(run, seeds(runs), jobs, scheduler)
     return {
         "versions": made_with(),
         "seeds": [0, runs - 1],
@@ -226,14 +225,9 @@ def study(runs, jobs=None, scheduler=None):
     }
 
 
-def main(argv=None):
+def main(words=None):
     """The command; 0 when written, 2 when something is wrong with what was asked."""
-    words = sys.argv[1:] if argv is None else argv
-    command = parser("three", runs=200)
-    asked = command.parse_args(words)
-    return write(
-        command.prog, words, asked.out, lambda: study(asked.runs, asked.jobs, asked.scheduler)
-    )
+    return command.main("three", 200, study, words)
 
 
 if __name__ == "__main__":

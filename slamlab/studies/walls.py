@@ -17,7 +17,8 @@ from slamlab.landmarks.ransac import THESIS, Ransac
 from slamlab.landmarks.thinned import Thinned
 from slamlab.parallel import map_runs
 from slamlab.sources import simulation
-from slamlab.studies.command import TABLES, made_with, parser, rounded, write
+from slamlab.studies import command
+from slamlab.studies.command import TABLES, made_with, rounded, seeds
 
 TABLE = TABLES / "walls.json"
 SITUATIONS = ("situation-1", "situation-2")
@@ -113,9 +114,7 @@ def study(runs, jobs=None, scheduler=None):
     ------
     ValueError : fewer runs than 3
     """
-    if runs < 3:
-        raise ValueError(f"--runs is at least 3, not {runs}")
-    results = map_runs(errors_of, range(runs), jobs, scheduler)
+    results = map_runs(errors_of, seeds(runs), jobs, scheduler)
     table = {
         situation: rounded(
             {name: row([result[situation, name] for result in results]) for name in VARIANTS}
@@ -153,14 +152,9 @@ def row(runs):
     return line
 
 
-def main(argv=None):
+def main(words=None):
     """The command; 0 when written, 2 when something is wrong with what was asked."""
-    words = sys.argv[1:] if argv is None else argv
-    command = parser("walls", runs=60)
-    asked = command.parse_args(words)
-    return write(
-        command.prog, words, asked.out, lambda: study(asked.runs, asked.jobs, asked.scheduler)
-    )
+    return command.main("walls", 60, study, words)
 
 
 if __name__ == "__main__":
