@@ -11,7 +11,7 @@ from slamlab.views.figures import COLOURS, axes, chart, panels, png, show
 from slamlab.views.growth import growth
 from slamlab.views.layers import draw, legend, side_by_side
 from slamlab.views.linked import linked
-from slamlab.views.live import live
+from slamlab.views.live import apart, live
 from slamlab.views.overlay import overlay
 from slamlab.views.samples import wheel
 from slamlab.views.shares import shares
@@ -20,6 +20,7 @@ from slamlab.views.widgets import explore
 
 __all__ = [
     "COLOURS",
+    "apart",
     "axes",
     "boxes",
     "cells",

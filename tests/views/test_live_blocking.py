@@ -255,17 +255,20 @@ def test_a_source_handed_in_stays_open_and_no_two_views_read_it_at_once():
     device.close()
 
 
-def test_a_robot_with_a_clock_of_its_own_is_told_each_command_at_once_and_stop():
+@pytest.mark.parametrize("end", [Loop.pause, Loop.step, Loop.close, lambda loop: loops.stop()])
+def test_a_robot_with_a_clock_of_its_own_is_told_at_once_and_stands_when_nobody_steers(end):
     loop = made(Robot)
 
     async def watch():
         loop.run()
-        for name in ("forward", "left", "stop"):
+        for name in ("forward", "stop", "left"):
             loop.drive(name)
-        loop.close()
+        end(loop)
 
     asyncio.run(watch())
-    assert loop.pair.source.commands == [(0.4, 0.0), (0.0, 0.6), (0.0, 0.0)]
+    told = [(0.4, 0.0), (0.0, 0.0), (0.0, 0.6), (0.0, 0.0)]
+    assert loop.pair.source.commands == told
+    loop.close()
 
 
 @pytest.fixture

@@ -1,7 +1,12 @@
-"""What a robot that is driven by hand can be told."""
+"""What a robot that is driven by hand can be told: by name, or by a line of text."""
+
+import numpy as np
 
 COMMANDS = {"forward": (1, 0), "back": (-1, 0), "left": (0, 1), "right": (0, -1), "stop": None}
 """By name: shares of top speed and top turn rate."""
+
+WORDS = "reset", "exit"
+FARTHEST = 100.0, 3600.0  # that can be typed [m, degree]
 
 
 def velocities(name, tops):
@@ -20,3 +25,34 @@ def velocities(name, tops):
         return None
     (v, omega), (v_top, omega_top) = COMMANDS[name], tops
     return v * v_top, omega * omega_top
+
+
+def understood(text):
+    """What a typed line means: Tuček's console, with the units that its prompt leaves out.
+
+    Parameters
+    ----------
+    text : str, ``distance, angle`` in metres and degrees, ``reset`` or ``exit``
+
+    Returns
+    -------
+    "reset", "exit", or (distance, angle) [m, rad]
+
+    Raises
+    ------
+    ValueError : it means nothing; the text says what would
+    """
+    word = text.strip().lower()
+    if word in WORDS:
+        return word
+    try:
+        distance, angle = (float(part) for part in text.split(","))
+    except ValueError:
+        raise ValueError(
+            f"{text.strip()!r} means nothing here: type distance, angle (metres and degrees, such "
+            "as 0.5, 30), or reset, or exit"
+        ) from None
+    metres, degrees = FARTHEST
+    if not (abs(distance) <= metres and abs(angle) <= degrees):
+        raise ValueError(f"{text.strip()!r} is too far: at most {metres:g} m and {degrees:g}°")
+    return distance, float(np.radians(angle))

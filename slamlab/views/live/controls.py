@@ -1,10 +1,11 @@
-"""The buttons of a live view: run, pause, step, reset, speed, seed, which simulation, drive."""
+"""The buttons of a live view: run, pause, step, reset, speed, seed, which source, drive, a line."""
 
 import ipywidgets
 
 SPEEDS = [1, 2, 5, 10, 20, 50, 100]  # steps a second
 ARROWS = {"left": "◀ left", "forward": "▲ forward", "back": "▼ back", "right": "right ▶"}
 HINT = "or click the picture, then arrow keys; space stops"
+TYPED = "distance, angle"
 
 
 class Controls:
@@ -45,7 +46,17 @@ class Controls:
         self.speed.observe(self._faster, "value")
         loop.on_change = self._changed
         hint = [ipywidgets.Label(HINT)] if loop.screen.keys else []
-        self._wheel = ipywidgets.HBox([*self.drive, *hint], layout=_WRAPPED)
+        self.typed = ipywidgets.Text(
+            placeholder=f"{TYPED} [m, °] | reset | exit",
+            description=TYPED,
+            continuous_update=False,
+            layout={"width": "25em"},
+            style={"description_width": "initial"},
+        )
+        self.answer = ipywidgets.Label()
+        self.typed.observe(self._told, "value")
+        rows = ([*self.drive, *hint], [self.typed, self.answer])
+        self._wheel = ipywidgets.VBox([ipywidgets.HBox(row, layout=_WRAPPED) for row in rows])
         first = ipywidgets.HBox(self.which, layout=_WRAPPED if len(pairs) > 1 else _GONE)
         second = [self.run, self.step, self.reset, self.speed, self.seed]
         second = ipywidgets.HBox(second, layout=_WRAPPED)
@@ -63,6 +74,15 @@ class Controls:
 
     def _faster(self, change):
         self.loop.speed = change["new"]
+
+    def _told(self, change):
+        if not change["new"].strip():
+            return
+        try:
+            self.answer.value = self.loop.wheel.tell(change["new"])
+        except ValueError as error:
+            self.answer.value = str(error)
+        self.typed.value = ""
 
     def _chosen(self, title):
         return lambda: self.loop.reset(self.seed.value, self._pairs[title])

@@ -7,6 +7,7 @@ from time import monotonic
 
 from slamlab.views.live.commands import COMMANDS, velocities
 from slamlab.views.live.packing import Scene
+from slamlab.views.live.wheel import Wheel
 from slamlab.views.mistakes import sentence
 
 PICTURES = 20  # a second, at most; more steps than these share a picture
@@ -37,7 +38,8 @@ class Loop:
         self.pair, self.screen, self.seed, self.speed = pair, screen, seed, speed
         self.tops, self.play, self.trouble = tops, play, ""
         self.on_change = lambda: None
-        self._task, self._scene = None, Scene([])
+        self.wheel = Wheel(self)
+        self._task, self._scene, self._left = None, Scene([]), False
         screen.on_ready, screen.on_closed, screen.on_key = self._ready, self.close, self.drive
 
     @property
@@ -46,15 +48,17 @@ class Loop:
         return self._task is not None
 
     def run(self):
-        """Step after step; from the start where the end was reached."""
-        if self._at_end and not self._do(self._renew):
+        """Step after step; from the start where the end was reached or the source was let go of."""
+        if (self._at_end or self._left) and not self.attempt(self._renew):
             self.show()
         else:
             self._start()
 
     def pause(self):
-        """Stop after the step that is being made."""
+        """Stop after the step that is being made; a robot that drives by itself stands."""
         global _running
+        if self.running:
+            self.wheel.let_go()
         self._task = None
         if _running is self:
             _running = None
@@ -64,14 +68,14 @@ class Loop:
         """One step, as soon as there is a reading, then pause."""
         self.pause()
         before = self.pair.count
-        self._do(lambda: self.pair.step(SOON))
+        self.attempt(lambda: self.pair.step(SOON))
         self._await(before + 1)
         self.show()
 
     def close(self):
         """Nobody looks any more: pause, and close a source that was made for this view."""
         self.pause()
-        self._do(self.pair.close)
+        self.attempt(self.pair.close)
 
     def reset(self, seed=None, pair=None):
         """Begin anew and pause.
@@ -84,7 +88,7 @@ class Loop:
         self.close()
         self.seed = self.seed if seed is None else seed
         self.pair = self.pair if pair is None else pair
-        self._do(self._renew)
+        self.attempt(self._renew)
         self._await(1)
         self.on_change()
         self.show()
@@ -96,20 +100,18 @@ class Loop:
         ----------
         name : str, one of COMMANDS; others, which a browser may send, are ignored
         """
-        if name not in COMMANDS:
-            return
-        command = velocities(name, self.tops)
-        pair = self.pair
-        if self.running and pair.drivable and pair.over:
-            pair.command = command
-        elif command is not None or (pair.drivable and pair.played and not pair.over):
-            self._do(lambda: pair.drive(command or (0.0, 0.0)))
+        if name in COMMANDS and self.wheel.turn(velocities(name, self.tops)):
             self.show()
+
+    def leave(self):
+        """Let go of the source until it runs or begins anew."""
+        self.close()
+        self._left = True
 
     def show(self):
         """Offer the screen what there is to see; a mistake in it is told as any other."""
         trouble = self.trouble
-        self.trouble = (self._do(self._look) and trouble) or self.trouble
+        self.trouble = (self.attempt(self._look) and trouble) or self.trouble
         scene = self._scene
         if self.trouble:
             scene = replace(scene, status=f"⚠ {self.trouble}")
@@ -121,6 +123,7 @@ class Loop:
         self._scene = scene
 
     def _renew(self):
+        self._left = False
         self.pair.reset(self.seed, SOON)
 
     def _await(self, count):
@@ -135,7 +138,7 @@ class Loop:
         self._task = asyncio.get_running_loop().create_task(self._run(until))
         self.on_change()
 
-    def _do(self, function):
+    def attempt(self, function):
         """Do it; a mistake has no cell to fail in, so it stops the loop and is told."""
         self.trouble = ""
         try:
@@ -184,8 +187,11 @@ class Loop:
         while self._task is mine and self.pair.count < most:
             before, spent = self.pair.count, monotonic() - began
             patience = 0 if self.pair.waited else max(SOON - spent, 0)
-            done = self._do(lambda patience=patience: self.pair.step(patience))
-            if not done or self.pair.count == before or monotonic() - began > BUSY:
+            done = self.attempt(lambda patience=patience: self.pair.step(patience))
+            if not done or self.pair.count == before:
+                break
+            self.wheel.steer()
+            if monotonic() - began > BUSY:
                 break
         return self.pair.count - first
 
