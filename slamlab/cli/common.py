@@ -1,10 +1,18 @@
 """What several commands share."""
 
-import numpy as np
+import signal
+
+SOURCES = (
+    "a log file, a ROS bag, a raw recording of devices, sim:WORLD, a recording's name, or, live, "
+    "devices:LIDAR_PORT,EMIR_PORT"
+)
+INTERRUPTED = 130  # the exit code after Ctrl-C, as of shells
 
 
 def generator(seed):
     """A random generator from what a user typed; ValueError where that is negative."""
+    import numpy as np  # late: a help text should come at once
+
     if seed < 0:
         raise ValueError(f"--seed must not be negative, got {seed}")
     return np.random.default_rng(seed)
@@ -14,3 +22,48 @@ def damage_line(source):
     """What of a source could not be used, as the end of a line; empty where all was well."""
     kinds = ", ".join(f"{kind}: {count}" for kind, count in source.damage.items())
     return f"; damage: {kinds}" if kinds else ""
+
+
+class Interruptible:
+    """A source that ends, and not the program, where its devices are lost or Ctrl-C is pressed.
+
+    At Ctrl-C a live one is closed at once, so that its robot stops; pressed again it ends the
+    program, too. In all else it is the source. ``ended`` says why it ended early, empty if it did
+    not, and ``code`` is the exit code for that.
+
+    Parameters
+    ----------
+    source : Source
+    """
+
+    def __init__(self, source):
+        self._source, self.ended, self.code = source, "", 0
+
+    def __getattr__(self, name):
+        return getattr(self._source, name)
+
+    def __len__(self):
+        return len(self._source)
+
+    def __iter__(self):
+        from slamlab.sources import SourceError  # late, as above
+
+        before, begun = signal.signal(signal.SIGINT, self._pressed), False
+        try:
+            for reading in self._source:
+                if self.ended:
+                    return
+                begun = True
+                yield reading
+        except SourceError as error:
+            if not begun:
+                raise
+            self.ended, self.code = str(error), 2
+        finally:
+            signal.signal(signal.SIGINT, before)
+
+    def _pressed(self, number, frame):
+        if self.ended:
+            raise KeyboardInterrupt
+        self.ended, self.code = "ended by Ctrl-C", INTERRUPTED
+        self._source.close()

@@ -80,8 +80,10 @@ def _record(recorder, ports, mode, seconds):
         begin = lidar.clock.now()
         with contextlib.suppress(KeyboardInterrupt):
             for _ in lidar:
-                if emir is not None and emir.error is not None:
-                    raise emir.error
+                if emir is not None:
+                    if emir.error is not None:
+                        raise emir.error
+                    emir.renew()  # somebody watches, and may press Ctrl-C
                 if recorder.error is not None:
                     break
                 if seconds is not None and lidar.clock.now() - begin > seconds:

@@ -5,6 +5,8 @@ import json
 import sys
 from pathlib import Path
 
+from slamlab.cli.common import SOURCES, Interruptible, damage_line, generator
+
 COLUMNS = ("time", "x", "y", "theta", "naive_x", "naive_y", "naive_theta")
 
 
@@ -15,14 +17,11 @@ def add_parser(subparsers):
         help="run a SLAM over a log or a simulation",
         description=(
             "Run an estimator over a source and say how far it got. With --out it writes "
-            "trajectory.csv, map.png and summary.json."
+            "trajectory.csv, map.png and summary.json. Ctrl-C ends a run early, which is how a "
+            "live one ends: its robot stops, and what it came to until then is told and written."
         ),
     )
-    parser.add_argument(
-        "source",
-        metavar="SOURCE",
-        help="a log file, a ROS bag, sim:WORLD, or a recording's name",
-    )
+    parser.add_argument("source", metavar="SOURCE", help=SOURCES)
     parser.add_argument(
         "--estimator",
         metavar="NAME",
@@ -46,23 +45,25 @@ def add_parser(subparsers):
 
 
 def run(arguments) -> int:
-    """Run; 0 when done, 2 when something cannot be read or written."""
+    """Run; 0 when done, 130 after Ctrl-C, 2 when something cannot be read or written."""
     # imported late: what a help text needs should come at once
     from slamlab import estimators, evaluation, sources
-    from slamlab.cli.common import damage_line, generator
 
     try:
         # whatever can be wrong is found before the long run, not after it
         relations = None
         if arguments.relations is not None:
             relations = evaluation.load_relations(arguments.relations)
-        with sources.open(arguments.source, generator(arguments.seed)) as source:
+        with sources.open(arguments.source, generator(arguments.seed)) as opened:
+            source = Interruptible(opened)
             estimator = estimators.make(arguments.estimator, source)
             if arguments.out is not None:
                 arguments.out.mkdir(parents=True, exist_ok=True)
             if arguments.tum is not None:
                 arguments.tum.touch()
             result = _with_progress(source, estimator)
+        if not result.frames:
+            raise sources.SourceError(f"{source.name} gave no reading")
         summary = summarise(result, arguments.estimator, relations)
         if arguments.out is not None:
             write(result, summary, arguments.out)
@@ -77,12 +78,18 @@ def run(arguments) -> int:
         print(f"slamlab run: {error}", file=sys.stderr)
         return 2
     _print(summary)
+    if estimator.status:
+        print(f"{arguments.estimator}: {estimator.status}")
     print(f"{result.skipped} of {result.frames} readings skipped{damage_line(source)}")
+    if source.ended:
+        print(
+            f"slamlab run: {source.ended} (all this is of the readings until then)", file=sys.stderr
+        )
     if arguments.out is not None:
         print(f"written to {arguments.out}: trajectory.csv, map.png, summary.json")
     if arguments.tum is not None:
         print(f"written to {arguments.tum}: the trajectory as TUM text")
-    return 0
+    return source.code
 
 
 def summarise(result, estimator, relations=None):

@@ -4,6 +4,9 @@ import threading
 
 from slamlab.devices.errors import SlamlabError
 
+RETRY = 0.5, 5.0  # first and longest pause before another try to connect again [s]
+LOOK = 0.05  # how often it is looked whether to give that up [s]
+
 
 class Reader:
     """Calls a step again and again, in a daemon thread, until it is stopped or the step raises.
@@ -39,3 +42,26 @@ class Reader:
             error = None if self.stopping.is_set() else raised
         finally:
             self._on_end(error)
+
+
+def retries(clock, stopping):
+    """Pause longer and longer between tries.
+
+    Parameters
+    ----------
+    clock : Clock
+    stopping : threading.Event, set when nobody wants any more of them
+
+    Yields
+    ------
+    None, after each pause
+    """
+    pause, longest = RETRY
+    while True:
+        end = clock.now() + pause
+        while clock.now() < end and not stopping.is_set():
+            clock.sleep(LOOK)
+        if stopping.is_set():
+            return
+        yield
+        pause = min(2 * pause, longest)

@@ -1,25 +1,22 @@
 """A lidar and a robot as a source of readings: what a SLAM takes in, live."""
 
+from dataclasses import replace
+
 import numpy as np
 
-from slamlab.devices.deskew import deskewed
 from slamlab.devices.emir import Emir
 from slamlab.devices.errors import SlamlabError
+from slamlab.devices.readings import Carried
 from slamlab.devices.rplidar import Lidar
-from slamlab.geometry import between
-from slamlab.hardware import RobotModel
-from slamlab.readings import Reading
-from slamlab.sensors import RPLIDAR_A2
-from slamlab.sources.base import Source, SourceError
-
-EMIR = RobotModel(distance_error=0.05, turn_error=0.08, turn_per_metre=0.1, radius=0.15)
-"""eMIR's odometry: programs for it disagree by 3 % in the way and by 7 % in the turn."""
+from slamlab.devices.transport import open_port
+from slamlab.sources.base import SourceError
 
 
-class Devices(Source):
-    """Readings of an RPLIDAR and an eMIR, on one clock: each turn, and the way since the last.
+class Devices(Carried):
+    """Readings of an RPLIDAR and an eMIR, as they come.
 
-    Ends when it is closed. Both devices are its own: it closes them.
+    Ends when it is closed. Both devices are its own: it closes them. The robot drives on as
+    commanded only while readings are taken: see :class:`Emir`.
 
     Parameters
     ----------
@@ -28,27 +25,15 @@ class Devices(Source):
     front : float, where the robot's front lies for the lidar, clockwise [degree]
     """
 
-    robot = EMIR
-
     def __init__(self, lidar, emir=None, front=0.0):
-        super().__init__()
-        self.lidar, self.emir, self.front = lidar, emir, front
-        self.name = "devices:" + ",".join(d.name for d in (lidar, emir) if d is not None)
-        self.sensor = RPLIDAR_A2.model
-        self._command = None
+        there = [device for device in (lidar, emir) if device is not None]
+        super().__init__("devices:" + ",".join(device.name for device in there), front)
+        self.lidar, self.emir, self._command = lidar, emir, None
 
     def __iter__(self):
-        begin = last = None
         try:
-            for turn in self.lidar:
-                time = float(turn.times[-1])
-                begin = time if begin is None else begin
-                pose = np.zeros(3) if self.emir is None else self.emir.pose_at(time)
-                odometry = np.zeros(3) if last is None else between(last, pose)
-                last = pose
-                self.damage["turns with a gap"] += not turn.complete
-                self._check()
-                yield Reading(time - begin, odometry, self._scan(turn), control=self._command)
+            for reading in super().__iter__():
+                yield replace(reading, control=self._command)
         except SlamlabError as error:
             raise SourceError(str(error)) from error
 
@@ -90,25 +75,30 @@ class Devices(Source):
             self.emir.close()
         self.lidar.close()
 
-    def _scan(self, turn):
-        """The turn as a scan from where it ended."""
-        scan = turn.scan(self.sensor.range_max, self.sensor.range_min, self.front)
-        if self.emir is None:
-            return scan
-        first, last = (self.emir.pose_at(float(t)) for t in turn.times[[0, -1]])
-        return deskewed(scan, turn.times, first, last)
+    def _turns(self):
+        """Turns of the lidar; who asks for one wants the robot to drive on."""
+        for turn in self.lidar:
+            if self.emir is not None:
+                if self.emir.error is not None:
+                    raise self.emir.error
+                self.emir.renew()
+            yield turn
 
-    def _check(self):
-        if self.emir is not None and self.emir.error is not None:
-            raise self.emir.error
+    def _pose_at(self, time):
+        return np.zeros(3) if self.emir is None else self.emir.pose_at(time)
 
 
-def devices(ports):
+def devices(ports, calibration=None, front=0.0, reconnect=False, opener=open_port, clock=None):
     """Open a lidar and a robot.
 
     Parameters
     ----------
     ports : str, LIDAR_PORT,EMIR_PORT; without the second the lidar alone; an empty first finds it
+    calibration : Calibration of the robot
+    front : float, where the robot's front lies for the lidar, clockwise [degree]
+    reconnect : bool, whether lost connections are tried again until they are back
+    opener : callable(port, baud) -> Transport
+    clock : Clock of both
 
     Returns
     -------
@@ -121,11 +111,11 @@ def devices(ports):
     names = [name.strip() for name in ports.split(",")]
     if len(names) > 2:
         raise SourceError(f"devices:LIDAR_PORT,EMIR_PORT names two ports, not {len(names)}")
-    emir = None
+    shared, emir = {"reconnect": reconnect, "opener": opener, "clock": clock}, None
     try:
         if len(names) == 2 and names[1]:
-            emir = Emir(names[1])
-        return Devices(Lidar(names[0] or None), emir)
+            emir = Emir(names[1], calibration=calibration, **shared)
+        return Devices(Lidar(names[0] or None, **shared), emir, front)
     except SlamlabError as error:
         if emir is not None:
             emir.close()

@@ -60,6 +60,11 @@ def open(spec, rng=None):
         raise SourceError(f"{spec} is empty: it holds no readings")
     if _is_reading_log(content):
         return ReadingLog(spec, (content, torn))
+    if content.startswith(b"{"):
+        from slamlab.devices.recording.source import RecordedDevices, is_recording
+
+        if is_recording(content):
+            return RecordedDevices(spec, (content, torn))
     if content.startswith(b"FLASER") or b"\nFLASER" in content or b"\rFLASER" in content:
         return CarmenLog(spec, (content, torn))
     if POINT.search(content):
@@ -67,8 +72,9 @@ def open(spec, rng=None):
     if breezyslam.looks_like(content.lstrip().split(b"\n", 1)[0]):
         return BreezySlamLog(spec, (content, torn))
     raise SourceError(
-        f"{spec} is no log that slamlab knows: neither a reading log, nor a CARMEN log with FLASER "
-        "lines, nor the RPLIDAR grabber's text, nor a BreezySLAM log, nor a ROS bag"
+        f"{spec} is no log that slamlab knows: neither a reading log, nor a raw recording of "
+        "devices, nor a CARMEN log with FLASER lines, nor the RPLIDAR grabber's text, nor a "
+        "BreezySLAM log, nor a ROS bag"
     )
 
 

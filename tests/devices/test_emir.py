@@ -1,15 +1,20 @@
 """eMIR's driver against an emulated one in simulated time: no test waits."""
 
+import time
+
 import numpy as np
 import pytest
 
 from slamlab.devices.clock import SimulatedClock
 from slamlab.devices.emir import Calibration, Emir, commands
+from slamlab.devices.emir.odometry import Odometry
+from slamlab.devices.emir.robot import PATIENCE
 from slamlab.devices.emulator.body import Body
 from slamlab.devices.emulator.emir import EmirMachine
 from slamlab.devices.emulator.line import Faults
 from slamlab.devices.errors import ConnectionLost, DeviceNotResponding, DeviceSilent
 from slamlab.devices.memory import MemoryPort
+from slamlab.geometry import between
 from slamlab.simulator import DifferentialDrive
 from slamlab.world import World
 from tests.laws import assert_same_pose
@@ -68,7 +73,7 @@ def test_it_stands_and_tells_its_status_once_it_is_open():
 def test_the_way_it_drives_is_added_up_far_beyond_a_byte(saturates):
     body = body_in(WIDE)
     machine = EmirMachine(body, saturates=saturates)
-    with opened(machine, saturates=saturates) as emir:
+    with opened(machine, saturates=saturates, patience=None) as emir:
         emir.move(100, 30)
         until(emir, 112.0)
         emir.stop()
@@ -86,7 +91,7 @@ def test_the_way_it_drives_is_added_up_far_beyond_a_byte(saturates):
 
 def test_a_command_is_repeated_five_times_a_second_until_the_next():
     machine = EmirMachine(body_in(WIDE), watchdog=0.5)
-    with opened(machine) as emir:
+    with opened(machine, patience=None) as emir:
         begin = emir.clock.now()
         emir.move(30, -20)
         until(emir, begin + 10)
@@ -97,6 +102,76 @@ def test_a_command_is_repeated_five_times_a_second_until_the_next():
         count = len(moves(machine))
         until(emir, emir.clock.now() + 2)
         assert len(moves(machine)) == count
+
+
+@pytest.mark.parametrize("watchdog", [None, 0.5])
+def test_a_motion_that_nobody_renews_ends_and_one_that_is_renewed_goes_on(watchdog):
+    body = body_in(WIDE)
+    with opened(EmirMachine(body, watchdog=watchdog)) as emir:
+        emir.move(50, 0)
+        for _ in range(20):
+            until(emir, emir.clock.now() + 0.5)
+            emir.renew()
+            assert body._speeds.any()
+        until(emir, emir.clock.now() + 0.9 * PATIENCE)
+        assert body._speeds.any() and not emir.stats["forgotten"]
+        until(emir, emir.clock.now() + 0.1 * PATIENCE + 0.5)
+        assert not body._speeds.any() and emir.stats["forgotten"] == 1
+        until(emir, emir.clock.now() + 10)
+        assert not body._speeds.any() and emir.stats["forgotten"] == 1
+        emir.move(50, 0)
+        until(emir, emir.clock.now() + 0.5)
+        assert body._speeds.any()
+
+
+@pytest.mark.parametrize("act", [Emir.reset, Emir.beep])
+def test_what_is_no_motion_leaves_the_motion_as_it_is(act):
+    body, machine = body_in(WIDE), None
+    machine = EmirMachine(body, watchdog=0.5)
+    with opened(machine) as emir:
+        emir.move(50, 0)
+        until(emir, emir.clock.now() + 0.5)
+        act(emir)
+        until(emir, emir.clock.now() + 1)
+        assert body._speeds.any()  # still repeated: the robot's own watchdog keeps quiet
+        until(emir, emir.clock.now() + PATIENCE)
+        assert not body._speeds.any()
+
+
+def replugged(machine, begin, end):
+    """A machine that is out of reach from a time to another."""
+    for when, gone in ((begin, True), (end, False)):
+        machine.at(when, lambda gone=gone: setattr(machine.faults, "unplugged", gone))
+    return machine
+
+
+def test_back_in_reach_it_goes_on_where_that_is_wanted_and_the_robot_stands():
+    body = body_in(WIDE)
+    machine = replugged(Driven(body), 103.0, 104.0)
+    with opened(machine, reconnect=True, patience=None) as emir:
+        emir.move(50, 20)
+        while not emir.stats["reconnects"]:
+            time.sleep(0.001)  # its thread lets the simulated time pass
+        until(emir, emir.clock.now() + 1)
+        assert emir.error is None and not body._speeds.any()
+        d, turn = np.array(body.counters()) * COUNTS
+        assert emir.pose[2] == pytest.approx(turn, abs=np.radians(4))  # what it drove meanwhile
+        assert d > 0.5
+        emir.move(50, 0)
+        until(emir, emir.clock.now() + 1)
+        assert body.counters()[0] * COUNTS[0] > d + 0.1
+
+
+def test_a_robot_switched_on_anew_stands_where_it_stood():
+    odometry = Odometry(Calibration())
+    for k in range(50):
+        odometry.advance(k, k, 0.1 * k)
+    before = odometry.pose_at(4.9)
+    odometry.expect_gap()
+    odometry.advance(0, 0, 9.0)
+    assert_same_pose(odometry.pose_at(9.0), before)
+    odometry.advance(1, 0, 9.1)
+    assert between(before, odometry.pose_at(9.1))[0] == pytest.approx(0.01)
 
 
 def test_metres_and_radians_a_second_become_percent_by_the_calibration():
@@ -161,7 +236,7 @@ def test_a_robot_that_is_gone_is_told_within_a_second(fault, kind):
 def test_damaged_frames_are_counted_and_the_way_is_still_right():
     body = body_in(WIDE)
     machine = EmirMachine(body, faults=Faults(flip=0.01), rng=np.random.default_rng(1))
-    with opened(machine) as emir:
+    with opened(machine, patience=None) as emir:
         emir.move(100, 0)
         until(emir, 120.0)
         emir.stop()

@@ -5,24 +5,33 @@ import pytest
 from hypothesis import given
 
 from slamlab import sources, worlds
+from slamlab.cli import main
 from slamlab.devices import source
-from slamlab.devices.clock import Clock
+from slamlab.devices.clock import Clock, SimulatedClock
 from slamlab.devices.deskew import deskewed
-from slamlab.devices.emir import Calibration, Emir
+from slamlab.devices.emir import Calibration, Emir, commands
 from slamlab.devices.emir.odometry import Odometry
+from slamlab.devices.emir.session import Session
 from slamlab.devices.emulator.body import COUNTS, Body
 from slamlab.devices.emulator.emir import EmirMachine
 from slamlab.devices.emulator.rplidar import RplidarMachine
 from slamlab.devices.emulator.sight import Sight
 from slamlab.devices.errors import ConnectionLost
 from slamlab.devices.memory import MemoryPort
+from slamlab.devices.readings import EMIR
+from slamlab.devices.recording import Recorder, load
+from slamlab.devices.recording.decoded import turns
 from slamlab.devices.rplidar import Lidar
+from slamlab.devices.rplidar.requests import Command, motor_pwm, request
 from slamlab.devices.rplidar.turns import Turn
 from slamlab.geometry import between, compose, transform
 from slamlab.readings import Scan
+from slamlab.simulator import DifferentialDrive
 from slamlab.sources import SourceError
 from tests.laws import assert_same_pose, poses
 
+THESIS = 0.01, np.radians(2)  # what a count is there [m, rad]
+COURSE = [(1.0, 0, 0), (2.0, 60, 20), (1.0, -30, -40), (2.0, 50, 50), (1.0, 0, 0)]
 GONE = ConnectionLost("it is gone", "unplugged", "plug it in")
 
 
@@ -63,6 +72,9 @@ class ReadyEmir:
 
     def drive(self, v, omega):
         self.driven.append((v, omega))
+
+    def renew(self):
+        self.renewed = getattr(self, "renewed", 0) + 1
 
     def close(self):
         self.closed = True
@@ -144,7 +156,7 @@ def test_ports_that_do_not_open_are_told_in_one_line():
 
 def test_a_robot_is_closed_again_where_the_lidar_does_not_open(monkeypatch):
     emir = ReadyEmir()
-    monkeypatch.setattr(source, "Emir", lambda port: emir)
+    monkeypatch.setattr(source, "Emir", lambda port, **options: emir)
     with pytest.raises(SourceError, match="there is no port"):
         sources.open("devices:/dev/ttyNOSUCH0,e")
     assert emir.closed
@@ -203,3 +215,97 @@ def test_a_scan_taken_on_the_move_shows_the_room_as_seen_from_its_end(begin, mot
 def test_a_scan_from_a_robot_that_stands_is_left_as_it_is():
     scan, pose = turn(51.0).scan(), np.array([1.0, 2.0, 3.0])
     assert deskewed(scan, turn(51.0).times, pose, pose) is scan
+
+
+def recorded(path, world, course, saturates=False):
+    """Record a drive in simulated time, by the drivers; the true poses by time on its clock."""
+    clock, rng = SimulatedClock(30.0), np.random.default_rng(1)
+    body = Body(world, rng, robot=DifferentialDrive(tick=1e-6), counts=THESIS)
+    machines = {
+        "lidar": RplidarMachine(Sight(body, rng)),
+        "emir": EmirMachine(body, saturates=saturates),
+    }
+    true = []
+
+    def memory(name, baud):
+        return MemoryPort(machines[name], clock, name, baud)
+
+    with Recorder(path, {}, clock) as recorder:
+        openers = {name: recorder.opener(name, memory) for name in machines}
+        lidar = openers["lidar"]("lidar", 115200)
+        lidar.write(motor_pwm(660) + request(Command.SCAN))
+        emir = Session(
+            "emir", 57600, Odometry(Calibration(), saturates), None, openers["emir"], clock
+        )
+        for seconds, v, omega in course:
+            emir.move(commands.move(v, omega), repeated=True)
+            end = clock.now() + seconds
+            while clock.now() < end:
+                lidar.read(4096, 0.01)
+                emir.step()
+                true.append((clock.now(), *body.pose))
+        emir.let_go()
+    times, *poses = np.unwrap(np.array(true), axis=0).T
+    return lambda at: np.array([np.interp(at, times, column) for column in poses])
+
+
+@pytest.mark.parametrize("saturates", [False, True])
+def test_a_recording_is_a_source_whose_scans_lie_where_the_room_is(tmp_path, saturates):
+    world, path = worlds.by_name("room"), tmp_path / "a.raw.gz"
+    true_at = recorded(path, world, COURSE, saturates)
+    with sources.open(path) as source:
+        readings = list(source)
+        again = list(source)
+    assert len(readings) > 50 and not source.damage
+    assert source.robot == EMIR and not source.drivable
+    assert [r.time for r in readings] == [r.time for r in again]
+    first = next(turns(load(path))).times[-1]
+    believed = true_at(first)
+    for reading in readings:
+        believed = compose(believed, reading.odometry)
+        true = true_at(first + reading.time)
+        assert_same_pose(believed, true, 0.09)  # whole counts, of 2° and 1 cm
+        distances = world.cast(true[:2], true[2] + reading.scan.angles)
+        assert np.nanmedian(np.abs(distances - reading.scan.ranges)) < 0.03
+
+
+def test_a_torn_recording_is_read_up_to_the_tear_and_says_so(tmp_path, capsys):
+    path, torn = tmp_path / "a.raw", tmp_path / "torn.raw"
+    recorded(path, worlds.by_name("room"), COURSE)
+    content, whole = path.read_bytes(), list(sources.open(path))
+    for end in np.linspace(0.2, 0.99, 5) * len(content):
+        torn.write_bytes(content[: int(end)])
+        source = sources.open(torn)
+        readings = list(source)
+        assert 0 < len(readings) < len(whole) and source.damage["file torn"] == 1
+        for a, b in zip(readings, whole, strict=False):
+            np.testing.assert_array_equal(a.scan.ranges.shape, b.scan.ranges.shape)
+    hurt = bytearray(content)
+    hurt[len(content) // 2] ^= 1
+    torn.write_bytes(hurt)
+    assert main(["run", str(torn), "--estimator", "odometry"]) == 0
+    assert "file torn: 1" in capsys.readouterr().out
+    torn.write_bytes(content[:2000])
+    with pytest.raises(SourceError, match="no whole turn"):
+        sources.open(torn)
+
+
+def test_a_recording_is_converted_and_run_as_any_log(tmp_path, capsys):
+    path, log = tmp_path / "a.raw", tmp_path / "a.log"
+    recorded(path, worlds.by_name("room"), COURSE)
+    assert main(["convert", str(path), str(log)]) == 0
+    direct, converted = list(sources.open(path)), list(sources.open(log))
+    for a, b in zip(direct, converted, strict=True):
+        assert a.time == b.time
+        np.testing.assert_array_equal(a.odometry, b.odometry)
+        np.testing.assert_array_equal(a.scan.ranges, b.scan.ranges)
+    assert main(["run", str(path), "--estimator", "icp", "--out", str(tmp_path / "out")]) == 0
+    told = capsys.readouterr().out
+    assert "scans in the map" in told  # the estimator's own words
+    assert (tmp_path / "out" / "map.png").exists()
+
+
+def test_taking_readings_keeps_the_robot_going():
+    emir = ReadyEmir()
+    list(source.Devices(ReadyLidar([turn(51.0 + k / 10) for k in range(7)]), emir))
+    assert emir.renewed == 7

@@ -48,7 +48,12 @@ class Counter8:
     """
 
     def __init__(self, saturates=False):
-        self.saturates, self._last, self._expecting = saturates, None, 0
+        self.saturates = saturates
+        self.begin()
+
+    def begin(self):
+        """Forget what was: the next value is the first."""
+        self._last, self._expecting = None, 0
 
     def expect_reset(self):
         """The counter was told to begin at 0 again; when it will, nobody knows."""
@@ -94,7 +99,26 @@ class Odometry:
     def __init__(self, calibration, saturates=False):
         self.calibration = calibration
         self.path, self.angle = Counter8(saturates), Counter8(saturates)
-        self._poses = deque(maxlen=KEPT)
+        self._poses, self._gap = deque(maxlen=KEPT), False
+
+    @property
+    def full(self):
+        """bool, whether a counter will soon stop and they should be set back."""
+        return self.path.full or self.angle.full
+
+    @property
+    def until(self):
+        """float, when the counters were last read [s]; −∞ before that."""
+        return self._poses[-1][0] if self._poses else -np.inf
+
+    def expect_reset(self):
+        """The counters were told to begin at 0 again; see :class:`Counter8`."""
+        self.path.expect_reset()
+        self.angle.expect_reset()
+
+    def expect_gap(self):
+        """The connection was lost: a robot whose counters are 0 then was switched on anew."""
+        self._gap = True
 
     def advance(self, path, angle, time):
         """Take the counters in.
@@ -108,6 +132,10 @@ class Odometry:
         -------
         (3,) pose [m, m, rad]
         """
+        if self._gap and path == angle == 0:
+            self.path.begin()
+            self.angle.begin()
+        self._gap = False
         d = self.path.advance(path) * self.calibration.path
         turn = self.angle.advance(angle) * self.calibration.angle
         before = self._poses[-1][1] if self._poses else np.zeros(3)

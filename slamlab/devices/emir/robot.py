@@ -1,35 +1,29 @@
 """eMIR as one uses it: open it, drive, ask where it went, close it: then it stands."""
 
-import contextlib
-import logging
 import threading
 from collections import Counter
 
 from slamlab.devices.clock import Clock
 from slamlab.devices.closing import closed_at_exit
 from slamlab.devices.emir import commands
-from slamlab.devices.emir.frames import Framer
 from slamlab.devices.emir.odometry import Calibration, Odometry
-from slamlab.devices.emir.status import Status
-from slamlab.devices.errors import ConnectionLost, DeviceNotResponding, DeviceSilent, SlamlabError
-from slamlab.devices.reader import Reader
+from slamlab.devices.emir.session import Session
+from slamlab.devices.errors import ConnectionLost, SlamlabError
+from slamlab.devices.reader import Reader, retries
 from slamlab.devices.transport import open_port
 
 BAUD = 57600
-REFRESH = 0.2  # a command is repeated this often [s]
-POLL = 0.05  # how long a read waits [s]
-FIRST = 2.0  # for the first status [s]
-ASK = 0.4  # without a status it is asked for again [s]
-STEADY = 0.9  # without one the connection is taken for lost [s]
-FRAME = 36 * 10  # bits of a status on the line
-
-log = logging.getLogger(__name__)
+PATIENCE = 2.0  # so long it drives on though nobody asks for it [s]
 
 
 class Emir:
     """An eMIR on a port; connects at once, then reads its status all the time.
 
-    One thread reads, adds up the way, and repeats the last command five times a second.
+    One thread reads, adds up the way, and repeats the last command five times a second: a lost one
+    does no harm, and a robot that stops without commands drives on. But none drives on for a
+    program that has forgotten it: a motion that nobody has asked for longer than ``patience``, by
+    :meth:`move`, :meth:`drive` or :meth:`renew`, ends. Whoever takes readings of :class:`Devices`
+    renews it.
 
     Parameters
     ----------
@@ -38,6 +32,9 @@ class Emir:
     calibration : Calibration
     saturates : bool, whether its counters stop at ±128 instead of running over; they are then set
         back in time
+    patience : float, so long a motion lasts that nobody renews [s], or None: for ever
+    reconnect : bool, whether a lost connection is tried again until it is back; the robot then
+        stands, and its way meanwhile is what its counters tell
     opener : callable(port, baud) -> Transport
     clock : Clock
 
@@ -47,27 +44,30 @@ class Emir:
     """
 
     def __init__(
-        self, port, baud=BAUD, calibration=None, saturates=False, opener=open_port, clock=None
+        self,
+        port,
+        baud=BAUD,
+        calibration=None,
+        saturates=False,
+        patience=PATIENCE,
+        reconnect=False,
+        opener=open_port,
+        clock=None,
     ):
-        self.name, self.clock = port, clock or Clock()
+        self.name, self.clock, self.reconnect = port, clock or Clock(), reconnect
         self.odometry = Odometry(calibration or Calibration(), saturates)
-        self.status, self.error, self._closed, self._gone = None, None, False, False
-        self._framer, self._counts = Framer(), Counter()
-        self._writing, self._news = threading.RLock(), threading.Condition()
-        self._frame = None  # the command that is repeated
-        self._port = opener(port, baud)
-        self._wire = FRAME / baud
-        try:
-            self._port.set_dtr(False)
-            self._send(commands.stop(), commands.info(True))
-            self._sent = self._asked = self._heard = self.clock.now()
-            self._await_status()
-        except BaseException:
-            self._port.close()
-            raise
+        self.error, self._closed = None, False
+        self._counts, self._news = Counter(), threading.Condition()
+        self._open = lambda: Session(port, baud, self.odometry, patience, opener, self.clock)
+        self._session = self._open()
         self._reader = Reader(self._step, f"reads {port}", self._ended)
         self._reader.start()
         closed_at_exit(self)
+
+    @property
+    def status(self):
+        """Status, the last one."""
+        return self._session.listener.status
 
     @property
     def calibration(self):
@@ -85,12 +85,13 @@ class Emir:
 
     @property
     def stats(self):
-        """dict: frames taken in, and what was lost."""
-        counts = self._counts + self._framer.damage
-        return {name: counts[name] for name in ("frames", "bad frames", "bytes dropped")}
+        """dict: what was received and lost, and how often it was stopped as forgotten."""
+        counts = self._counts + _counts(self._session)
+        names = "frames", "bad frames", "bytes dropped", "forgotten", "reconnects"
+        return {name: counts[name] for name in names}
 
     def move(self, v, omega):
-        """Drive on and on, until the next command.
+        """Drive on and on, until the next command or until nobody renews it.
 
         Parameters
         ----------
@@ -100,10 +101,10 @@ class Emir:
         ------
         ConnectionLost
         """
-        self._command(commands.move(v, omega), repeated=True)
+        self._usable.move(commands.move(v, omega), repeated=True)
 
     def drive(self, v, omega):
-        """Drive on and on.
+        """Drive as :meth:`move` does.
 
         Parameters
         ----------
@@ -115,28 +116,29 @@ class Emir:
         """
         self.move(*self.calibration.percent(v, omega))
 
+    def renew(self):
+        """Somebody is still there: the present motion may go on."""
+        self._session.renew()
+
     def stop(self):
         """Stand still."""
-        self._command(commands.stop(), repeated=True)
+        self._usable.move(commands.stop(), repeated=True)
 
     def translate(self, way, speed=50):
         """Drive a way and stand still: see :func:`commands.translate`; does not wait for it."""
-        self._command(commands.translate(way, speed))
+        self._usable.move(commands.translate(way, speed), repeated=False)
 
     def rotate(self, degrees, speed=50):
         """Turn by an angle and stand still: see :func:`commands.rotate`; does not wait for it."""
-        self._command(commands.rotate(degrees, speed))
+        self._usable.move(commands.rotate(degrees, speed), repeated=False)
 
     def beep(self, seconds=0.2):
         """Beep [s]."""
-        self._command(commands.beep(seconds))
+        self._usable.say(commands.beep(seconds))
 
     def reset(self):
         """Set the counters to 0; the pose goes on, no way is lost."""
-        with self._writing:
-            self._send(commands.reset_counters())
-            for counter in (self.odometry.path, self.odometry.angle):
-                counter.expect_reset()
+        self._usable.say(commands.reset_counters())
 
     def wait(self, timeout=1.0):
         """The next status.
@@ -164,16 +166,10 @@ class Emir:
 
     def close(self):
         """Stop the robot and let go of the port; may be called again."""
-        self._closed = True  # from now on nobody sets it going
-        if self._gone:
-            return
-        with self._writing, contextlib.suppress(SlamlabError):
-            self._frame = None
-            self._send(commands.move(0, 0), commands.stop(), commands.info(False))
-            self.clock.sleep(0.01)
+        self._closed = True
+        self._session.let_go()
         self._reader.stop()
-        self._port.close()
-        self._gone = True  # a signal may have come on the way: then all of it is done again
+        self._session.let_go()  # of one that came back meanwhile
         self._ended(None)
 
     def __enter__(self):
@@ -182,64 +178,45 @@ class Emir:
     def __exit__(self, *exc):
         self.close()
 
-    def _command(self, frame, repeated=False):
+    @property
+    def _usable(self):
+        """Session, unless its connection is lost."""
         if self.error is not None:
             raise self.error
-        with self._writing:
-            if self._closed:
-                raise ConnectionLost(
-                    f"eMIR on {self.name} is closed", "close() was called", "open it anew"
-                )
-            self._frame = frame if repeated else None
-            self._send(frame)
-
-    def _send(self, *frames):
-        with self._writing:
-            self._port.write(b"".join(frames))
-            self._sent = self.clock.now()
-
-    def _await_status(self):
-        begin = self._sent
-        while self.status is None:
-            self._take()
-            if self.clock.now() - begin > FIRST:
-                raise DeviceNotResponding(
-                    f"no eMIR answers on {self.name}",
-                    "it is switched off, not paired, or this is another device's port",
-                    "switch it on, check the port (Bluetooth: /dev/rfcomm0 or COMx)",
-                )
+        return self._session
 
     def _step(self, stopping):
-        self._take()
-        now = self.clock.now()
-        if now - self._heard > STEADY:
-            raise DeviceSilent(
-                f"eMIR ceased to send, {now - self._heard:.1f} s ago",
-                "it is out of reach, switched off, or its battery is empty",
-                "bring it near, check its battery, then open it anew",
-            )
-        with self._writing:
-            if self._frame is not None and now - self._sent >= REFRESH and not stopping.is_set():
-                self._send(self._frame)
+        """What the reading thread does, again and again."""
+        try:
+            count = self._session.step()
+        except ConnectionLost:
+            if not self.reconnect or self._closed:
+                raise
+            self._connect_again(stopping)
+            return
+        with self._news:
+            self._counts["frames"] += count
+            self._news.notify_all()
 
-    def _take(self):
-        """Read, and take in what came."""
-        for content in self._framer.feed(self._port.read(4096, POLL)):
-            now = self.clock.now()
-            with self._news:
-                self.status, self._heard = Status.unpack(content), now
-                self.odometry.advance(self.status.path, self.status.angle, now - self._wire)
-                self._counts["frames"] += 1
-                self._news.notify_all()
-        now = self.clock.now()
-        if now - max(self._heard, self._asked) > ASK:
-            self._asked = now
-            self._send(commands.info(True))
-        if self.odometry.path.full or self.odometry.angle.full:
-            log.info("eMIR's counters are set back before they stop at their end")
-            self.reset()
+    def _connect_again(self, stopping):
+        """Try until the connection is back or nobody wants it any more."""
+        self._session.let_go()
+        for _ in retries(self.clock, stopping):
+            self.odometry.expect_gap()
+            try:
+                session = self._open()
+            except SlamlabError:
+                continue
+            self._counts += _counts(self._session) + Counter(reconnects=1)
+            self._session = session
+            break
 
     def _ended(self, error):
         with self._news:
-            self.error = error or self.error
+            if not self._closed:
+                self.error = error or self.error
             self._news.notify_all()
+
+
+def _counts(session):
+    return session.listener.damage + Counter(forgotten=session.forgotten)

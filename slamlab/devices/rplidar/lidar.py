@@ -14,7 +14,7 @@ from slamlab.devices.errors import (
 )
 from slamlab.devices.newest import Newest
 from slamlab.devices.ports import identity, lidar_port, port_of
-from slamlab.devices.reader import Reader
+from slamlab.devices.reader import Reader, retries
 from slamlab.devices.rplidar.answers import Answer
 from slamlab.devices.rplidar.connect import BAUDS
 from slamlab.devices.rplidar.session import Session
@@ -22,8 +22,6 @@ from slamlab.devices.rplidar.stream import DECODERS
 from slamlab.devices.transport import open_port
 
 PWM = 660  # about ten turns a second
-RETRY = 0.5, 5.0  # first and longest pause before another try to connect again [s]
-LOOK = 0.05  # how often it is looked whether to give that up [s]
 
 
 class Lidar:
@@ -219,9 +217,7 @@ class Lidar:
         """Try until the connection is back or nobody wants it any more."""
         baud = self._session.baud
         self._session.let_go()
-        pause, longest = RETRY
-        while self._pause(pause, stopping):
-            pause = min(2 * pause, longest)
+        for _ in retries(self.clock, stopping):
             self.name = port_of(self._identity) or self.name
             try:
                 self._session = Session(self.name, (baud,), self._opener, self.clock)
@@ -233,10 +229,3 @@ class Lidar:
             break
         if self._closed:  # meanwhile
             self._session.let_go()
-
-    def _pause(self, seconds, stopping):
-        """Let time pass; whether it is still worth while."""
-        end = self.clock.now() + seconds
-        while self.clock.now() < end and not stopping.is_set():
-            self.clock.sleep(LOOK)
-        return not stopping.is_set()
