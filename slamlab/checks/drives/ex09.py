@@ -3,16 +3,17 @@
 import numpy as np
 
 from slamlab.checks.drives import Drive, StudentError, numbers
+from slamlab.checks.drives.slam_step import SLAM_STEP
 
 
 def _parts(value, function, names, shapes):
-    """What a function returned, part by part; a shape of None is that of any vector or matrix."""
+    """What a function returned, part by part."""
     if not isinstance(value, tuple | list) or len(value) != len(names):
         raise StudentError("malformed", f"{function} must end with: return {', '.join(names)}")
     parts = []
     for part, name, shape in zip(value, names, shapes, strict=True):
         array = numbers(part, f"{function}'s {name}")
-        if shape is not None and array.shape != shape:
+        if array.shape != shape:
             raise StudentError(
                 "malformed", f"{function}'s {name} has shape {array.shape}, expected {shape}"
             )
@@ -88,39 +89,10 @@ def _thinned(functions, inputs):
     return {"kept": kept, "counts": np.array(counts)}
 
 
-def _driven(functions, inputs):
-    """Every run from its start to its end: the last state, its covariance, the ids in it."""
-    ends = [
-        _one_run(functions["slam_step"], inputs, x, u, z)
-        for x, u, z in zip(inputs["x"], inputs["u"], inputs["z"], strict=True)
-    ]
-    if len({(len(x), len(ids)) for x, _, ids in ends}) > 1:
-        raise StudentError("malformed", "slam_step's map differs in size from run to run")
-    x, P, ids = map(np.array, zip(*ends, strict=True))
-    return {"x": x, "P": P, "ids": ids}
-
-
-def _one_run(slam_step, inputs, x, drives, sights):
-    P, ids, C, R = inputs["P"], [], inputs["C"], inputs["R"]
-    for u, seen, z in zip(drives, inputs["seen"], sights, strict=True):
-        there = seen >= 0
-        value = slam_step(
-            np.array(x), np.array(P), list(ids), u.copy(), seen[there].tolist(), z[there],
-            C.copy(), R.copy(),
-        )  # fmt: skip
-        x, P, ids = _parts(value, "slam_step", ("x", "P", "ids"), (None, None, None))
-        if x.ndim != 1 or P.shape != (len(x), len(x)) or ids.ndim != 1:
-            raise StudentError(
-                "malformed", f"slam_step returned x {x.shape}, P {P.shape}, ids {ids.shape}"
-            )
-        ids = [int(i) if np.isfinite(i) else i for i in ids]
-    return x, P, np.array(ids, dtype=float)
-
-
 DRIVES = {
     "09-place": Drive(("place",), _placed),
     "09-update": Drive(("update",), _updated),
     "09-life": Drive(("keep_book",), _lived),
-    "09-walls": Drive(("slam_step",), _driven),
+    "09-walls": SLAM_STEP,
     "09-thin": Drive(("thin",), _thinned),
 }

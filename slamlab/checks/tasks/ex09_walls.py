@@ -2,63 +2,16 @@
 
 import numpy as np
 
-from slamlab import jacobians, models, noise
 from slamlab.checks.drives.ex09 import DRIVES
 from slamlab.checks.task import Diagnosis, Law, Task
 from slamlab.checks.tasks.ex06_ends import MAP, Ends, whole
+from slamlab.checks.tasks.ex06_orders import ordered
 from slamlab.checks.tasks.ex06_runs import LANDMARKS as MET
 from slamlab.checks.tasks.ex06_runs import RUNS
 from slamlab.checks.tasks.ex09_corridor import least_squares, runs, truth
 from slamlab.filters.kinds import LINES
-from slamlab.filters.mak import MAK
 
 ENDS = Ends(LINES, sure=(0.8, 1.33))
-
-
-# ---- mistakes: the same calls in a wrong order ------------------------------------------------
-
-
-def _filtered(inputs, run, order):
-    """A run with the calls of each step in some order: p predict, u update, a place new ones,
-    d both as the scan has them, and what was placed is updated as well."""
-    mak = MAK(inputs["x"][run], inputs["P"], kind=LINES)
-    for u, seen, z in zip(inputs["u"][run], inputs["seen"], inputs["z"][run], strict=True):
-        known = mak.ids
-        for what in order:
-            if what == "p":
-                pose = mak.pose
-                Q = noise.Q(jacobians.W_odometry(pose, u), inputs["C"])
-                mak.predict(models.f_odometry(pose, u), Q)
-                continue
-            for i, one in zip(seen.tolist(), z, strict=True):
-                if i in known and what in "ud":
-                    mak.update([i], [one], inputs["R"])
-                elif i >= 0 and i not in known and what in "ad":
-                    mak.add([i], [one], inputs["R"])
-                    if what == "d":
-                        mak.update([i], [one], inputs["R"])
-    return mak
-
-
-def _ordered(*orders):
-    """Whether the end of a run is that of the same calls in one of these orders."""
-
-    def matches(inputs, outputs):
-        return whole(inputs, outputs) and any(_like(inputs, outputs, order) for order in orders)
-
-    return matches
-
-
-def _like(inputs, outputs, order):
-    for run in (0, 1):
-        mak = _filtered(inputs, run, order)
-        (x,), (P,) = ENDS.in_order(inputs, mak.x[None], mak.P[None], np.array([mak.ids]))
-        (got,), (claimed,) = (part[run, None] for part in ENDS.of(inputs, outputs))
-        sigma, off = np.sqrt(np.diag(P)), got - x
-        off = ENDS.wrapped(off)
-        if max((abs(off) / sigma).max(), (abs(claimed - P) / np.outer(sigma, sigma)).max()) > 0.1:
-            return False
-    return True
 
 
 def _size(compare):
@@ -127,28 +80,28 @@ WALLS = Task(
             "placed-too-early",
             "New walls are placed before the pose is predicted: z was measured after the drive, so "
             "everything new stands a step behind.",
-            _ordered("apu"),
+            ordered(ENDS, "apu"),
         ),
         Diagnosis(
             "predicted-last",
             "What is seen is used before the drive is predicted. Predict first.",
-            _ordered("uap", "aup"),
+            ordered(ENDS, "uap", "aup"),
         ),
         Diagnosis(
             "never-updated",
             "Walls seen again teach the filter nothing: known ids are to be updated.",
-            _ordered("pa"),
+            ordered(ENDS, "pa"),
         ),
         Diagnosis(
             "never-predicted",
             "The drive u is not used: predict comes first in every step.",
-            _ordered("ua"),
+            ordered(ENDS, "ua"),
         ),
         Diagnosis(
             "counted-twice",
             "A new wall is placed and then updated with the same z: counted twice, that sight "
             "makes the filter surer than it may be.",
-            _ordered("pd"),
+            ordered(ENDS, "pd"),
         ),
         Diagnosis(
             "born-alone",
