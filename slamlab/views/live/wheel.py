@@ -1,10 +1,10 @@
 """The wheel of a live view: a robot driven by named commands, or along a way that was typed."""
 
 from contextlib import suppress
+from math import remainder, tau
 
 import numpy as np
 
-from slamlab.geometry import between, wrap
 from slamlab.views.live.commands import understood
 
 EAGER = 1.5  # speed towards a goal for each metre that is left [1/s]
@@ -142,11 +142,13 @@ class Way:
         -------
         (2,) speed and turn rate [m/s, rad/s], or None at the goal
         """
-        moved = between(self._last, pose)
-        self._turn -= wrap(moved[2])
-        self._last = np.array(pose, dtype=float)
+        # by hand: workers of exercise 01 hold the views, but not the answers in slamlab.geometry
+        x, y, theta = np.asarray(pose, dtype=float) - self._last
+        forward = x * np.cos(self._last[2]) + y * np.sin(self._last[2])
+        self._last = self._last + (x, y, theta)
+        self._turn -= remainder(theta, tau)
         if not self._turning:
-            self._left -= np.copysign(np.hypot(*moved[:2]), moved[0])
+            self._left -= np.copysign(np.hypot(x, y), forward)
         self._turning = self._turning and abs(self._turn) > NEAR[1]
         if not self._turning and abs(self._left) <= NEAR[0]:
             return None
