@@ -10,7 +10,7 @@ import signal
 import threading
 import weakref
 
-_open = weakref.WeakSet()
+_open = weakref.WeakKeyDictionary()  # keeps their order
 _ready = False
 
 
@@ -22,7 +22,7 @@ def closed_at_exit(device):
     device : object with close(), which may be called twice
     """
     global _ready
-    _open.add(device)
+    _open[device] = True
     if not _ready:
         _ready = True
         atexit.register(close_all)
@@ -32,8 +32,8 @@ def closed_at_exit(device):
 
 
 def close_all():
-    """Close every device that is still open; what one of them raises keeps no other open."""
-    for device in list(_open):
+    """Close every device that is still open, the last first; none keeps another open."""
+    for device in reversed(list(_open)):
         with contextlib.suppress(Exception):  # the program ends: nobody is left to be told
             device.close()
 

@@ -83,6 +83,34 @@ def test_the_turn_s_mark_is_set_by_the_angle_before_it_is_corrected():
     assert nodes["angle_q6"][22] / 64 == 357.046875
 
 
+def capsule(answer, start_q6):
+    """A capsule without distances."""
+    body = struct.pack("<H", start_q6 % TURN) + bytes(DECODERS[answer].size - 4)
+    check = int(np.bitwise_xor.reduce(np.frombuffer(body, np.uint8)))
+    return bytes([0xA0 | check & 15, 0x50 | check >> 4]) + body
+
+
+@pytest.mark.parametrize("answer", ALL[1:])
+@given(
+    turned=st.integers(5 * 64, 60 * 64),
+    before=st.integers(1, 8),
+    off=st.one_of(st.integers(-2, 2), st.integers(-5 * 64, 5 * 64)),
+    waver=st.integers(0, 20),
+    seed=st.integers(0, 2**32 - 1),
+)
+def test_every_turn_is_marked_once_wherever_capsules_begin(
+    answer, turned, before, off, waver, seed
+):
+    steps = turned + np.random.default_rng(seed).integers(-waver, waver + 1, 40)
+    starts = np.concatenate([[0], np.cumsum(steps)])
+    starts += off - starts[before]  # one begins at 0° or close to it
+    nodes, decoder = decoded(answer, b"".join(capsule(answer, q6) for q6 in starts))
+    assert len(nodes) == 40 * decoder.points and not decoder.damage
+    # a turn's mark stands at the last node before 0° by the motor's angle, uncorrected
+    crossed = starts[-1] // TURN - starts[0] // TURN
+    assert nodes["start"].sum() == crossed
+
+
 @pytest.mark.parametrize(
     ("mm", "code"),
     [(511, 511), (512, 512), (2048, 1280), (4096, 1792), (8000, 2280), (16384, 3328)],

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from slamlab import __version__
 from slamlab.devices.clock import Clock
+from slamlab.devices.closing import closed_at_exit
 from slamlab.devices.errors import ConnectionLost
 from slamlab.devices.recording.records import EVENT, LONGEST, RX, TX, Record, header_line
 from slamlab.devices.transport import Transport, open_port
@@ -41,7 +42,7 @@ class Recorder:
         self.path = path.with_suffix("") if self._packed else path
         if self._packed and path.exists():
             raise FileExistsError(17, "File exists", str(path))
-        self._file, self._lock = self.path.open("xb"), threading.Lock()
+        self._file, self._lock = self.path.open("xb"), threading.RLock()
         self._flushed = self.clock.now()
         header = {
             "slamlab": __version__,
@@ -51,6 +52,7 @@ class Recorder:
         }
         self._file.write(header_line(header))
         self._file.flush()
+        closed_at_exit(self)
 
     def opener(self, channel, opener=open_port):
         """What opens a port so that all that goes over it is recorded.

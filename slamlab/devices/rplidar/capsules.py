@@ -91,7 +91,10 @@ class CapsuleDecoder(Decoder):
         nodes["angle_q6"] = (angle - offset_q16 >> 10) % TURN
         nodes["distance_q2"] = distance_q2
         nodes["quality"] = np.where(distance_q2 > 0, QUALITY, 0)
-        nodes["start"] = (angle + step) % (TURN << 10) < step
+        after = (angle + step) % (TURN << 10)
+        nodes["start"] = after < step
+        # where the step was cut off, 0° may lie between this capsule's end and the next one's start
+        nodes["start"][-1] |= ((start_q8 + turned_q8) << 8) % (TURN << 10) < after[-1]
         nodes["after_gap"] = False
         nodes["after_gap"][0], self._gap = self._gap, False
         return nodes

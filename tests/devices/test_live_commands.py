@@ -1,0 +1,110 @@
+"""``slamlab run`` and ``record`` on devices behind real ports, and how they end."""
+
+import json
+import os
+import signal
+import time
+
+import pytest
+
+from slamlab import sources
+from slamlab.devices.emir import commands
+from slamlab.devices.recording import load
+from slamlab.devices.recording.decoded import turns
+from slamlab.devices.rplidar.requests import Command
+from tests.devices.test_emulator_ports import ENDS, LOCAL, command, needs_pty, running
+
+PATIENCE = 60  # [s] for anything that is waited for; what is there is not waited for
+signals = pytest.mark.skipif(os.name != "posix", reason="signals cannot be sent to one there")
+
+
+def until(said):
+    """Wait until something is true."""
+    end = time.monotonic() + PATIENCE
+    while not said():
+        assert time.monotonic() < end
+        time.sleep(0.02)
+
+
+def scanned(it, seconds):
+    """Whether the lidar has scanned for so long."""
+    scan = it["lidar"]._scan
+    return scan is not None and scan._taken * scan._mode.period > seconds
+
+
+def started(it, *words):
+    """A command on both devices, once they send and the robot moves."""
+    process = command(words[0], "devices:" + ",".join(it.ports.values()), *words[1:])
+    until(lambda: scanned(it, 3.0) or process.poll() is not None)
+    it["emir"]._drive(20, 30, 1)  # as somebody else drives it
+    until(lambda: moving(it))
+    return process
+
+
+def moving(it):
+    return it.body._speeds.any()
+
+
+def ended(process, number):
+    process.send_signal(number)
+    said, _ = process.communicate(timeout=PATIENCE)
+    return said
+
+
+def assert_at_rest(it):
+    """The robot stands, the motor too, and both were told so: nothing runs out by itself."""
+    until(lambda: it["lidar"].pwm == 0 and it["lidar"]._scan is None and not moving(it))
+    assert it["lidar"].requests[-1] == (Command.SET_MOTOR_PWM, b"\0\0")
+    assert (commands.STOP, 0, 0) in it["emir"].commands[-3:]
+
+
+@signals
+@pytest.mark.parametrize("tcp", ENDS)
+def test_ctrl_c_ends_a_live_run_and_what_it_came_to_is_written(tcp, tmp_path):
+    with running(tcp) as it:
+        process = started(it, "run", "--estimator", "icp", "--out", str(tmp_path))
+        said = ended(process, signal.SIGINT)
+        assert process.returncode == 130, said
+        assert "ended by Ctrl-C" in said and "scans in the map" in said
+        assert_at_rest(it)
+    assert json.loads((tmp_path / "summary.json").read_text())["frames"] > 3
+    assert (tmp_path / "map.png").exists() and (tmp_path / "trajectory.csv").exists()
+
+
+@signals
+def test_ctrl_c_ends_a_live_conversion_with_a_whole_log(tmp_path):
+    with running(LOCAL) as it:
+        process = started(it, "convert", str(tmp_path / "log.gz"))
+        said = ended(process, signal.SIGINT)
+        assert process.returncode == 130, said
+        assert_at_rest(it)
+    log = sources.open(tmp_path / "log.gz")
+    assert len(log) > 3 and not log.damage
+    assert f"{len(log)} readings written" in said
+
+
+@signals
+@pytest.mark.parametrize("tcp", ENDS)
+@pytest.mark.parametrize("word", ["run", "record"])
+def test_told_to_end_the_program_leaves_motor_and_robot_at_rest(tcp, word, tmp_path):
+    with running(tcp) as it:
+        more = ["--out", str(tmp_path / "a.raw")] if word == "record" else []
+        process = started(it, word, *more)
+        said = ended(process, signal.SIGTERM)
+        assert process.returncode == -signal.SIGTERM, said
+        assert_at_rest(it)
+    if word == "record":
+        recording = load(tmp_path / "a.raw")
+        assert not recording.torn and len(list(turns(recording))) > 10
+
+
+@needs_pty
+def test_a_lidar_that_is_lost_ends_a_run_with_what_it_came_to(tmp_path):
+    with running() as it:
+        process = started(it, "run", "--estimator", "odometry", "--out", str(tmp_path))
+        it["lidar"].faults.unplugged = True
+        said, _ = process.communicate(timeout=PATIENCE)
+        assert process.returncode == 2
+        assert "Next: " in said and "until then" in said
+        until(lambda: not moving(it))
+    assert json.loads((tmp_path / "summary.json").read_text())["frames"] > 3
