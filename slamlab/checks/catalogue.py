@@ -1,5 +1,6 @@
 """Which exercises there are: one module ``tasks/exNN.py`` each, imported when asked for."""
 
+import functools
 import importlib
 import pkgutil
 import re
@@ -15,6 +16,7 @@ class Catalogue(Mapping):
     def __init__(self, package=tasks):
         self._package = package
 
+    @functools.cached_property
     def _modules(self):
         found = (
             re.fullmatch(r"ex(\d\d)", m.name) for m in pkgutil.iter_modules(self._package.__path__)
@@ -22,14 +24,14 @@ class Catalogue(Mapping):
         return {match[1]: match[0] for match in found if match}
 
     def __getitem__(self, id) -> Exercise:
-        module = self._modules()[id]
+        module = self._modules[id]
         return importlib.import_module(f"{self._package.__name__}.{module}").EXERCISE
 
     def __iter__(self):
-        return iter(sorted(self._modules()))
+        return iter(sorted(self._modules))
 
     def __len__(self):
-        return len(self._modules())
+        return len(self._modules)
 
 
 EXERCISES = Catalogue()

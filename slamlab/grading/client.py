@@ -45,6 +45,7 @@ class Client:
         self._exercise, self._cells, self._start = exercise, cells, start
         self._stop, self._tell = stop or threading.Event(), tell
         self._process, self._thread, self._turn = None, None, 0
+        self._questions, self._answers = queue.SimpleQueue(), queue.SimpleQueue()
         self._lethal = set()
         self._deadline = time.monotonic() + TOTAL_SECONDS
         self.problems = {}
@@ -117,6 +118,11 @@ class Client:
         if time.monotonic() >= self._deadline:
             raise StudentError("time", f"the notebook took more than {TOTAL_SECONDS:g} s in all")
         self._process = self._start(self._exercise)
+        self._questions, self._answers = queue.SimpleQueue(), queue.SimpleQueue()
+        # in a thread of its own: a worker may also hang by not reading
+        pair = self._questions, self._answers
+        self._thread = threading.Thread(target=_talk, args=(self._process, *pair), daemon=True)
+        self._thread.start()
         self._turn = None
         try:
             head, _ = self._exchange(b"", START_SECONDS)
@@ -135,26 +141,21 @@ class Client:
         return self._exchange(frame, min(seconds, max(self._deadline - time.monotonic(), 0.1)))
 
     def _exchange(self, frame, seconds):
-        # in a thread of its own: a worker may also hang by not reading
-        answers = queue.SimpleQueue()
-        self._thread = threading.Thread(
-            target=_talk, args=(self._process, frame, answers), daemon=True
-        )
-        self._thread.start()
+        self._questions.put(frame)
         try:
-            answer, kind = self._wait(answers, seconds), "died"
+            answer, kind = self._wait(seconds), "died"
         except queue.Empty:
             answer, kind = None, "time"
         if answer is None or answer[0].get("turn") != self._turn:
             raise Gone(kind)
         return answer
 
-    def _wait(self, answers, seconds):
+    def _wait(self, seconds):
         end = time.monotonic() + seconds
         while not self._stop.is_set():
             left = end - time.monotonic()
             try:
-                return answers.get(timeout=max(min(left, GLANCE), 0))
+                return self._answers.get(timeout=max(min(left, GLANCE), 0))
             except queue.Empty:
                 if left <= GLANCE:
                     raise
@@ -165,6 +166,7 @@ class Client:
             return
         process, self._process = self._process, None
         process.kill()
+        self._questions.put(None)
         self.cpu += process.cpu
         self._thread.join(1.0)
         if not self._thread.is_alive():  # else a process that escaped still holds the pipe
@@ -173,13 +175,14 @@ class Client:
                     stream.close()
 
 
-def _talk(process, frame, answers):
-    try:
-        process.sending.write(frame)
-        process.sending.flush()
-        answers.put(wire.receive(process.receiving))
-    except (OSError, ValueError, wire.WireError):
-        answers.put(None)
+def _talk(process, questions, answers):
+    while (frame := questions.get()) is not None:
+        try:
+            process.sending.write(frame)
+            process.sending.flush()
+            answers.put(wire.receive(process.receiving))
+        except (OSError, ValueError, wire.WireError):
+            answers.put(None)
 
 
 def _say(kind, seconds):

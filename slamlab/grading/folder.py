@@ -2,7 +2,7 @@
 
 import re
 import threading
-from concurrent.futures import ThreadPoolExecutor, as_completed
+from concurrent.futures import ThreadPoolExecutor, as_completed, wait
 from hashlib import sha256
 from pathlib import Path
 
@@ -73,7 +73,7 @@ def grade_here(found, secret, workers, default=None, known=None, jobs=1):
     ----------
     found : list of Submission
     secret : bytes
-    workers : Workers
+    workers : Workers, closed in the end
     default : str or None, the exercise of notebooks that do not tell it
     known : attempt's key to Record, which are not graded again
     jobs : int, how many at once
@@ -83,15 +83,18 @@ def grade_here(found, secret, workers, default=None, known=None, jobs=1):
     Record
     """
     stop = threading.Event()
-    pool = ThreadPoolExecutor(jobs)
-    try:
+    with ThreadPoolExecutor(jobs) as pool:
         futures = [
             pool.submit(judge.grade, s, secret, workers, default, known, stop) for s in found
         ]
-        yield from (future.result() for future in as_completed(futures))
-    finally:
-        stop.set()
-        pool.shutdown(cancel_futures=True)
+        try:
+            yield from (future.result() for future in as_completed(futures))
+        finally:
+            stop.set()
+            for future in futures:
+                future.cancel()
+            wait(futures)
+            workers.close()  # before the threads end that they would die with
 
 
 def write_down(graded, out, book, default=None, policy=late.NONE):

@@ -28,7 +28,7 @@ class Broken(Exception):
 
 
 class Zygote:
-    """A process with an exercise's imports done, from which workers are forked.
+    """A process with an exercise's imports done, from which workers are forked, one at a time.
 
     It dies with the thread that started it; only that thread uses it.
 
@@ -99,20 +99,22 @@ class Zygote:
         try:
             said = json.dumps({"do": "fork"}).encode()
             socket.send_fds(self._control, [said], [theirs_in, theirs_out])
-            pid = self._hear(ANSWER_SECONDS)["pid"]
+            self._hear(ANSWER_SECONDS)
         except (OSError, Broken):
             os.close(ours_in)
             os.close(ours_out)
-            raise Broken(self.errors()) from None
+            said = self.errors()
+            self.close()
+            raise Broken(said) from None
         finally:
             os.close(theirs_in)
             os.close(theirs_out)
-        return Forked(self, pid, os.fdopen(ours_in, "rb"), os.fdopen(ours_out, "wb"))
+        return Forked(self, os.fdopen(ours_in, "rb"), os.fdopen(ours_out, "wb"))
 
-    def end(self, pid):
-        """Kill a worker; its CPU time [s], 0 where the zygote is gone and the worker with it."""
+    def end(self):
+        """Kill the worker; its CPU time [s], 0 where the zygote is gone and the worker with it."""
         try:
-            self._control.send(json.dumps({"do": "end", "pid": pid}).encode())
+            self._control.send(json.dumps({"do": "end"}).encode())
             return self._hear(ANSWER_SECONDS)["cpu"]
         except (OSError, Broken):
             self.close()
@@ -154,8 +156,8 @@ class Zygote:
 class Forked:
     """A running worker; :attr:`receiving` and :attr:`sending` are the judge's ends of its pipes."""
 
-    def __init__(self, zygote, pid, receiving, sending):
-        self._zygote, self._pid = zygote, pid
+    def __init__(self, zygote, receiving, sending):
+        self._zygote, self._runs = zygote, True
         self.receiving, self.sending = receiving, sending
         self.cpu = 0.0
 
@@ -165,5 +167,5 @@ class Forked:
 
     def kill(self):
         """End the worker; its CPU time [s] is in :attr:`cpu`."""
-        if self._pid is not None:
-            self.cpu, self._pid = self._zygote.end(self._pid), None
+        if self._runs:
+            self.cpu, self._runs = self._zygote.end(), False

@@ -1,6 +1,9 @@
 """The walls round a student's code, put up inside its own process before a line of it runs."""
 
+import ctypes
 import os
+
+from slamlab.grading import landlock, seccomp
 
 NONE, BASIC, STRICT = "none", "basic", "strict"
 LEVELS = (NONE, BASIC, STRICT)
@@ -10,28 +13,50 @@ MEMORY = 1536 << 20  # beyond what the libraries take [bytes]
 FILE = 16 << 20  # longest file [bytes]
 FILES = 128  # open at once
 CPU = 300  # of the whole process [s]
+NO_NEW_PRIVILEGES = 38  # prctl, without which Landlock and seccomp take no orders
 DEVICES = ("/dev/null", "/dev/zero", "/dev/urandom", "/dev/random")
 
 
-def close(level, readable=(), home=None):
-    """Bound this process: memory, time, files; above "none" system calls and files, too.
+def rules(level, readable, home):
+    """What files a process behind the walls of a level may use, made ready once for many.
 
     Parameters
     ----------
     level : str, one of LEVELS
-    readable : list of paths; above "none"
-    home : str, the folder in which it may write; above "none"
+    readable : list of paths
+    home : str, the folder in which it may write
+
+    Returns
+    -------
+    int, a file descriptor for :func:`close`; None where the level has no such walls
+
+    Raises
+    ------
+    OSError : a wall cannot be put up here
+    """
+    if level == NONE:
+        return None
+    return landlock.rules([*readable, *DEVICES], [home, "/dev/null"])
+
+
+def close(files=None):
+    """Bound this process for good: memory and time; with rules, files and system calls, too.
+
+    Parameters
+    ----------
+    files : int or None, of :func:`rules`
 
     Raises
     ------
     OSError : a wall cannot be put up here
     """
     _limit()
-    if level == NONE:
+    if files is None:
         return
-    from slamlab.grading import landlock, seccomp
-
-    landlock.restrict([*readable, *DEVICES], [home, "/dev/null"])
+    libc = ctypes.CDLL(None, use_errno=True)
+    if libc.prctl(NO_NEW_PRIVILEGES, 1, 0, 0, 0):
+        raise OSError(ctypes.get_errno(), "no_new_privs")
+    landlock.restrict(files)
     seccomp.restrict(os.getpid())
 
 

@@ -8,6 +8,7 @@ import hashlib
 
 SHORTEST = 40  # nodes of the tree; what is shorter is alike by chance
 LONGEST = 100_000  # letters; nobody writes more by hand
+NAMES = {ast.Name: "id", ast.arg: "arg", ast.keyword: "arg"}
 
 
 def fingerprints(cells, exercise):
@@ -69,14 +70,13 @@ def _normal(function):
     first = function.body[0]
     if isinstance(first, ast.Expr) and isinstance(first.value, ast.Constant):
         function.body = function.body[1:] or [ast.Pass()]
-    own = {argument.arg for argument in ast.walk(function) if isinstance(argument, ast.arg)}
-    own |= {n.id for n in ast.walk(function)
-            if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)}  # fmt: skip
-    numbers, size = {}, 0
-    for node in ast.walk(function):
-        size += 1
-        for field in ("id", "arg"):
-            name = getattr(node, field, None)
-            if name in own:
-                setattr(node, field, f"_{numbers.setdefault(name, len(numbers))}")
-    return size, ast.dump(function)
+    nodes = list(ast.walk(function))
+    own = {node.arg for node in nodes if isinstance(node, ast.arg)}
+    own |= {n.id for n in nodes if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)}
+    numbers = {}
+    for node in nodes:
+        field = NAMES.get(type(node))
+        name = getattr(node, field) if field else None
+        if name in own:
+            setattr(node, field, f"_{numbers.setdefault(name, len(numbers))}")
+    return len(nodes), ast.dump(function, annotate_fields=False)

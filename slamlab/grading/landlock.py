@@ -27,13 +27,17 @@ def version():
         return 0
 
 
-def restrict(readable, writable):
-    """Take from this process every right to files but those named, for good.
+def rules(readable, writable):
+    """Rules that take every right to files but those named.
 
     Parameters
     ----------
     readable : list of paths, files or folders with all below; what is not there is left out
     writable : list of folders
+
+    Returns
+    -------
+    int, their file descriptor
 
     Raises
     ------
@@ -47,15 +51,25 @@ def restrict(readable, writable):
     size = 24 if abi >= 6 else 16 if abi >= 4 else 8
     libc = ctypes.CDLL(None, use_errno=True)
     ruleset = _checked(libc.syscall(CREATE, attributes, size, 0))
-    try:
-        for path in readable:
-            _allow(libc, ruleset, path, READ | LIST)
-        for path in writable:
-            _allow(libc, ruleset, path, rights & ~DEVICES & ~EXECUTE)
-        _checked(libc.prctl(38, 1, 0, 0, 0))  # no_new_privs
-        _checked(libc.syscall(RESTRICT, ruleset, 0))
-    finally:
-        os.close(ruleset)
+    for path in readable:
+        _allow(libc, ruleset, path, READ | LIST)
+    for path in writable:
+        _allow(libc, ruleset, path, rights & ~DEVICES & ~EXECUTE)
+    return ruleset
+
+
+def restrict(ruleset):
+    """Hold this process to rules for good; it must be kept from new privileges already.
+
+    Parameters
+    ----------
+    ruleset : int, of :func:`rules`
+
+    Raises
+    ------
+    OSError
+    """
+    _checked(ctypes.CDLL(None, use_errno=True).syscall(RESTRICT, ruleset, 0))
 
 
 def _allow(libc, ruleset, path, rights):

@@ -123,7 +123,7 @@ CLONE, CLONE3 = (56, 220), (435, 435)
 KILL, TGKILL, PRCTL, IOCTL, PRLIMIT = (62, 129), (234, 131), (157, 167), (16, 29), (302, 261)
 
 CLONE_THREAD = 0x10000
-PR_SET_NO_NEW_PRIVS, PR_SET_SECCOMP, FILTER = 38, 22, 2
+PR_SET_SECCOMP, FILTER = 22, 2
 NAMES_OF_THREADS = (15, 16)  # PR_SET_NAME, PR_GET_NAME
 ASKING_A_STREAM = (0x5401, 0x5450, 0x5451, 0x541B)  # TCGETS, FIONCLEX, FIOCLEX, FIONREAD
 
@@ -135,6 +135,8 @@ X32 = 0x40000000  # calls of another ABI of x86_64, numbered anew
 
 def restrict(pid):
     """Refuse every system call but the allowed ones, for good.
+
+    This process must be kept from new privileges already.
 
     Parameters
     ----------
@@ -153,8 +155,6 @@ def restrict(pid):
         struct.pack("HxxxxxxP", len(program) // 8, ctypes.addressof(buffer))
     )
     libc = ctypes.CDLL(None, use_errno=True)
-    if libc.prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0):
-        raise OSError(ctypes.get_errno(), "no_new_privs")
     if libc.prctl(PR_SET_SECCOMP, FILTER, described, 0, 0):
         raise OSError(ctypes.get_errno(), "seccomp")
 

@@ -4,7 +4,6 @@ It answers each frame with one frame. It holds the modules its exercise allows a
 nothing that it says is believed: the judge judges the arrays that come back.
 """
 
-import ast
 import builtins
 import importlib
 import os
@@ -26,7 +25,7 @@ def main(drives):
     ----------
     drives : str, the module that holds the exercise's DRIVES
     """
-    jail.close(jail.NONE)
+    jail.close()
     threading.Thread(target=_end_with, args=(os.getppid(),), daemon=True).start()
     serve(importlib.import_module(drives).DRIVES)
 
@@ -79,7 +78,7 @@ def run_cell(source, number, names):
     str or None, what went wrong
     """
     try:
-        exec(compile(_as_python(source), f"<cell {number}>", "exec", dont_inherit=True), names)
+        exec(_compiled(source, f"<cell {number}>"), names)
     except NotImplementedError:
         return "not attempted yet"
     except BaseException as error:  # a cell that fails, or calls sys.exit(), is noted, no more
@@ -100,15 +99,14 @@ def _drive(head, inputs, drives, names):
         return {"kind": "raised", "problem": describe(error)}, {}
 
 
-def _as_python(source):
+def _compiled(source, name):
     try:
-        ast.parse(source)
-        return source
+        return compile(source, name, "exec", dont_inherit=True)
     except SyntaxError:
         # perhaps magics or shell lines; imported only now because it takes long
         from IPython.core.inputtransformer2 import TransformerManager
 
-        return TransformerManager().transform_cell(source)
+        return compile(TransformerManager().transform_cell(source), name, "exec", dont_inherit=True)
 
 
 class _Shell:
@@ -119,7 +117,7 @@ class _Shell:
 
     def run_cell_magic(self, name, line, cell):
         if name in MAGICS_THAT_RUN:
-            exec(compile(_as_python(cell), f"<cell %%{name}>", "exec"), self.user_ns)
+            exec(_compiled(cell, f"<cell %%{name}>"), self.user_ns)
 
     def getoutput(self, command):
         return []

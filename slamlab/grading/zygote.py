@@ -4,7 +4,8 @@ Starting Python and importing takes seconds, a fork milliseconds. No student's c
 data ever reach the zygote; each worker is a copy of it as it was before anybody's notebook.
 
 It is asked over a socket in JSON: ``{"do": "fork"}``, with the two ends of a pipe, answers
-``{"pid": …}``; ``{"do": "end", "pid": …}`` answers ``{"cpu": …}``, the seconds that worker took.
+``{"ready": true}``; ``{"do": "end"}`` answers ``{"cpu": …}``, the seconds that worker took. There
+is one worker at a time, in a home that each finds empty.
 """
 
 import contextlib
@@ -41,29 +42,33 @@ def main(control, plan):
         with contextlib.suppress(ImportError):
             importlib.import_module(name)
     drives = importlib.import_module(plan["drives"]).DRIVES
+    home = os.path.join(plan["home"], "own")
+    os.mkdir(home, 0o700)
+    os.environ |= {name: home for name in ("HOME", "TMPDIR", "MPLCONFIGDIR")}
+    os.chdir(home)
+    files = jail.rules(plan["level"], plan["readable"], home)
     gc.collect()
     gc.freeze()  # a collection would write to every page that is shared until then
     _say(control, {"ready": True})
-    homes, count = {}, 0
+    pid = None
     while True:
         said, handles, _, _ = socket.recv_fds(control, LONGEST, 2)
         if not said:
             break
-        asked = json.loads(said)
-        if asked["do"] == "fork":
-            count += 1
-            home = os.path.join(plan["home"], str(count))
-            pid = _fork(control, handles, drives, plan, home)
-            homes[pid] = home
-            _say(control, {"pid": pid})
-        else:
-            _say(control, {"cpu": _end(asked["pid"], homes.pop(asked["pid"]))})
-    for pid, home in homes.items():
-        _end(pid, home)
+        if json.loads(said)["do"] == "fork":
+            pid = _fork(handles, drives, files)
+            _say(control, {"ready": True})
+            continue
+        cpu, pid = _end(pid), None
+        _clear(home)
+        _say(control, {"cpu": cpu})
+        if os.listdir(home):  # what cannot be cleared away is not for the next to see
+            break
+    if pid is not None:
+        _end(pid)
 
 
-def _fork(control, handles, drives, plan, home):
-    os.mkdir(home, 0o700)
+def _fork(handles, drives, files):
     pid = os.fork()
     if pid:
         for handle in handles:
@@ -71,13 +76,10 @@ def _fork(control, handles, drives, plan, home):
         return pid
     try:  # from here on in the worker
         os.setsid()
-        control.close()
         for number, handle in enumerate(handles):
             os.dup2(handle, number)
-            os.close(handle)
-        os.chdir(home)
-        os.environ |= {name: home for name in ("HOME", "TMPDIR", "MPLCONFIGDIR")}
-        jail.close(plan["level"], plan["readable"], home)
+        jail.close(files)
+        os.closerange(3, jail.FILES)  # the judge's socket and whatever else was open
         worker.serve(drives)
     except BaseException as error:
         print(f"worker: {type(error).__name__}: {error}", file=sys.stderr, flush=True)
@@ -85,16 +87,23 @@ def _fork(control, handles, drives, plan, home):
         os._exit(0)
 
 
-def _end(pid, home):
+def _end(pid):
     """Kill a worker, and what it started where it could; the seconds of CPU it took."""
     for kill in (os.killpg, os.kill):
         with contextlib.suppress(ProcessLookupError):
             kill(pid, signal.SIGKILL)
     _, _, usage = os.wait4(pid, 0)
-    # what a student leaves behind may be nested beyond reason; nobody else can read it
-    with contextlib.suppress(OSError, RecursionError):
-        shutil.rmtree(home, ignore_errors=True)
     return usage.ru_utime + usage.ru_stime
+
+
+def _clear(folder):
+    for entry in list(os.scandir(folder)):
+        # it may be nested beyond reason
+        with contextlib.suppress(OSError, RecursionError):
+            if entry.is_dir(follow_symlinks=False):
+                shutil.rmtree(entry)
+            else:
+                os.unlink(entry)
 
 
 def _say(control, what):
