@@ -12,17 +12,21 @@ RUN = PATH="$(CURDIR)/$(ENV)/bin:$$PATH" $(ENV)/bin/python -m
 # one worker a core of a small machine; the cells of a notebook must stay on one worker
 PYTEST = $(RUN) pytest -n 2 --dist loadfile
 
-.PHONY: lab test env lint format notebooks student bench lock clean
+.PHONY: lab test env clients lint format notebooks student bench lock clean
 
 lab:  ## Set up and open the course; LAB_ARGS="--no-browser --port 9999" go to JupyterLab
 	@$(PYTHON) lab.py $(LAB_ARGS)
 
-test: lint  ## Set up and run every test; TEST_ARGS go to pytest
+test: lint clients  ## Set up and run every test; TEST_ARGS go to pytest
 	$(PYTEST) $(TEST_ARGS)
 	PYTHONHASHSEED=0 $(RUN) pytest @tests/notebooks/nbval.args notebooks exercises solutions
 
 env:
 	@$(PYTHON) lab.py --venv $(ENV) --lock requirements-test.lock --install-only
+
+clients: env  # only built from source, so in no lock; without them their tests are skipped
+	@$(RUN) pip install --quiet --no-deps --require-hashes -r tests/devices/clients.txt || \
+		echo "these clients could not be installed: their tests will be skipped"
 
 lint: env
 	$(RUN) ruff check .

@@ -273,7 +273,7 @@ lidar.disconnect()
     ids=["roboticia", "py"],
 )
 def test_other_people_s_programs_get_info_health_and_scans(module, script):
-    pytest.importorskip(module, reason=f"the client {module} is not installed (test extra)")
+    pytest.importorskip(module, reason=f"{module} is not installed: see clients.txt")
     with running() as it:
         command = [sys.executable, "-c", script, it.ports["lidar"]]
         done = subprocess.run(command, capture_output=True, text=True, timeout=120)
