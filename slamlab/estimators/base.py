@@ -1,7 +1,10 @@
 """The protocol every SLAM of the course follows: it takes readings in, one at a time."""
 
+from collections import Counter
+
 import numpy as np
 
+from slamlab.estimators.stamps import odd_stamp
 from slamlab.layers import Layer
 from slamlab.readings import Reading, Trajectory
 
@@ -11,7 +14,7 @@ class Estimator:
 
     Subclasses implement ``step`` and ``layers`` and keep ``pose`` up to date. ``trajectory`` is the
     past as believed now: a graph revises it, a filter does not. ``status`` is one line for people,
-    ``skipped`` counts readings with nothing usable in them.
+    ``skipped`` counts readings with nothing usable in them, ``counts`` whatever else was odd.
     """
 
     status: str = ""
@@ -19,6 +22,7 @@ class Estimator:
     def __init__(self):
         self.pose = np.zeros(3)
         self.skipped = 0
+        self.counts = Counter()
         self._times: list[float] = []
         self._poses: list[np.ndarray] = []
 
@@ -33,8 +37,15 @@ class Estimator:
 
     def record(self, time):
         """Keep the present pose as that of ``time`` [s]; called at the end of ``step``."""
+        odd = odd_stamp(self._times, time)
+        if odd:
+            self.counts[odd] += 1
         self._times.append(time)
         self._poses.append(np.array(self.pose, dtype=float))
+
+    def told(self, *parts):
+        """A status: what the estimator has to say, then what it counted."""
+        return ", ".join([*parts, *(f"{n} {what}" for what, n in sorted(self.counts.items()))])
 
     def trajectory(self) -> Trajectory:
         """Every pose so far, as believed now.

@@ -1,4 +1,4 @@
-"""What a graph SLAM believes of odometry and of stamps, whoever's they are."""
+"""What a graph SLAM believes of odometry, whoever's it is."""
 
 import numpy as np
 
@@ -8,7 +8,6 @@ from slamlab.geometry import compose
 OWN = 0.003, 0.03, 0.005, 0.05  # deviations: reaches, reaches a rad turned, rad, of the turn
 UNTOLD = 1.0  # turn that standing still is taken for: it may be that nobody counts the wheels [rad]
 SLACK = 0.03, 0.1, 0.15  # largest that any odometry may have: reaches, of the way, rad
-PAUSE = 5.0  # times the usual time between readings: a gap
 
 
 def driven(pose, doubt, odometry, robot, reach):
@@ -47,25 +46,3 @@ def slack(motion, reach):
     """
     way = SLACK[0] * reach + SLACK[1] * np.hypot(motion[0], motion[1])
     return np.diag(np.square([way, way, SLACK[2]]))
-
-
-def odd_stamps(times, time):
-    """What is odd about a stamp; poses hang on none.
-
-    Parameters
-    ----------
-    times : list of float, the stamps so far [s]
-    time : float [s]
-
-    Returns
-    -------
-    list of str, empty or one
-    """
-    if not times:
-        return []
-    if time == times[-1]:
-        return ["stamps repeated"]
-    if time < times[-1]:
-        return ["stamps going back"]
-    usual = np.median(np.abs(np.diff(times[-20:]))) if len(times) > 1 else np.inf
-    return ["gaps"] if time - times[-1] > PAUSE * max(usual, 0.1) else []

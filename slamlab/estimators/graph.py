@@ -6,7 +6,6 @@ of the graph's. A keyframe near an old one may close a loop (:mod:`slamlab.estim
 past is revised: ``trajectory`` is as believed now.
 """
 
-from collections import Counter
 from dataclasses import dataclass
 
 import numpy as np
@@ -65,7 +64,7 @@ class GraphSlam(Estimator):
     def __init__(self, robot, loops=True):
         super().__init__()
         self.robot, self.naive_pose = robot, np.zeros(3)
-        self.graph, self.keyframes, self.counts = PoseGraph(), [], Counter()
+        self.graph, self.keyframes = PoseGraph(), []
         self.loops = self.elsewhere = None
         if loops:
             self.loops = Loops(self.graph, self.keyframes, self.counts)
@@ -82,7 +81,6 @@ class GraphSlam(Estimator):
         ----------
         reading : Reading
         """
-        self.counts.update(drift.odd_stamps(self._times, reading.time))
         self._drive(reading.odometry)
         if reading.scan is not None:
             points = reading.scan.points()
@@ -98,8 +96,7 @@ class GraphSlam(Estimator):
         self._naive.append(self.naive_pose)
         self.pose = compose(self._anchor(), self._relative)
         self.record(reading.time)
-        noted = [f"{count} {what}" for what, count in sorted(self.counts.items())]
-        self.status = ", ".join([f"{len(self.keyframes)} keyframes", *noted])
+        self.status = self.told(f"{len(self.keyframes)} keyframes")
 
     def trajectory(self):
         """Every pose so far, as the graph has it now."""

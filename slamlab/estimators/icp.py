@@ -14,6 +14,7 @@ from slamlab.scanmatching import point_to_line, point_to_point
 
 FEWEST = 3  # points without which a scan cannot be matched
 AGREEING = 0.1  # share of the scan that must lie on what was seen before
+HALF = 0.5  # a share below this is noted: the robot may have been carried
 STILL = np.array([1e-6, 1e-6, 1e-6])  # a motion below this is none [m, m, rad]
 TRUST = 0.05, 0.05, 0.2  # of odometry between scans; decides where no wall does [m, m, rad]
 SPACING = 0.02, np.radians(1)  # a scan enters the map when the robot went or turned this far
@@ -56,7 +57,7 @@ class IcpSlam(Estimator):
             self.skipped += 1
         self._naive_track.append(self.naive_pose)
         self.record(reading.time)
-        self.status = f"{len(self._map)} scans in the map, {self.unmatched} not matched"
+        self.status = self.told(f"{len(self._map)} scans in the map, {self.unmatched} not matched")
 
     def layers(self):
         """Naive and corrected map, naive and corrected track."""
@@ -75,6 +76,8 @@ class IcpSlam(Estimator):
             match = self._match(points)
             if match.share >= AGREEING:  # one that still trembles beats odometry too
                 self.pose = compose(self._anchor, match.pose)
+                if match.share < HALF:
+                    self.counts["matches of few pairs"] += 1
             else:
                 self.unmatched += 1
         self._anchor, self._since, self._last = self.pose, np.zeros(3), points

@@ -61,13 +61,16 @@ class WallSlam(Estimator):
             self.skipped += 1
         else:
             found = lines(reading.scan, self.sensor, self.rng, self.ransac)
-            self._update(reading.scan, *self._associated(found))
+            known, new = self._associated(found)
+            if self._begun and new and not known:  # the robot may have been carried
+                self.counts["scans of unknown walls only"] += 1
+            self._update(reading.scan, known, new)
             self.points.add(transform(self.filter.pose, reading.scan.points()))
         self.pose = self.filter.pose
         self.record(reading.time)
-        self.status = (
-            f"{len(self.filter.ids)} walls, {len(self.candidates.waiting)} on trial, "
-            f"{self.doubtful} doubtful sightings left out"
+        self.status = self.told(
+            f"{len(self.filter.ids)} walls, {len(self.candidates.waiting)} on trial",
+            f"{self.doubtful} doubtful sightings left out",
         )
 
     def layers(self):
