@@ -1,0 +1,118 @@
+"""Every benchmark runs, in its quickest form, and its table holds the ratios it promises.
+
+How fast anything is, is nobody's verdict: each method runs once, on the smallest sizes.
+"""
+
+import importlib
+import pkgutil
+import time
+
+import numpy as np
+import pytest
+
+import benchmarks
+from benchmarks import common
+
+KEYS = {"name", "value", "unit", "reference", "ratio"}
+SHARED = {"common", "icp_peers", "__main__"}
+ELSEWHERE = {
+    "devices",
+    "grading",
+    "live",
+    "raycast",
+}  # ports, sandboxes, a browser; a test of its own
+
+SMALL = {  # what is set to run in seconds, and what the rows must compare: (name, reference)
+    "accuracy": (
+        {"TOURS": ("room",)},
+        {("room, 1 seeds: start to end", "20 mm"), ("room, 1 seeds: false loops", "")},
+    ),
+    "bor": (
+        {"SIZES": (10, 30), "PREDICTIONS": 5, "SAMPLES": 200},
+        {
+            ("N = 10: slamlab", "MAK filter"),
+            ("slamlab: N = 30 over N = 10", "constant"),
+            ("wheels: width of the turn", "hull of samples"),
+        },
+    ),
+    "icp": (
+        {"BASINS": {"near": ((10,), (0.1,)), "far": ((90,), (0.5,))}},
+        {
+            ("a match: match", "thesis' way"),
+            ("a match: match", "point to line"),
+            ("a match: match, clouds made ready", "thesis' way"),
+            ("position error: match", "thesis' way"),
+            ("heading error: match", "thesis' way"),
+            ("tight at 1 % noise: match", "all"),
+            ("basin near: point to point", "all"),
+            ("basin far: match", "all"),
+            ("basin far: match, search asked for", "match"),
+        },
+    ),
+    "lines": (
+        {"PLACES": ("polygon",)},
+        {
+            ("polygon: found: slamlab", "thesis' parameters"),
+            ("polygon: false: scikit-learn, line by line", "thesis' parameters"),
+            ("a scan: slamlab", "scikit-learn, line by line"),
+            ("a scan: slamlab", "period / 10"),
+        },
+    ),
+    "mak": (
+        {"SIZES": (20, 60), "GROWTH_FROM": 20, "REGION": 6, "REGION_STEPS": 3},
+        {
+            ("N = 20: slamlab", "np.copyto(P)"),
+            ("N = 60: slamlab", "textbook dense EKF"),
+            ("N = 60: slamlab", "filterpy EKF"),
+            ("growth exponent, slamlab, N = 500…2000", "N²"),
+        },
+    ),
+    "montecarlo": (
+        {"SIZES": (50,)},
+        {
+            ("50 samples: slamlab", "plain Python loop"),
+            ("50 samples: slamlab", "numpy + filterpy's comb"),
+            ("50 draws: slamlab multinomial", "filterpy multinomial"),
+        },
+    ),
+}
+
+
+def once(methods, quick, seconds=0.0):
+    """In place of ``common.cpu_times``: the time of one call of each."""
+    times = {}
+    for name, method in methods.items():
+        begin = time.perf_counter()
+        method()
+        times[name] = time.perf_counter() - begin
+    return times
+
+
+def test_every_benchmark_of_the_folder_is_tried_here_or_elsewhere_and_can_be_imported():
+    names = {module.name for module in pkgutil.iter_modules(benchmarks.__path__)}
+    assert names - SHARED == ELSEWHERE | SMALL.keys()
+    for name in names - SHARED:
+        module = importlib.import_module(f"benchmarks.{name}")
+        assert module.TITLE
+        assert callable(module.run)
+
+
+@pytest.mark.parametrize("name", SMALL)
+def test_its_quickest_run_gives_the_ratios_it_promises(name, monkeypatch):
+    module = importlib.import_module(f"benchmarks.{name}")
+    settings, promised = SMALL[name]
+    for setting, value in settings.items():
+        monkeypatch.setattr(module, setting, value)
+    monkeypatch.setattr(module, "cpu_times", once)
+    try:
+        rows = module.run(quick=True)
+    except common.Missing as reason:
+        pytest.skip(str(reason))
+    assert promised <= {(row["name"], row["reference"]) for row in rows}
+    for row in rows:
+        assert set(row) == KEYS
+        assert np.isfinite(row["value"])
+        assert not np.isnan(row["ratio"])
+        # where a thing is compared with itself the ratio is one
+        if row["name"].endswith(f": {row['reference']}") and row["unit"] == "ms":
+            assert row["ratio"] == 1
