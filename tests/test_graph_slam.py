@@ -198,13 +198,21 @@ def test_a_robot_without_odometry_is_led_by_its_scans():
 
 
 @pytest.mark.parametrize(
-    ("beams", "field", "scale"), [(180, 180, 4.0), (682, 240, 0.7), (3600, 360, 1.0)]
+    ("beams", "field", "scale", "far"),
+    [
+        (180, 180, 4.0, 80.0),
+        (682, 240, 0.7, 80.0),
+        (3600, 360, 1.0, 80.0),
+        (90, 90, 1.0, 8.0),
+        (90, 360, 0.25, 1.0),
+        (1000, 90, 10.0, 80.0),
+    ],
 )
-def test_other_scanners_and_sizes_need_no_other_parameters(beams, field, scale):
+def test_other_scanners_and_sizes_need_no_other_parameters(beams, field, scale, far):
     room = worlds.room()
     world = World(room.walls * scale, room.circles * scale)
     lidar = Scanner(
-        beams, 0.02, 80.0, np.radians(field), range_error=0.003, range_sigma=0.002 * scale
+        beams, 0.005, far, np.radians(field), range_error=0.003, range_sigma=0.002 * scale
     )
     rng, pose, slam, truth = np.random.default_rng(0), np.zeros(3), GraphSlam(RobotModel()), []
     for i in range(16):
