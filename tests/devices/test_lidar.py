@@ -298,17 +298,33 @@ def test_a_lidar_cut_off_behind_its_adapter_is_told_within_a_second():
         assert isinstance(lost.value, ConnectionLost) and isinstance(lost.value, DataTimeout)
 
 
+def silent(quiet, begin, seconds):
+    """Feed a stream nothing, in the small steps of one who listens."""
+    for k in range(1, round(seconds / 0.05) + 1):
+        quiet.feed(b"", begin + 0.05 * k)
+
+
 def test_silence_is_judged_by_the_stream_s_own_clock():
     quiet = Stream(Answer.SCAN, 508e-6, 115200, now=10.0)
-    quiet.feed(b"", 10.0 + FIRST)
+    silent(quiet, 10.0, FIRST - 0.05)
     with pytest.raises(DataTimeout):
-        quiet.feed(b"", 10.01 + FIRST)
+        silent(quiet, 10.0 + FIRST, 0.15)
     begun = Stream(Answer.SCAN, 508e-6, 115200, now=10.0)
     begun.feed(stream(Answer.SCAN, 10), 10.0 + FIRST)
-    begun.feed(b"", 10.0 + FIRST + STEADY)
+    silent(begun, 10.0 + FIRST, STEADY - 0.05)
     with pytest.raises(DeviceSilent):
-        begun.feed(b"", 10.01 + FIRST + STEADY)
+        silent(begun, 10.0 + FIRST + STEADY, 0.15)
     assert STEADY + 0.05 < 1
+
+
+def test_a_program_that_did_not_come_to_listening_takes_no_device_for_lost():
+    begun = Stream(Answer.SCAN, 508e-6, 115200, now=10.0)
+    begun.feed(stream(Answer.SCAN, 10), 10.1)
+    for k in range(5):
+        begun.feed(b"", 20.0 + 10 * k)  # a laptop that slept, a cell that took all the time
+    begun.feed(stream(Answer.SCAN, 10), 80.0)
+    with pytest.raises(DeviceSilent):
+        silent(begun, 80.0, STEADY + 0.1)
 
 
 def test_a_stream_of_garbage_is_an_error_but_a_burst_is_not():

@@ -7,6 +7,7 @@ import threading
 from slamlab.devices.emir import commands
 from slamlab.devices.emir.listener import Listener
 from slamlab.devices.errors import ConnectionLost, DeviceNotResponding, DeviceSilent, SlamlabError
+from slamlab.devices.silence import Silence
 
 REFRESH = 0.2  # a command is repeated this often [s]
 POLL = 0.05  # how long a read waits [s]
@@ -42,7 +43,8 @@ class Session:
         self.listener, self.forgotten = Listener(odometry, baud), 0
         self._closed, self._gone, self._writing = False, False, threading.RLock()
         self._frame = None  # the command that is repeated
-        self._sent = self._asked = self._heard = self._wanted = clock.now()
+        self._sent = self._asked = self._wanted = clock.now()
+        self._silence = Silence(self._sent)
         self._port = opener(name, baud)
         try:
             self._port.set_dtr(False)
@@ -103,9 +105,9 @@ class Session:
         ConnectionLost
         """
         count, now = self._take(), self._clock.now()
-        if now - self._heard > STEADY:
+        if self._silence.seconds > STEADY:
             raise DeviceSilent(
-                f"eMIR ceased to send, {now - self._heard:.1f} s ago",
+                f"eMIR ceased to send, {self._silence.seconds:.1f} s ago",
                 "it is out of reach, switched off, or its battery is empty",
                 "bring it near, check its battery, then open it anew",
             )
@@ -127,7 +129,7 @@ class Session:
 
     def _keep(self, now):
         """Keep it telling, its counters off their ends, its motion going or ended."""
-        if now - max(self._heard, self._asked) > ASK:
+        if self._silence.seconds > ASK and now - self._asked > ASK:
             self._asked = now
             self._send(commands.info(True))
         if self.listener.odometry.full:
@@ -153,13 +155,12 @@ class Session:
         """Read, and take in what came; how many statuses that were."""
         data, now = self._port.read(4096, POLL), self._clock.now()
         count = self.listener.hear(data, now)
-        if count:
-            self._heard = now
+        self._silence.listened(now, count > 0)
         return count
 
     def _await_status(self):
         while not self._take():
-            if self._clock.now() - self._sent > FIRST:
+            if self._silence.seconds > FIRST:
                 raise DeviceNotResponding(
                     f"no eMIR answers on {self.name}",
                     "it is switched off, not paired, or this is another device's port",

@@ -8,6 +8,7 @@ from slamlab.devices.rplidar.capsules import DenseDecoder, ExpressDecoder, Ultra
 from slamlab.devices.rplidar.nodes import ScanDecoder
 from slamlab.devices.rplidar.timing import SampleTimes
 from slamlab.devices.rplidar.turns import Assembler
+from slamlab.devices.silence import Silence
 
 DECODERS = {
     Answer.SCAN: ScanDecoder,
@@ -37,7 +38,7 @@ class Stream:
         self.decoder = DECODERS[answer]()
         self._times = SampleTimes(period, baud, self.decoder)
         self._turns = Assembler(period, after_gap)
-        self._first, self._heard = True, now
+        self._first, self._silence = True, Silence(now)
         self._received = self._dropped = 0  # by the decoder when this window began
 
     def feed(self, data, now):
@@ -58,10 +59,11 @@ class Stream:
         DeviceSilent : nothing comes any more
         ChecksumError : most of it makes no sense
         """
+        silence = self._silence.listened(now, bool(data))
         if not data:
-            self._check_silence(now - self._heard)
+            self._check_silence(silence)
             return []
-        self._first, self._heard = False, now
+        self._first = False
         nodes = self.decoder.feed(data)
         self._check_damage()
         return self._turns.feed(nodes, self._times.of(len(nodes), now))
