@@ -1,13 +1,13 @@
 """From a source to its notebooks, without outputs: nothing here runs or writes anything."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import nbformat
 
-from course.exercise import check_metadata, regions, solution_metadata, strip
+from course.exercise import PROTECTED, VALIDATE, check_metadata, regions, solution_metadata, strip
 from course.lint import lint
-from course.source import ROOT, CourseError, Source, read
+from course.source import ROOT, Cell, CourseError, Source, read
 from slamlab.checks import catalogue
 
 FOLDERS = {"lesson": ("notebooks",), "exercise": ("exercises", "solutions")}
@@ -52,6 +52,9 @@ def derive(path, root=ROOT):
     problems = lint(source, exercise)
     if problems:
         raise CourseError(problems)
+    if exercise:
+        last = Cell("code", VALIDATE, "validate", source.cells[-1].line, {})
+        source = replace(source, cells=[*source.cells, last])
     return [
         Derived(
             source,
@@ -100,6 +103,8 @@ def _cell(cell, exercise, stubs):
     elif cell.type == "code" and regions(text):
         metadata |= solution_metadata(cell.id)
         text = strip(text) if stubs else text
+    elif cell.text == VALIDATE:
+        metadata |= PROTECTED
     if stubs and "nbval-check-output" in cell.tags:  # nothing is stored to compare with
         metadata["tags"] = [tag for tag in cell.tags if tag != "nbval-check-output"]
     if not metadata.get("tags", True):

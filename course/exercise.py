@@ -4,6 +4,13 @@ import ast
 
 BEGIN, END = "### BEGIN SOLUTION", "### END SOLUTION"
 STUB = 'raise NotImplementedError("your code here")'
+PROTECTED = {"deletable": False, "editable": False}
+VALIDATE = """\
+# Save first: this runs what stands in the file, from top to bottom, as the grader will.
+from slamlab.checks import validate
+
+validate()"""
+"""The last cell of every exercise."""
 
 
 class SolutionError(Exception):
@@ -119,7 +126,7 @@ def check_metadata(task):
     """
     points = int(task.points) if float(task.points).is_integer() else float(task.points)
     graded = _nbgrader(task.id, grade=True, locked=True) | {"points": points}
-    return {"nbgrader": graded, "deletable": False, "editable": False}
+    return {"nbgrader": graded, **PROTECTED}
 
 
 def _nbgrader(id, grade=False, solution=False, locked=False):

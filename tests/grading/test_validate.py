@@ -1,0 +1,71 @@
+"""A student's notebook says of itself, as saved, what the grader will say of it."""
+
+import os
+
+import pytest
+
+from slamlab.checks import validate
+from tests.grading import fake
+from tests.grading.conftest import notebook
+from tests.grading.test_judge import judged
+
+CELL = "from slamlab.checks import validate\nvalidate()"
+
+
+@pytest.fixture
+def file(tmp_path, monkeypatch):
+    """A saved notebook, and a kernel that was started for it."""
+    path = tmp_path / "99 fake.ipynb"
+    path.write_text(notebook(fake.SOLUTION, CELL), "utf-8")
+    monkeypatch.setenv("JPY_SESSION_NAME", str(path))
+    return path
+
+
+def said(capsys, **names):
+    exec(CELL, names)
+    return capsys.readouterr().out
+
+
+def test_the_file_is_judged_and_not_what_the_kernel_holds(file, capsys):
+    text = said(capsys, double=None)
+    assert text.startswith("99 fake.ipynb as saved at ")
+    assert "✓ 99-turn · Turn a vector: 2 of 2 points" in text
+    assert text.endswith("6.5 of 6.5 points\n")
+
+
+def test_a_cell_that_runs_only_in_a_stale_order_is_told(file, capsys):
+    file.write_text(notebook("print(late)", "late = 1", fake.SOLUTION, CELL), "utf-8")
+    assert "Cell 2 defines late" in " ".join(said(capsys).split())
+
+
+def test_the_file_may_be_named_from_elsewhere_or_by_another_program(file, monkeypatch, capsys):
+    monkeypatch.chdir(file.parent)
+    monkeypatch.setenv("JPY_SESSION_NAME", f"some/folder/{file.name}")
+    assert "6.5 of 6.5 points" in said(capsys)
+    monkeypatch.delenv("JPY_SESSION_NAME")
+    assert "6.5 of 6.5 points" in said(capsys, __vsc_ipynb_file__=str(file))
+
+
+@pytest.mark.parametrize("name", [None, "", "renamed.ipynb", "/nowhere/at all.ipynb", "console-1"])
+def test_where_no_file_is_known_it_says_to_save(name, file, monkeypatch, capsys):
+    monkeypatch.delenv("JPY_SESSION_NAME")
+    if name is not None:
+        monkeypatch.setenv("JPY_SESSION_NAME", name)
+    text = said(capsys)
+    assert "save it" in text
+    assert "slamlab check" in text
+
+
+@pytest.mark.parametrize("text", ["", "{", "[1]"])
+def test_a_file_that_cannot_be_judged_is_told_in_a_line(text, file, capsys):
+    file.write_text(text, "utf-8")
+    assert said(capsys).splitlines()[-1].startswith(f"✗ {file}: ")
+
+
+def test_under_nbgrader_and_in_a_worker_it_does_nothing(file, monkeypatch, capsys):
+    graded = judged(fake.SOLUTION, CELL)
+    assert graded["cells"] == {}
+    assert all(verdict.full for verdict in graded["verdicts"])
+    monkeypatch.setitem(os.environ, "NBGRADER_EXECUTION", "autograde")
+    assert validate() is None
+    assert capsys.readouterr().out == ""
