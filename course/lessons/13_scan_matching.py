@@ -544,13 +544,14 @@ views.show(fig, "Long fans of pairs end on the last points of the first scan and
 #
 # $$r = n^{\mathsf T}(p - b), \qquad p = R\,a + t$$
 #
-# **Question.** Why did nobody do that for known pairs? **Predict:** what becomes of the tidy
-# solution by centroids and SVD?
+# **Question.** Of the three unknowns, which does a pair on a wall straight ahead tell something
+# about, and which not? **Predict:** will the tidy solution by centroids and SVD survive?
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* It is gone: tr(RH) came from |b|² and |Ra|² being constant, and
-# now only one component of each is counted. No closed form of that kind is left (Censi 2008 solves
-# a quartic); everyone takes a Gauss-Newton step, as below. The name is PL-ICP in the literature.
+# *For the lecturer:* A wall straight ahead tells how far ahead, and the turn; nothing of the way to
+# the side. The tidy solution is gone: tr(RH) came from |b|² and |Ra|² being constant, and now only
+# one component of each is counted. Censi (2008, PLICP) still solves it in closed form, by a
+# quartic; most take a Gauss-Newton step, as below.
 
 # %% slideshow={"slide_type": "subslide"}
 n = normals(first)
@@ -730,9 +731,10 @@ views.show(fig, "As printed: two polygons, turned against each other by 45°. Me
 # ICP goes downhill from where it starts. The guesses that lead home are its **basin**. Start from a
 # wrong heading *and* a wrong place, in all directions, and count who finds home, to 5 cm and 2°.
 #
-# A third matcher joins in: `match`, the package's best. It pairs by bearing, steps across walls,
-# and **judges** its own result. With `search=0` it believes where it ends; without, a result that
-# it finds poor makes it look for the source at all turns and places first.
+# A third matcher joins in: `match`, the package's best. It steps across walls, too, and pairs by
+# bearing: what two scans see in the same direction is the same wall, and nothing nearest has to be
+# looked for. And it **judges** its own result. With `search=0` it stays where it ends; without, a
+# result that it finds poor makes it look at all turns and places, then start again from there.
 #
 # **Predict:** up to which turn will plain ICP come home? Point to line is the more accurate: is it
 # the more patient, too?
