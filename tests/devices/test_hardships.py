@@ -44,7 +44,8 @@ def test_stale_bytes_in_flight_are_passed_over(tcp, count):
     with running(tcp) as it:
         it["lidar"].faults.stale = stream(Answer.SCAN, 2000)[-count:]
         with Lidar(it.ports["lidar"]) as driver:
-            assert not it["lidar"].faults.stale  # they came
+            assert not it["lidar"].faults.stale  # they came, and nothing was asked twice
+            assert it["lidar"].requests.count((Command.GET_INFO, b"")) == 1
             assert driver.info.firmware == (1, 29) and driver.health == Health(0, 0)
             assert driver.turn(timeout=PATIENCE).complete
 
