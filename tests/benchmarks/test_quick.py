@@ -20,6 +20,7 @@ ELSEWHERE = {
     "grading",
     "live",
     "raycast",
+    "soak",
 }  # ports, sandboxes, a browser; a test of its own
 
 SMALL = {  # what is set to run in seconds, and what the rows must compare: (name, reference)
