@@ -6,7 +6,7 @@ import nbformat
 import pytest
 
 from course.source import ROOT
-from tests.browser import editing, live, measuring, waiting
+from tests.browser import driving, editing, live, measuring, waiting
 from tests.browser.jupyter import Unavailable, Visit, chromium, jupyterlab
 
 
@@ -25,7 +25,7 @@ def lab_folder(tmp_path_factory):
     """The folder with all lessons and the notebooks of these tests."""
     notebooks = tmp_path_factory.mktemp("lab") / "course" / "notebooks"
     shutil.copytree(ROOT / "notebooks", notebooks)
-    for made in (live, waiting, editing, measuring):
+    for made in (live, waiting, editing, measuring, driving):
         nbformat.write(made.notebook(), notebooks / made.NAME)
     return notebooks
 

@@ -1,0 +1,62 @@
+"""Tuček's live test: eMIR is driven round the obstacles from the page, and SLAM knows where it is.
+
+Emulators stand behind pseudo-terminals, the real drivers are in between.
+"""
+
+import os
+
+import numpy as np
+import pytest
+
+from slamlab.geometry import between
+from tests.browser.driving import NAME, Robot
+
+# round the table, and home; the pillars stay on the outside
+ROUND = [(1.3, -0.5), (3.3, -0.1), (3.4, 1.6), (2.2, 2.3), (0.9, 1.9), (0.6, 0.4), (0.0, 0.0)]
+
+
+@pytest.fixture
+def robot(visit):
+    """A robot whose view runs."""
+    visit.open(NAME)
+    visit.run(0)
+    driven = Robot(visit)
+    driven.wait(1)
+    driven.press("▶ run")
+    driven.wait(driven.frame() + 3)
+    yield driven
+    driven.tell("exit")
+    assert visit.errors == []
+    assert visit.abroad == []
+
+
+def off(poses, name):
+    """How far a pose is from the true one [m], [rad]."""
+    x, y, turn = between(poses["true"], poses[name])
+    return np.hypot(x, y), abs(turn)
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(os.name != "posix", reason="this system has no pseudo-terminals")
+def test_driven_round_the_table_the_corrected_pose_is_right_and_the_naive_one_is_not(robot, visit):
+    # by a button and by keys
+    robot.press("▲ forward")
+    while robot.poses()["true"][0] < 0.3:
+        robot.wait(robot.frame() + 1)
+    robot.press("■ stop")
+    robot.at_rest()
+    robot.canvas.click()
+    visit.page.keyboard.press("ArrowLeft")
+    while robot.poses()["true"][2] < 0.3:
+        robot.wait(robot.frame() + 1)
+    visit.page.keyboard.press("Space")
+    robot.at_rest()
+    # and, where it matters, by numbers
+    for place in ROUND:
+        poses = robot.go_to(*place)
+        assert np.hypot(*poses["true"][:2] - place) < 0.1
+    (metres, turn), (naive_metres, naive_turn) = (off(poses, n) for n in ("corrected", "naive"))
+    told = f"corrected {metres:.3f} m {turn:.3f}, naive {naive_metres:.3f} m {naive_turn:.3f}"
+    print(told, visit.run(1).locator(".jp-OutputArea-output").text_content())
+    assert metres < 0.05 and turn < np.radians(3), told
+    assert naive_metres > 5 * metres and naive_turn > 5 * turn, told
