@@ -6,6 +6,7 @@ grader that was killed loses what it was at, and one started again doubles nothi
 """
 
 import hashlib
+import json
 from dataclasses import asdict, replace
 from datetime import UTC, datetime
 
@@ -78,7 +79,7 @@ class Gradebook:
         self._engine.dispose()
 
     def add(self, record):
-        """Write an attempt, unless it is there already.
+        """Write an attempt; one that is there already stays one, and becomes the newest.
 
         Parameters
         ----------
@@ -100,12 +101,18 @@ class Gradebook:
             "at": datetime.now(UTC).isoformat(timespec="seconds"),
             "record": _storable(asdict(record)),
         }
+        mine = ATTEMPTS.c.submission == row["submission"]
+        rows = sa.select(ATTEMPTS.c.key, ATTEMPTS.c.record).where(mine).order_by(ATTEMPTS.c.id)
         with self._engine.begin() as connection:
-            known = sa.select(ATTEMPTS.c.id).where(ATTEMPTS.c.key == row["key"])
-            if connection.execute(known).first():
-                return False
+            before = connection.execute(rows).all()
+            new = all(one.key != row["key"] for one in before)
+            if not new:
+                if before[-1] == (row["key"], json.loads(json.dumps(row["record"]))):
+                    return False
+                # an older version was handed in again, or at another time
+                connection.execute(sa.delete(ATTEMPTS).where(ATTEMPTS.c.key == row["key"]))
             connection.execute(sa.insert(ATTEMPTS).values(row))
-        return True
+        return new
 
     def take(self, other):
         """Add what another gradebook holds.

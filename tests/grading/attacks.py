@@ -4,6 +4,8 @@ Each is bounded: it starts a few processes, takes a few gigabytes or some second
 it may be run where the walls fail. CANARY is a file of the judge's, OUT the folder of results.
 """
 
+import json
+
 WRONG = """
 import numpy as np
 def double(a):
@@ -267,5 +269,17 @@ DAMAGED = {
     "a wrong kernel": lambda text: text.replace(
         '"metadata": {"slamlab"', '"metadata": {"kernelspec": {"name": "nowhere"}, "slamlab"'
     ).encode(),
+    "a hundred megabytes": lambda text: text.encode() + b" " * (100 << 20),
+    "no metadata": lambda text: _changed(text, metadata=None),
+    "deleted cells": lambda text: _changed(text, cells=json.loads(text)["cells"][:1]),
+    "duplicated cells": lambda text: _changed(text, cells=json.loads(text)["cells"] * 3),
+    "a folder": lambda text: None,
 }
-"""Name to what becomes of an honest notebook's text, as bytes."""
+"""Name to what becomes of an honest notebook's text, as bytes; None for a folder of that name."""
+
+GRADED = {"latin-1", "a wrong kernel", "no metadata", "duplicated cells"}
+"""The damaged that still say all that the honest one says."""
+
+
+def _changed(text, **changes):
+    return json.dumps({k: v for k, v in (json.loads(text) | changes).items() if v}).encode()

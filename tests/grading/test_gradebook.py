@@ -6,6 +6,7 @@ import signal
 import subprocess
 import sys
 import time
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -89,6 +90,14 @@ def test_a_new_version_is_a_new_attempt_and_counts(book):
     book.add(newer)
     assert len(book.known()) == 2
     assert book.latest() == [newer]
+
+
+def test_an_older_version_handed_in_again_counts_and_stands_once(book):
+    first, second = record(handed_in="2026-12-01T10:00:00+00:00"), record(sha="c" * 64)
+    again = replace(first, handed_in="2026-12-03T10:00:00+00:00")
+    assert [book.add(each) for each in (first, second, again, again)] == [True, True, False, False]
+    assert book.latest() == [again]
+    assert len(book.known()) == 2
 
 
 def test_what_could_not_be_graded_is_known_by_its_reason(book):

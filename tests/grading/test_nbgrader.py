@@ -9,18 +9,10 @@ from pathlib import Path
 
 import pytest
 
+from benchmarks.grading import CONFIG, NAME, derived
 from slamlab.checks import catalogue
 from slamlab.grading import judge, submissions
 from tests.grading.conftest import workers
-from tests.grading.test_exercises import ROOT
-
-NAME = "04_models_and_jacobians"
-CONFIG = """
-c = get_config()
-c.CourseDirectory.course_id = "slam"
-c.ExecutePreprocessor.timeout = 300
-c.ExecutePreprocessor.startup_timeout = 300
-"""
 
 
 def nbgrader(course, *arguments):
@@ -42,10 +34,6 @@ def place(course, folder, text):
     target.parent.mkdir(parents=True)
     target.write_text(text, encoding="utf-8")
     return target
-
-
-def derived(folder):
-    return (ROOT / folder / f"{NAME}.ipynb").read_text("utf-8")
 
 
 def one_missing():
