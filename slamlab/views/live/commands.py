@@ -42,17 +42,16 @@ def understood(text):
     ------
     ValueError : it means nothing; the text says what would
     """
-    word = text.strip().lower()
+    word, shown = text.strip().lower(), repr(text.strip()[:20])
     if word in WORDS:
         return word
     try:
         distance, angle = (float(part) for part in text.split(","))
     except ValueError:
         raise ValueError(
-            f"{text.strip()!r} means nothing here: type distance, angle (metres and degrees, such "
-            "as 0.5, 30), or reset, or exit"
+            f"{shown} means nothing: type metres, degrees (such as 0.5, 30), reset or exit"
         ) from None
     metres, degrees = FARTHEST
     if not (abs(distance) <= metres and abs(angle) <= degrees):
-        raise ValueError(f"{text.strip()!r} is too far: at most {metres:g} m and {degrees:g}°")
+        raise ValueError(f"{shown} is too far: at most {metres:g} m and {degrees:g}°")
     return distance, float(np.radians(angle))
