@@ -33,15 +33,16 @@ def next_pose(pose, step):
 
 
 def intel():
-    """A real robot's log: what its wheels draw, and what matching its scans makes of it."""
+    """A real robot's log: what its wheels draw, and what scans and closed loops make of it."""
     source = sources.open(sources.recording("intel"))
-    return before_and_after(source, (11, 5.5), "Intel Research Lab: ", thin=2, shared=False)
+    title = "Intel Research Lab: "
+    return before_and_after(source, "graph", (11, 5.5), title, thin=2, shared=False)
 
 
 def polygon():
     """The cardboard polygon of the thesis, given odometry that is wrong on purpose."""
     source = sources.open("sim:polygon-wrong", np.random.default_rng(1))
-    return before_and_after(source, (9, 4.4), "Cardboard polygon: ")
+    return before_and_after(source, "icp", (9, 4.4), "Cardboard polygon: ")
 
 
 def situations():
@@ -55,10 +56,10 @@ def situations():
     return views.png(views.side_by_side(panels, (11, 5.2), shared=False)[0])
 
 
-def before_and_after(source, size, title, thin=1, shared=True):
-    """The map of a source's readings by odometry alone beside that of the estimator ``icp``."""
+def before_and_after(source, estimator, size, title, thin=1, shared=True):
+    """The map of a source's readings by odometry alone beside that of an estimator, by its name."""
     readings = list(source)
-    result = run(source, estimators.make("icp", source))
+    result = run(source, estimators.make(estimator, source))
     panels = {}
     for name, kind, poses in (
         ("odometry alone", "naive", result.naive.poses),
