@@ -4,6 +4,7 @@ import os
 
 import numpy as np
 
+from slamlab.devices.closing import closed_at_exit
 from slamlab.devices.emir import Emir
 from slamlab.devices.emulator.bench import EMIR, LIDAR, bench
 from slamlab.devices.errors import SlamlabError
@@ -41,6 +42,7 @@ class Emulated(Devices):
         try:
             emir = Emir(self.bench.ports[EMIR], calibration=calibration)
             super().__init__(Lidar(self.bench.ports[LIDAR]), emir)
+            closed_at_exit(self)
         except SlamlabError as error:
             self.bench.close()  # a robot that was opened ends with its port
             raise SourceError(str(error)) from error
