@@ -10,7 +10,7 @@ from slamlab.devices.emir.frames import Framer
 from slamlab.devices.emir.status import Status
 from slamlab.devices.emulator.packets import PACKERS
 from slamlab.devices.rplidar.answers import Answer
-from slamlab.devices.rplidar.connect import Mode
+from slamlab.devices.rplidar.modes import Mode
 from slamlab.devices.rplidar.stream import Stream
 
 TITLE = "devices: decoding one second of data (CPU time, one thread, methods taking turns)"

@@ -13,7 +13,8 @@ import numpy as np
 from slamlab.devices.emir.commands import move
 from slamlab.devices.emir.frames import COMMAND, STATUS, Framer
 from slamlab.devices.emir.status import Status
-from slamlab.devices.rplidar.answers import Answer, Finder
+from slamlab.devices.rplidar.answers import Answer
+from slamlab.devices.rplidar.finder import Finder
 from slamlab.devices.rplidar.stream import DECODERS
 from tests.devices.streams import ANSWERS, damaged, pieces, stream, turn_bytes
 

@@ -13,8 +13,9 @@ import serial
 from slamlab import worlds
 from slamlab.devices.emir import Emir
 from slamlab.devices.emulator.bench import Bench, bench
-from slamlab.devices.emulator.ends import ROOM, TcpEnd
+from slamlab.devices.emulator.ends import ROOM
 from slamlab.devices.emulator.switches import HELP, switch
+from slamlab.devices.emulator.tcpend import TcpEnd
 from slamlab.devices.errors import ConnectionLost, PortError
 from slamlab.devices.rplidar import Lidar
 from slamlab.devices.rplidar.answers import Answer, Descriptor, Health, Info

@@ -10,12 +10,12 @@ from slamlab.devices.errors import ProtocolError
 from slamlab.devices.rplidar.answers import (
     Answer,
     Descriptor,
-    Finder,
     Health,
     Info,
     SampleRate,
     conf_value,
 )
+from slamlab.devices.rplidar.finder import Finder
 from slamlab.devices.rplidar.requests import Command, Conf, conf, express, motor_pwm, request
 
 REQUESTS = [

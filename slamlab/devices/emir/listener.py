@@ -9,7 +9,7 @@ from slamlab.devices.emir.status import Status
 FRAME = 36 * 10  # bits of a status on the line
 
 
-class Listener:
+class EmirListener:
     """Takes in the bytes from and to an eMIR; knows no port.
 
     Parameters

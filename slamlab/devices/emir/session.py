@@ -5,7 +5,7 @@ import logging
 import threading
 
 from slamlab.devices.emir import commands
-from slamlab.devices.emir.listener import Listener
+from slamlab.devices.emir.listener import EmirListener
 from slamlab.devices.errors import ConnectionLost, DeviceNotResponding, DeviceSilent, SlamlabError
 from slamlab.devices.silence import Silence
 
@@ -40,7 +40,7 @@ class Session:
 
     def __init__(self, name, baud, odometry, patience, opener, clock):
         self.name, self._clock, self._patience = name, clock, patience
-        self.listener, self.forgotten = Listener(odometry, baud), 0
+        self.listener, self.forgotten = EmirListener(odometry, baud), 0
         self._closed, self._gone, self._writing = False, False, threading.RLock()
         self._frame = None  # the command that is repeated
         self._sent = self._asked = self._wanted = clock.now()

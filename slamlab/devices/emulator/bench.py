@@ -7,9 +7,10 @@ import numpy as np
 from slamlab.devices.clock import Clock
 from slamlab.devices.emulator.body import Body
 from slamlab.devices.emulator.emir import EmirMachine
-from slamlab.devices.emulator.ends import PtyEnd, TcpEnd
+from slamlab.devices.emulator.ends import PtyEnd
 from slamlab.devices.emulator.rplidar import RplidarMachine
 from slamlab.devices.emulator.sight import Sight
+from slamlab.devices.emulator.tcpend import TcpEnd
 from slamlab.devices.reader import Reader
 
 GRAIN = 0.004  # how often devices are asked when nobody writes to them [s]

@@ -11,11 +11,11 @@ import numpy as np
 
 from slamlab.devices.emulator.line import Faults, Line
 from slamlab.devices.emulator.packets import SIZES
-from slamlab.devices.emulator.parser import RequestParser
 from slamlab.devices.emulator.sampling import FULL_PWM, FULL_RATE, Motor, Sampling
 from slamlab.devices.rplidar.answers import Answer, Descriptor
-from slamlab.devices.rplidar.connect import KNOWS_CONF, KNOWS_EXPRESS, Mode
-from slamlab.devices.rplidar.requests import Command, Conf
+from slamlab.devices.rplidar.modes import KNOWS_CONF, KNOWS_EXPRESS, Mode
+from slamlab.devices.rplidar.parser import RequestParser
+from slamlab.devices.rplidar.requests import GOES_ON, Command, Conf
 
 BANNER = b"RP LIDAR System.\r\nFirmware Ver %d.%d, HW Ver 5\r\nModel: 28\r\n"
 BOOTS = 0.02, 0.3  # the banner comes after so long, and then it hears again [s]
@@ -24,7 +24,6 @@ MODES = (
     Mode(1, "Express", 254e-6, 12.0, Answer.EXPRESS),
     Mode(2, "Boost", 127e-6, 12.0, Answer.ULTRA),
 )
-GOES_ON = {Command.SET_MOTOR_PWM, Command.GET_ACC_BOARD_FLAG}
 SERIAL = bytes.fromhex("ABB69AF2C1EA9FC2A2EB92F138653C00")
 PROTECTED = 2  # the health in which it does not scan
 

@@ -2,16 +2,21 @@
 
 from slamlab.devices.emir.frames import Framer
 from slamlab.devices.emir.status import Status
-from slamlab.devices.emulator.parser import RequestParser
-from slamlab.devices.emulator.rplidar import GOES_ON, MODES
 from slamlab.devices.errors import ProtocolError
 from slamlab.devices.recording.records import EVENT, RX, TX
-from slamlab.devices.rplidar.answers import Answer, Finder, SampleRate, conf_value
-from slamlab.devices.rplidar.requests import Command, Conf
+from slamlab.devices.rplidar.answers import Answer, SampleRate, conf_value
+from slamlab.devices.rplidar.finder import Finder
+from slamlab.devices.rplidar.parser import RequestParser
+from slamlab.devices.rplidar.requests import GOES_ON, SCANS, Command, Conf
 from slamlab.devices.rplidar.stream import DECODERS, Stream
 
-SCANS = {Command.SCAN, Command.FORCE_SCAN, Command.EXPRESS_SCAN}
-USUAL = {mode.answer: mode.period for mode in MODES} | {Answer.DENSE: 127e-6}
+USUAL = {
+    Answer.SCAN: 508e-6,
+    Answer.EXPRESS: 254e-6,
+    Answer.ULTRA: 127e-6,
+    Answer.DENSE: 127e-6,
+}
+"""Periods of an A2's modes, where a recording does not say [s]."""
 
 
 def turns(recording):
@@ -25,7 +30,7 @@ def turns(recording):
     ------
     Turn, its times on the recording's clock
     """
-    listener = Listener(recording.baud("lidar"))
+    listener = LidarListener(recording.baud("lidar"))
     for record in recording.of("lidar"):
         yield from listener.take(record)
 
@@ -47,7 +52,7 @@ def statuses(recording):
             yield record.time, Status.unpack(content)
 
 
-class Listener:
+class LidarListener:
     """Follows what was asked and answered, to know what the endless answers are.
 
     Parameters
@@ -62,13 +67,20 @@ class Listener:
 
     def take(self, record):
         """Turns that ended with a record: list of Turn."""
+        try:
+            return self._take(record)
+        except ProtocolError:  # damaged on the line: the driver gave up here, too
+            self._stream = None
+            return []
+
+    def _take(self, record):
         if record.kind == TX:
             for request in self._parser.feed(record.data, record.time):
                 self._request(*request)
         elif record.kind == EVENT:
             self._gap = self._gap or record.data.startswith(b"gap")
         elif self._stream is not None:
-            return self._stream_on(record.data, record.time)
+            return self._stream.feed(record.data, record.time)
         elif self._finder is not None:
             found = self._finder.feed(record.data)
             if found is not None:
@@ -98,7 +110,7 @@ class Listener:
             mode = asked[0] if command == Command.EXPRESS_SCAN and asked else 0
             self._stream = Stream(answer, self._period(answer, mode), self._baud, now, self._gap)
             self._gap = False
-            return self._stream_on(finder.rest, now) if finder.rest else []
+            return self._stream.feed(finder.rest, now) if finder.rest else []
         return []
 
     def _period(self, answer, mode):
@@ -106,10 +118,3 @@ class Listener:
             return self._rate.standard if answer == Answer.SCAN else self._rate.express
         legacy = mode == 0 and answer != Answer.SCAN  # the first capsules, asked for without a mode
         return USUAL[answer] if legacy else self._periods.get(mode, USUAL[answer])
-
-    def _stream_on(self, data, now):
-        try:
-            return self._stream.feed(data, now)
-        except ProtocolError:  # mostly damaged: the driver gave up here, too
-            self._stream = None
-            return []

@@ -5,28 +5,15 @@ timeline, so that a lidar asked for later than in the recording still fits the r
 """
 
 from collections import deque
-from dataclasses import dataclass, field
 
 import numpy as np
 
 from slamlab.devices.emir import commands
 from slamlab.devices.emir.frames import COMMAND, Framer
-from slamlab.devices.emulator.parser import RequestParser
-from slamlab.devices.recording.decoded import SCANS
-from slamlab.devices.recording.records import CHANNELS, EVENT, RX, TX
-from slamlab.devices.rplidar.answers import Finder
-from slamlab.devices.rplidar.requests import Command
-from slamlab.devices.rplidar.stream import DECODERS
-
-
-@dataclass
-class Exchange:
-    """A request and what came then: (time, bytes) each, up to the next request."""
-
-    command: int
-    payload: bytes
-    time: float
-    came: list = field(default_factory=list)
+from slamlab.devices.recording.exchanges import exchanges, split
+from slamlab.devices.recording.records import CHANNELS, RX
+from slamlab.devices.rplidar.parser import RequestParser
+from slamlab.devices.rplidar.requests import SCANS, Command
 
 
 class Timeline:
@@ -58,7 +45,7 @@ class Timeline:
             self._anchor = now, self._all_there if first < self._all_there <= last else first
 
 
-class Stream:
+class Played:
     """What a device sent without end, given as the timeline goes.
 
     Parameters
@@ -105,7 +92,7 @@ class LidarPlayback:
 
     def __init__(self, recording, timeline):
         self._exchanges = exchanges(recording)
-        self._stream = Stream(timeline)
+        self._stream = Played(timeline)
         self._parser, self._at, self._answers = RequestParser(), 0, []
         self.unanswered = []
 
@@ -127,7 +114,7 @@ class LidarPlayback:
         if exchange is None:
             self.unanswered.append((command, payload))
         elif command in SCANS:
-            descriptor, chunks = _split(exchange.came)
+            descriptor, chunks = split(exchange.came)
             self._answers = [(now, descriptor)]
             self._stream.begin(chunks, now)
         else:
@@ -155,7 +142,7 @@ class EmirPlayback:
 
     def __init__(self, recording, timeline):
         self._chunks = [(r.time, r.data) for r in recording.of("emir", RX)]
-        self._stream, self._framer = Stream(timeline), Framer(COMMAND)
+        self._stream, self._framer = Played(timeline), Framer(COMMAND)
 
     def feed(self, data, now):
         """Take bytes in, give bytes out: as an emulated device."""
@@ -184,34 +171,11 @@ def playback(recording, speed=1.0):
     return {name: kinds[name](recording, timeline) for name in CHANNELS if name in there}
 
 
-def exchanges(recording):
-    """What the lidar was asked and what came: list of Exchange, without those for the motor."""
-    parser, found = RequestParser(), []
-    for record in recording.of("lidar"):
-        if record.kind == TX:
-            for command, payload in parser.feed(record.data, record.time):
-                if command != Command.SET_MOTOR_PWM:
-                    found.append(Exchange(command, payload, record.time))
-        elif record.kind != EVENT and found:
-            found[-1].came.append((record.time, record.data))
-    return found
-
-
-def _split(came):
-    """The descriptor of an endless answer, and the (time, bytes) chunks after it."""
-    finder = Finder(tuple(DECODERS), loop=True)
-    for k, (time, data) in enumerate(came):
-        if (found := finder.feed(data)) is not None:
-            rest = [(time, finder.rest)] if finder.rest else []
-            return found[0].pack(), rest + came[k + 1 :]
-    return b"", []
-
-
 def _first_stream(recording, channel):
     """When a device first sent its stream [s], or None."""
     if channel == "emir":
         return next((record.time for record in recording.of("emir", RX)), None)
     for exchange in exchanges(recording):
-        if exchange.command in SCANS and (chunks := _split(exchange.came)[1]):
+        if exchange.command in SCANS and (chunks := split(exchange.came)[1]):
             return chunks[0][0]
     return None

@@ -3,10 +3,10 @@
 from collections import Counter, deque
 
 from slamlab.devices.emir import Calibration
-from slamlab.devices.emir.listener import Listener as EmirListener
+from slamlab.devices.emir.listener import EmirListener
 from slamlab.devices.emir.odometry import Odometry
 from slamlab.devices.readings import Carried
-from slamlab.devices.recording.decoded import Listener, turns
+from slamlab.devices.recording.decoded import LidarListener, turns
 from slamlab.devices.recording.records import RX, TX, is_recording, parse
 from slamlab.sources.base import SourceError
 
@@ -50,7 +50,7 @@ class RecordedDevices(Carried):
 
     def _turns(self):
         baud, waiting = self._recording.baud, deque()
-        lidar, emir = Listener(baud("lidar")), EmirListener(self._odometry, baud("emir"))
+        lidar, emir = LidarListener(baud("lidar")), EmirListener(self._odometry, baud("emir"))
         for record in self._recording.records:
             if record.channel == "lidar":
                 waiting.extend(lidar.take(record))

@@ -10,15 +10,13 @@ from slamlab.devices.errors import (
     DataTimeout,
     DeviceNotResponding,
     SlamlabError,
-    UnsupportedMode,
 )
 from slamlab.devices.newest import Newest
 from slamlab.devices.ports import identity, lidar_port, port_of
 from slamlab.devices.reader import Reader, retries
-from slamlab.devices.rplidar.answers import Answer
 from slamlab.devices.rplidar.connect import BAUDS
+from slamlab.devices.rplidar.modes import chosen
 from slamlab.devices.rplidar.session import Session
-from slamlab.devices.rplidar.stream import DECODERS
 from slamlab.devices.transport import open_port
 
 PWM = 660  # about ten turns a second
@@ -49,12 +47,8 @@ class Lidar:
     def __init__(
         self, port=None, baud=115200, pwm=PWM, reconnect=False, opener=open_port, clock=None
     ):
-        self.clock, self.pwm, self.reconnect, self._opener = (
-            clock or Clock(),
-            pwm,
-            reconnect,
-            opener,
-        )
+        self.clock, self._opener = clock or Clock(), opener
+        self.pwm, self.reconnect = pwm, reconnect
         self.name = lidar_port() if port is None else port
         self._identity = identity(self.name)
         self._commands, self._turns, self._counts = threading.RLock(), Newest(), Counter()
@@ -85,17 +79,17 @@ class Lidar:
         ------
         UnsupportedMode, DeviceNotResponding, ConnectionLost
         """
-        chosen = self._mode(mode)
+        wanted = chosen(self.modes, self.typical, mode)
         with self._commands:
             self._halt()
             self._force = force
             try:
-                self._begin(chosen)
+                self._begin(wanted)
             except DeviceNotResponding:
                 if mode is not None:
                     raise
                 self._session.link.quiet()
-                self._begin(self._mode(0))
+                self._begin(chosen(self.modes, self.typical, 0))
             self._turns.begin()
             self._reader = Reader(self._step, f"reads {self.name}", self._turns.end)
             self._reader.start()
@@ -166,20 +160,6 @@ class Lidar:
 
     def __exit__(self, *exc):
         self.close()
-
-    def _mode(self, wanted):
-        known = [m for m in self.modes if m.answer in DECODERS]
-        if wanted is None and self.typical in known:
-            return self.typical
-        for mode in known:
-            standard = wanted is None and mode.answer == Answer.SCAN
-            if standard or wanted == mode.number or str(wanted).lower() == mode.name.lower():
-                return mode
-        raise UnsupportedMode(
-            f"this lidar has no scan mode {wanted!r}",
-            "modes differ with model and firmware",
-            f"take one of: {', '.join(m.name for m in known)}",
-        )
 
     def _begin(self, mode, after_gap=False):
         stream = self._session.begin(mode, self.pwm, self._force, after_gap)

@@ -1,6 +1,6 @@
 """Talk with an RPLIDAR that does not scan: ask, and find the answer in whatever else comes."""
 
-from slamlab.devices.rplidar.answers import Finder
+from slamlab.devices.rplidar.finder import Finder
 from slamlab.devices.rplidar.requests import Command, request
 
 SILENCE = 0.1  # so long nothing came: the line is empty [s]

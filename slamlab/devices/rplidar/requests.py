@@ -28,6 +28,11 @@ class Command(IntEnum):
     STOP = 0x25
 
 
+SCANS = {Command.SCAN, Command.FORCE_SCAN, Command.EXPRESS_SCAN}
+GOES_ON = {Command.SET_MOTOR_PWM, Command.GET_ACC_BOARD_FLAG}
+"""Requests during which a scan goes on; any other ends it."""
+
+
 class Conf(IntEnum):
     """What GET_LIDAR_CONF can be asked for; those from US_PER_SAMPLE on, of one mode."""
 

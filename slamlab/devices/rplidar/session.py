@@ -6,6 +6,7 @@ from slamlab.devices.errors import DeviceNotResponding, SlamlabError
 from slamlab.devices.rplidar import connect
 from slamlab.devices.rplidar.answers import Answer
 from slamlab.devices.rplidar.link import MOST, Link
+from slamlab.devices.rplidar.modes import ask_modes
 from slamlab.devices.rplidar.requests import Command, express, motor_pwm, request
 from slamlab.devices.rplidar.stream import DECODERS, Stream
 
@@ -47,8 +48,8 @@ class Session:
             raise
 
     def modes(self):
-        """In which ways it can scan, and the recommended one: see :func:`connect.modes`."""
-        return connect.modes(self.link, self.info)
+        """In which ways it can scan, and the recommended one: see :func:`ask_modes`."""
+        return ask_modes(self.link, self.info)
 
     def begin(self, mode, pwm, force=False, after_gap=False):
         """Turn the motor and scan.
