@@ -28,7 +28,7 @@ seen = views.live(
     note=told,
     truth=False,
     steps=1,
-    speed=20,
+    speed=100,
     tops=(0.3, 0.8),
 )"""
 
