@@ -1,14 +1,13 @@
 """Small pose graphs, and the step that lowers their linearised cost most, without normal equations.
 
-The law needs no H: it solves the same least squares by an orthogonal decomposition, with Jacobians
-that are differences of the error.
+The law needs no H: it solves the same least squares by an orthogonal decomposition.
 """
 
 import numpy as np
 
-from slamlab.checks.tasks.ex04_laws import differences
 from slamlab.geometry import between, compose, wrap
 from slamlab.posegraph.edges import error
+from slamlab.posegraph.jacobians import J_i, J_j
 
 GRAPHS, POSES = 3, 5
 PAIRS = np.array([[0, 1], [1, 2], [2, 3], [3, 4], [4, 0], [1, 3]])
@@ -77,14 +76,13 @@ def whitened(poses, pairs, measured, information):
     -------
     (3m, 3n), (3m,)
     """
-    J, r = np.zeros((len(pairs), 3, len(poses), 3)), []
-    for k, (i, j) in enumerate(np.asarray(pairs, dtype=int)):
-        L = np.linalg.cholesky(information[k]).T
-        x_i, x_j, z = poses[i], poses[j], measured[k]
-        J[k, :, i] = L @ differences(lambda v: error(v, x_j, z), x_i, 2)  # noqa: B023
-        J[k, :, j] = L @ differences(lambda v: error(x_i, v, z), x_j, 2)  # noqa: B023
-        r.append(L @ error(x_i, x_j, z))
-    return J.reshape(-1, 3 * len(poses)), np.concatenate(r)
+    i, j = np.asarray(pairs, dtype=int).T
+    at, edge = (poses[i], poses[j], measured), np.arange(len(i))
+    U = np.linalg.cholesky(information).swapaxes(1, 2)
+    J = np.zeros((len(i), len(poses), 3, 3))
+    J[edge, i], J[edge, j] = U @ J_i(*at), U @ J_j(*at)
+    r = U @ error(*at)[..., None]
+    return J.swapaxes(1, 2).reshape(-1, 3 * len(poses)), r.ravel()
 
 
 def best(poses, pairs, measured, information):

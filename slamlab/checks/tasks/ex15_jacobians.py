@@ -6,19 +6,25 @@ import numpy as np
 
 from slamlab.checks.drives.ex15 import DRIVES
 from slamlab.checks.task import Law, Task
-from slamlab.checks.tasks.ex04_laws import close, differences
+from slamlab.checks.tasks.ex04_laws import STEP, close
 from slamlab.checks.tasks.ex04_mistakes import DEGREE, matrix, mistake, sign_mistake
 from slamlab.checks.tasks.ex15_error import edges
+from slamlab.geometry import wrap
 from slamlab.posegraph.edges import error
 
 
 def slopes(inputs):
     """∂e/∂x_i and ∂e/∂x_j by differences of the error, each (n, 3, 3)."""
-    A, B = [], []
-    for x_i, x_j, z in zip(inputs["x_i"], inputs["x_j"], inputs["z"], strict=True):
-        A.append(differences(lambda v: error(v, x_j, z), x_i, 2))  # noqa: B023
-        B.append(differences(lambda v: error(x_i, v, z), x_j, 2))  # noqa: B023
-    return np.array(A), np.array(B)
+    return [_differences(inputs, name) for name in ("x_i", "x_j")]
+
+
+def _differences(inputs, name):
+    columns = []
+    for h in STEP * np.eye(3):
+        up, down = (error(**(inputs | {name: inputs[name] + to * h})) for to in (1, -1))
+        columns.append((up - down) / (2 * STEP))
+        columns[-1][:, 2] = wrap(up[:, 2] - down[:, 2]) / (2 * STEP)
+    return np.stack(columns, axis=-1)
 
 
 def _A(inputs, outputs):
