@@ -181,6 +181,16 @@ WRONG = [
         IN_A,
         "a-turned-forth",
     ),
+    Wrong(
+        "θ_z missing in A only",
+        jacobians(
+            result="np.column_stack([-B @ np.array([[np.cos(z[2]), -np.sin(z[2]), 0], "
+            "[np.sin(z[2]), np.cos(z[2]), 0], [0, 0, 1]])[:, :2], A[:, 2]]), B"
+        ),
+        IN_A,
+        "a-angle",
+    ),
+    Wrong("radians taken twice", jacobians(angle="np.radians(x_i[2] + z[2])"), BOTH, "degrees"),
     Wrong("A is −B", jacobians(result="(-B, B)"), IN_A, "a-heading-missing"),
     Wrong("heading's sign", heading("s * dx - c * dy", "c * dx + s * dy"), IN_A, "a-heading-sign"),
     Wrong(
@@ -318,6 +328,7 @@ WRONG = [
     ),
     Wrong("forgets", update("np.clip(add, -bound, bound)"), CELL, "forgets"),
     Wrong("averages", update("np.clip((l + add) / 2, -bound, bound)"), CELL, "averaged"),
+    Wrong("as it was", update("l"), CELL, "unchanged"),
     Wrong(
         "a probability",
         update("1 / (1 + np.exp(-np.clip(l + add, -bound, bound)))"),
