@@ -6,14 +6,18 @@ import numpy as np
 import pytest
 
 from slamlab import estimators, worlds
-from slamlab.devices.emir import Calibration
+from slamlab.devices.clock import Clock
+from slamlab.devices.emir import Calibration, Emir
 from slamlab.devices.emir.odometry import Odometry
 from slamlab.devices.emulator import source
 from slamlab.devices.emulator.body import COUNTS
 from slamlab.devices.emulator.rehearsal import rehearse
 from slamlab.devices.errors import PortError
+from slamlab.devices.memory import MemoryPort
 from slamlab.devices.recording import load
 from slamlab.devices.recording.decoded import statuses, turns
+from slamlab.devices.recording.playback import playback
+from slamlab.devices.rplidar import Lidar
 from slamlab.geometry import between
 from slamlab.sources.base import SourceError
 from tests.laws import assert_same_pose
@@ -88,6 +92,18 @@ def test_a_rehearsed_drive_is_read_as_any_recording(tmp_path):
     x, y, theta = truth.poses[at]
     off = worlds.polygon().cast((x, y), theta + scan.angles) - scan.ranges
     assert np.nanmedian(np.abs(off)) < 0.02
+
+
+def test_drivers_find_their_answers_when_a_rehearsed_drive_is_replayed(tmp_path):
+    rehearsed(tmp_path / "drive")
+    clock, found = Clock(), playback(load(tmp_path / "drive"))
+
+    def opener(name, baud):
+        return MemoryPort(found[name], clock, name, baud)
+
+    with Emir("emir", opener=opener) as emir, Lidar("lidar", opener=opener) as lidar:
+        assert lidar.turn(timeout=20).complete
+        assert emir.wait() is not None
 
 
 def test_a_rehearsal_does_not_overwrite_a_file(tmp_path):

@@ -11,7 +11,8 @@ from slamlab.devices.emulator.rplidar import RplidarMachine
 from slamlab.devices.emulator.sight import Sight
 from slamlab.devices.memory import MemoryPort
 from slamlab.devices.recording.recorder import Recorder
-from slamlab.devices.rplidar.requests import express
+from slamlab.devices.rplidar.lidar import PWM
+from slamlab.devices.rplidar.session import Session
 from slamlab.readings import Trajectory
 
 BAUDS = {LIDAR: 115200, EMIR: 57600}
@@ -38,27 +39,30 @@ def rehearse(path, world, rng, course, mode=1):
     ------
     FileExistsError, OSError
     """
-    clock, body = SimulatedClock(), Body(world, rng)
-    lidar, emir = RplidarMachine(Sight(body, rng), rng=rng), EmirMachine(body, rng=rng)
-    machines, times, poses = {LIDAR: lidar, EMIR: emir}, [], []
+    clock, body, times, poses = SimulatedClock(), Body(world, rng), [], []
+    lidar = RplidarMachine(Sight(body, rng), rng=rng, typical=mode)
+    machines = {LIDAR: lidar, EMIR: EmirMachine(body, rng=rng)}
 
     def opened(name, baud):
         return MemoryPort(machines[name], clock, name, baud)
 
     known = {name: {"port": "emulated", "baud": baud} for name, baud in BAUDS.items()}
     with Recorder(path, known, clock) as recorder:
-        ports = {name: recorder.opener(name, opened)(name, BAUDS[name]) for name in machines}
-        ports[EMIR].write(commands.info(True))
-        ports[LIDAR].write(express(mode))
+        # as the drivers begin, so that they find their answers when it is replayed
+        robot = recorder.opener(EMIR, opened)(EMIR, BAUDS[EMIR])
+        robot.write(commands.stop() + commands.info(True))
+        session = Session(LIDAR, (BAUDS[LIDAR],), recorder.opener(LIDAR, opened), clock)
+        _, typical = session.modes()
+        session.begin(typical, PWM)
         for seconds, v, omega in course:
-            ports[EMIR].write(commands.move(v, omega))
+            robot.write(commands.move(v, omega))
             for _ in range(round(seconds / GRAIN)):
                 clock.sleep(GRAIN)
-                for port in ports.values():
+                for port in (session.link.port, robot):
                     port.read(MOST, 0)
                 times.append(clock.now())
                 poses.append(body.pose)
-        ports[EMIR].write(commands.move(0, 0))
-        for port in ports.values():
-            port.close()
+        robot.write(commands.move(0, 0))
+        session.let_go()
+        robot.close()
     return Trajectory(np.array(times), np.array(poses))
