@@ -44,6 +44,7 @@ def run(arguments) -> int:
     ports = dict(zip(("lidar", "emir"), names, strict=False))
     bauds = {"lidar": 115200, "emir": 57600}
     known = {name: {"port": port, "baud": bauds[name]} for name, port in ports.items() if port}
+    recorder = None
     try:
         with Recorder(arguments.out, known) as recorder:
             counts = _record(recorder, known, arguments.mode, arguments.seconds)
@@ -52,6 +53,8 @@ def run(arguments) -> int:
         return 2
     except (SlamlabError, OSError) as error:
         print(f"slamlab record: {error}", file=sys.stderr)
+        if recorder is not None:
+            _keep(recorder)
         return 2
     if recorder.error is not None:
         print(f"slamlab record: {recorder.path} is incomplete: {recorder.error}", file=sys.stderr)
@@ -59,6 +62,14 @@ def run(arguments) -> int:
     told = ", ".join(f"{name}: {counts[name]}" for name in COUNTED)
     print(f"written to {recorder.path} ({told})")
     return 0
+
+
+def _keep(recorder):
+    """Say where the recording is that ended too early; one of nothing is removed."""
+    if recorder.received:
+        print(f"what came until then is in {recorder.path}", file=sys.stderr)
+    else:
+        recorder.path.unlink(missing_ok=True)
 
 
 def _record(recorder, ports, mode, seconds):

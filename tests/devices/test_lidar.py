@@ -405,6 +405,19 @@ def test_stop_and_start_again():
         assert_right(lidar.turn())
 
 
+def test_stopped_it_gives_no_more_turns_to_who_goes_through_them():
+    bench, seen = Bench(), 0
+    with bench.lidar() as lidar:
+        for _ in lidar:
+            seen += 1
+            assert seen < 50
+            if seen == 3:
+                lidar.stop()
+        assert seen <= 5  # two may have been ready
+        assert bench.machine.pwm == 0 and bench.machine._scan is None
+        assert_right(lidar.turn())  # asked for one it scans again
+
+
 def test_closing_stops_scan_and_motor_and_may_be_done_twice():
     bench = Bench()
     lidar = bench.lidar()

@@ -99,6 +99,22 @@ def test_told_to_end_the_program_leaves_motor_and_robot_at_rest(tcp, word, tmp_p
 
 
 @needs_pty
+def test_a_recording_that_loses_its_lidar_keeps_what_came_and_one_of_nothing_is_no_file(tmp_path):
+    path = tmp_path / "a.raw.gz"
+    with running() as it:
+        process = started(it, "record", "--out", str(path))
+        it["lidar"].faults.unplugged = True
+        said, _ = process.communicate(timeout=PATIENCE)
+        assert process.returncode == 2
+        assert "Next: " in said and str(path) in said
+        assert len(list(turns(load(path)))) > 10
+    path.unlink()
+    process = command("record", "devices:/dev/ttyNOSUCH0,", "--out", str(path))
+    assert "there is no port" in process.communicate(timeout=PATIENCE)[0]
+    assert not list(tmp_path.iterdir())
+
+
+@needs_pty
 def test_a_lidar_that_is_lost_ends_a_run_with_what_it_came_to(tmp_path):
     with running() as it:
         process = started(it, "run", "--estimator", "odometry", "--out", str(tmp_path))

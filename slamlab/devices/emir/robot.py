@@ -210,6 +210,8 @@ class Emir:
             self._counts += _counts(self._session) + Counter(reconnects=1)
             self._session = session
             break
+        if self._closed:  # meanwhile
+            self._session.let_go()
 
     def _ended(self, error):
         with self._news:

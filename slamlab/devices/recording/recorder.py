@@ -28,7 +28,7 @@ class Recorder:
     devices : dict by channel, "lidar" or "emir", of what is known: port, baud
     clock : Clock, the drivers' one
 
-    ``error`` is why it could not write on, if so: the devices go on.
+    ``error`` is why it could not write on, if so: the devices go on. ``received`` counts bytes.
 
     Raises
     ------
@@ -37,7 +37,7 @@ class Recorder:
 
     def __init__(self, path, devices, clock=None):
         path = Path(path)
-        self.clock, self.error = clock or Clock(), None
+        self.clock, self.error, self.received = clock or Clock(), None, 0
         self._packed = path if path.suffix == ".gz" else None
         self.path = path.with_suffix("") if self._packed else path
         if self._packed and path.exists():
@@ -90,6 +90,7 @@ class Recorder:
         with self._lock:
             if self._file is None or self.error is not None:
                 return
+            self.received += len(data) if kind == RX else 0
             try:
                 for at in range(0, len(data) or 1, LONGEST):
                     record = Record(kind, channel, self._now(), data[at : at + LONGEST])

@@ -101,7 +101,7 @@ class Lidar:
             self._session.rest()
 
     def turn(self, latest=False, timeout=None):
-        """The next whole turn, waited for.
+        """The next whole turn, waited for; a lidar that stands is started.
 
         Parameters
         ----------
@@ -116,8 +116,7 @@ class Lidar:
         ------
         ConnectionLost, DataTimeout, ProtocolError
         """
-        if self._reader is None and not self._closed:
-            self.start()
+        self._started()
         there, turn = self._turns.take(latest, timeout)
         if not there:
             raise DataTimeout(
@@ -128,8 +127,9 @@ class Lidar:
         return turn
 
     def __iter__(self):
-        """Yield whole turns until the lidar is closed or stopped."""
-        while (turn := self.turn()) is not None:
+        """Yield whole turns until the lidar is closed or stopped, by whomever."""
+        self._started()
+        while (turn := self._turns.take()[1]) is not None:
             yield turn
 
     @property
@@ -160,6 +160,10 @@ class Lidar:
 
     def __exit__(self, *exc):
         self.close()
+
+    def _started(self):
+        if self._reader is None and not self._closed:
+            self.start()
 
     def _begin(self, mode, after_gap=False):
         stream = self._session.begin(mode, self.pwm, self._force, after_gap)
