@@ -10,6 +10,11 @@ import signal
 import threading
 import weakref
 
+SIGNALS = [
+    getattr(signal, name) for name in ("SIGTERM", "SIGHUP", "SIGBREAK") if hasattr(signal, name)
+]
+"""Signals that tell a program to end: by another, by its terminal's closing, on Windows."""
+
 _open = weakref.WeakKeyDictionary()  # keeps their order
 _ready = False
 
@@ -26,9 +31,10 @@ def closed_at_exit(device):
     if not _ready:
         _ready = True
         atexit.register(close_all)
-    in_main = threading.current_thread() is threading.main_thread()
-    if in_main and signal.getsignal(signal.SIGTERM) is signal.SIG_DFL:
-        signal.signal(signal.SIGTERM, _terminated)
+    if threading.current_thread() is threading.main_thread():  # no other may
+        for number in SIGNALS:
+            if signal.getsignal(number) is signal.SIG_DFL:
+                signal.signal(number, _terminated)
 
 
 def close_all():

@@ -8,6 +8,7 @@ import time
 import pytest
 
 from slamlab import sources
+from slamlab.devices.closing import SIGNALS
 from slamlab.devices.emir import commands
 from slamlab.devices.recording import load
 from slamlab.devices.recording.decoded import turns
@@ -86,12 +87,13 @@ def test_ctrl_c_ends_a_live_conversion_with_a_whole_log(tmp_path):
 @signals
 @pytest.mark.parametrize("tcp", ENDS)
 @pytest.mark.parametrize("word", ["run", "record"])
-def test_told_to_end_the_program_leaves_motor_and_robot_at_rest(tcp, word, tmp_path):
+@pytest.mark.parametrize("number", SIGNALS)
+def test_told_to_end_the_program_leaves_motor_and_robot_at_rest(tcp, word, number, tmp_path):
     with running(tcp) as it:
         more = ["--out", str(tmp_path / "a.raw")] if word == "record" else []
         process = started(it, word, *more)
-        said = ended(process, signal.SIGTERM)
-        assert process.returncode == -signal.SIGTERM, said
+        said = ended(process, number)
+        assert process.returncode == -number, said
         assert_at_rest(it)
     if word == "record":
         recording = load(tmp_path / "a.raw")
