@@ -11,8 +11,8 @@
 #
 # Source: Tuček, chapters 2, 4 and 5 with the listings; Slamtec's protocol.
 #
-# *Key:* between the world and the mathematics there are bytes. Most robots that do not work fail
-# there: at a shift, a sign, an overflow.
+# *Key:* between the world and the mathematics there are bytes. A shift, a sign or an overflow there,
+# and the best filter maps a room that does not exist.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* No device is needed: what is emulated here sends the bytes of the real ones.
@@ -48,7 +48,7 @@ from slamlab.devices.rplidar.nodes import ScanDecoder
 from slamlab.devices.rplidar.requests import Command, express, request
 from slamlab.devices.rplidar.turns import robot_frame
 from slamlab.devices.source import devices
-from slamlab.geometry import between, transform
+from slamlab.geometry import between, matrix, transform
 from slamlab.layers import Points, Poses, Segments
 
 # %% [markdown] slideshow={"slide_type": "slide"}
@@ -102,8 +102,7 @@ for at in range(7, 27, 5):
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* Give the class three minutes. Collect the answers on the board before the next
-# cell: nearly always three or four different ones, each a classic (no shift by one, big endian,
-# 1/64 forgotten). The exercise names each.
+# cell; the classics are no shift by one, big endian, and 1/64 forgotten. The exercise names each.
 
 
 # %% slideshow={"slide_type": "fragment"}
@@ -198,7 +197,8 @@ def cabins(capsule):
 # The points lie evenly between, each less its offset, for the optics see a little behind where the
 # motor stands:
 #
-# $$\alpha_k = \alpha + \frac{k}{32}\,(\alpha_{\text{next}} - \alpha) - \delta_k, \qquad k = 0 \dots 31$$
+# $$\alpha_k = \alpha + \frac{k}{32}\,(\alpha_{\text{next}} - \alpha) - \delta_k,
+# \qquad k = 0 \dots 31$$
 
 
 # %% slideshow={"slide_type": "fragment"}
@@ -329,6 +329,12 @@ for name, centimetres in smallest.items():
 assert min(smallest, key=smallest.get) == "clockwise"
 assert fronts[np.argmin(fits["clockwise"])] == 0
 
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# **A trap.** Were eMIR's counter to grow to the *right*, the mirrored scan would fit: two wrong signs
+# agree with each other, and the whole map is a mirror image. So settle one sign by eye: turn the
+# robot to the left by hand, and see whether byte 15 grows. (If not, the scale of a count is
+# negative; nothing else changes.)
+
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Document or program?
 #
@@ -360,7 +366,7 @@ views.show(fig, "Left, the points lie on the walls; right, all are turned by som
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # **See:** as the document has it, the whole room is turned clockwise by some ten degrees. Our
 # emulator sends what the *program* expects, so this shows how they differ, not who is right. On a
-# real A2 the arc test decides: the reading whose notch lies at the front is the right one.
+# real A2 the arc test decides: right is the reading whose notch lies where the front really is.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # # eMIR, and a checksum
@@ -422,8 +428,8 @@ views.show(fig, "Speeds and turns: the quarter with both negative and two triang
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # **See:** forwards with a turn to the left, everything is well: who tests only that never notices.
-# Backwards with a turn to the right never works, and of the other two quarters half: the robot
-# drops the frame and goes on with the *former* command. The right rule is one line, `-sum % 256`.
+# Backwards with a turn to the right never works, and of the other two quarters half: a robot that
+# drops the frame goes on with the *former* command. The right rule is one line, `-sum % 256`.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 mended = [frame(bytes([1, T % 256, R % 256])) for T in speeds for R in speeds]
@@ -433,8 +439,9 @@ print("checksum of 01 CE 00:", f"{checksum(bytes([0x01, 0xCE, 0x00])):02X}")
 # %% [markdown] slideshow={"slide_type": "slide"}
 # # Odometry from counters
 #
-# eMIR answers ten times a second with `*`, 17 bytes, `/`. Byte 14 is the path in centimetres, byte
-# 15 the turn in units of 2°, both **signed bytes**. Drive ahead at half speed, 20 cm/s:
+# eMIR answers, ours ten times a second, with `*`, 17 bytes, `/`. Byte 14 is the path in
+# centimetres, byte 15 the turn in units of 2°, both **signed bytes**. Drive ahead at half speed,
+# 20 cm/s:
 
 
 # %% slideshow={"slide_type": "fragment"}
@@ -573,7 +580,7 @@ def drawn(path_cm, turn_degrees):
 
 views.explore(
     drawn,
-    "A room with a table; the true track closes round it, the naive one opens like a spiral.",
+    "A room with a table; the true track closes round it, the naive one ends far from its start.",
     path_cm=(0.95, 1.10, 1.0),
     turn_degrees=(1.9, 2.3, 2.0),
 )
@@ -581,8 +588,8 @@ views.explore(
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # **See:** with the thesis' numbers each corner is 6° short, so the round does not close. Move
 # `path_cm`: the track only grows, and a round trip even hides that. Move `turn_degrees` to 2.14: it
-# ends where the robot is, to 3 cm. A wrong way is a wrong size, a wrong turn a wrong shape. The 7°
-# that are left are slip: no number mends them.
+# ends where the robot is, to 3 cm. A wrong way is a wrong size, a wrong turn a wrong shape. The
+# degrees that are left are slip: no number mends them.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* Other drives end 3 to 40 cm and up to 10° off with both numbers right: the
@@ -659,13 +666,13 @@ except ValueError as error:
     print("a bad frame:", error)
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# One scan in fifty is empty, and the map ends within seconds, without a word. Skip and count what is
-# bad; end only when told to.
+# One scan in fifty is empty, and at one scan a second the map ends after half a minute, without a
+# word. Skip and count what is bad; end only when told to.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
-# **4. Two robots, one map.** The listing makes its `Slam` in the body of the class. **5. One turn,
-# one reading less.** It asks for `next(lidar.iter_scans())`, a new generator each time, and the real
-# one throws its first turn away, for it may be a part.
+# **4. Two robots, one map.** The listing makes its `Slam` in the body of the class. **5. A reading
+# less.** It asks for `next(lidar.iter_scans())`, a new generator for each turn. **Predict** what is
+# lost between two of them.
 
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
@@ -678,19 +685,25 @@ class App:
     slam_instance = Slam()
 
 
-def iter_scans(turns):
-    next(turns)  # perhaps not a whole one
-    yield from turns
+def iter_scans(measured):
+    scan = []
+    for new_turn, reading in measured:
+        if new_turn and scan:
+            yield scan
+            scan = []
+        scan.append(reading)
 
 
 a, b = App(), App()
 a.slam_instance.points.append("scan of robot a")
 print("robot b has:", b.slam_instance.points)
-lidar_turns = iter(range(1, 11))
-print("of turns 1 to 10 come:", [next(iter_scans(lidar_turns)) for _ in range(5)])
+measured = iter([(k % 5 == 0, k) for k in range(20)])  # turns of five readings
+print("turns:", *[next(iter_scans(measured)) for _ in range(3)])
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# Test 4: *make two, use one, look at the other*. Test 5: *count what goes in and what comes out*.
+# Test 4: *make two, use one, look at the other*. Test 5: *count what goes in and what comes out*: 5
+# and 10 are missing. Each generator has taken the reading that begins the next turn, and dies with
+# it. Right is to keep one generator.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # **6. `exit`.** It ends the program. **Predict:** what does the robot do?
@@ -708,7 +721,29 @@ print(f"five seconds after exit it is {body.pose[0] - at_exit:.1f} m further")
 # ends by an error. (Only a killed process cannot.)
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# The rest of Tuček's list:
+# **7. The pseudo-code** has bugs that the listing has not. Take it at its word:
+
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+points, T = np.array([[1.0, 2.0], [3.0, 4.0]]), matrix([5, 0, 0])
+homogeneous = np.zeros((3, 2))
+homogeneous[:2] = points.T  # ARRAY_TO_HOMOGENEOUS: the third coordinate is never set
+print("moved by 5 m:", (T @ homogeneous)[:2].T.tolist())
+try:
+    np.dot(points, T)  # DotProduct(points, T)
+except ValueError:
+    print("DotProduct:   shapes", points.shape, "and", T.shape, "do not fit")
+is_running, rounds = True, 0
+while is_running is not True:  # SLAM_ROUTINE
+    rounds += 1
+print("SLAM_ROUTINE:", rounds, "rounds")
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# Nothing moves, for with a third coordinate of 0 a shift has nothing to act on; T stands on the left
+# of a column, not on the right; and a loop "while not running" never begins. START, too, says the
+# contrary: it opens a lidar just when somebody else brings the scans. And SLAM_ROUTINE asks the
+# lidar for `get_lidar_data_method`, which the app has.
+#
+# The rest of the list:
 #
 # | in the listing | what follows | right |
 # | --- | --- | --- |
@@ -717,19 +752,21 @@ print(f"five seconds after exit it is {body.pose[0] - at_exit:.1f} m further")
 # | `get_coordinates` calls `scan()` | endless loop, two readers on a port | wait, with a time limit |
 # | "after a gap no overlay is possible" | the map breaks in two | odometry goes on, match with it |
 # | pseudo-code: naive points moved by one *step* | naive map heaps up at the origin | by the whole way |
+# | "simulated error" in the recorded script | true steps are labelled so, the wrong ones run | name them |
+# | "loop closure" for two scans in a row | it is scan matching | lesson 15 |
 # | prompt "distance, angle" | they are sent as speeds in percent | see "Live" |
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* A good exercise for pairs: one reads a function of the listing aloud, the other
-# says the test. None of these bugs shows in the thesis' pictures, for they were made from four
-# recorded scans.
+# says the test. Ask which of these bugs can show in a picture made from four recorded scans.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # # Your robot
 #
 # From here on there are drivers: a thread a device, ports that can vanish, real seconds. **Two names
 # decide on which robot all that follows runs.** As they stand, each cell starts its own emulators
-# and opens them through pseudo-terminals (TCP on Windows), as if cables hung there.
+# and opens them through pseudo-terminals (TCP on Windows), as if cables hung there. (Is the notch
+# of your lidar not at 0°? Hand `front=` to `devices`.)
 
 # %% slideshow={"slide_type": "fragment"}
 LIDAR_PORT = None  # such as "/dev/ttyUSB0" or "COM3"
@@ -791,11 +828,12 @@ with robot(np.random.default_rng(7)) as source:
 TAPE = None  # [m]
 PROTRACTOR = None  # [degree] beyond a full turn
 
-if emulated:
+if emulated is None:
+    assert TAPE and PROTRACTOR is not None, "measure, write both numbers above, run this cell again"
+    tape, turned = TAPE, 360 + PROTRACTOR
+else:
     steps = between(np.array(marks[:-1]), np.array(marks[1:]))
     tape, turned = np.hypot(*steps[0, :2]), np.degrees(steps[1:, 2].sum())
-else:
-    tape, turned = TAPE, 360 + PROTRACTOR
 path_count, turn_count = tape / counts[0][0], turned / sum(angle for _, angle in counts[1:])
 calibrated = Calibration(path=path_count, angle=np.radians(turn_count))
 print(f"{tape:.2f} m and {turned:.0f}°: a count is {100 * path_count:.2f} cm and {turn_count:.2f}°")
@@ -832,11 +870,13 @@ left = list(turns(torn))
 print(f"{len(left)} of {len(whole)} turns, the same: {the_same(left, whole)}")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# Only the last record is lost. And does it matter in which **pieces** bytes come, which differs from
+# Of what comes before the cut, only the torn record is lost. And does it matter in which **pieces** bytes come, which differs from
 # machine to machine? Cut the lidar's bytes at random, many times:
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-received = recording.received("lidar")[7:60_000]
+received = recording.received("lidar")
+begin = received.index(bytes.fromhex("a5 5a 54 00 00 40 82")) + 7  # the answer to EXPRESS
+received = received[begin : begin + 60_000]
 at_once = ExpressDecoder().feed(received)
 rng, differ = np.random.default_rng(6), 0
 for _ in range(20):
@@ -853,14 +893,16 @@ print(f"{len(at_once)} nodes; of 20 ways to cut, {differ} gave others")
 # slamlab emulate --world room                   # two ports, until Ctrl-C
 # slamlab record devices:LIDAR,EMIR --out my.rec # every byte; type V,OMEGA to drive
 # slamlab replay my.rec                          # the devices again, behind two ports
-# slamlab run my.rec --slam icp                  # or straight into a SLAM
+# slamlab run my.rec                             # or straight into a SLAM
 # ```
 #
-# So a class of forty needs one robot and one drive: everybody maps the same recording.
+# So a class of forty needs one robot and one drive. `sources.open("my.rec")` is a source like any
+# other, for every estimator of this course; and with the two ports of `slamlab replay` in
+# LIDAR_PORT and EMIR_PORT, all that follows runs on that drive through the real drivers.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* `slamlab replay` prints two ports. Put them into LIDAR_PORT and EMIR_PORT and
-# the whole part "Live" runs on your drive of last year, drivers and all.
+# *For the lecturer:* Record your own drive once, with the class in the room; next year it is played
+# again. The robot of a replay goes its recorded way, whatever it is told.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # # Live
@@ -874,8 +916,8 @@ print(f"{len(at_once)} nodes; of 20 ways to cut, {differ} gave others")
 #   `0.5, 30` is a turn by 30° and then half a metre, by the corrected pose.
 # - **A robot, calibrated**: the same with your own scale factors.
 #
-# *exit*, running the cell again, closing the page or ending the kernel stops the robot and lets go
-# of both ports.
+# *exit*, running the cell again or ending the kernel stops the robot and lets go of both ports;
+# *pause* stops it, too.
 #
 # **Predict:** where will the two maps differ first, at the walls near by or at those far away?
 
@@ -893,7 +935,7 @@ def told(pair):
 
 
 played = {
-    "A recording": lambda rng: sources.open(str(drive)),
+    "A recording": lambda rng: sources.open(drive),
     "A robot": robot,
     "A robot, calibrated": partial(robot, calibration=calibrated),
 }
@@ -921,14 +963,14 @@ seen_live = views.live(
 # *For the lecturer:* Pull the plug while it runs: on a real robot the USB cable, on the emulated one
 # `seen_live.pair.source.bench["lidar"].faults.unplugged = True` in a new cell. Within a second a
 # sentence stands below the picture, not a traceback; *reset* begins again. A class without robots
-# opens your drive instead: `lambda rng: sources.open("my.rec")` in place of the first button.
+# opens your drive: `lambda rng: sources.open("my.rec")` behind the first button.
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # How much better is it? The recording's truth is known, so count:
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-slam = estimators.make("icp", sources.open(str(drive)))
-for reading in sources.open(str(drive)):
+slam = estimators.make("icp", sources.open(drive))
+for reading in sources.open(drive):
     slam.step(reading)
 distances = [np.hypot(*between(true.poses[-1], pose)[:2]) for pose in (slam.naive_pose, slam.pose)]
 print("corrected pose at the end within 5 cm:", distances[1] < 0.05)
@@ -944,8 +986,8 @@ print("naive pose at least ten times worse:", distances[0] > 10 * distances[1])
 # Read a device's bytes, test for a wrong sign, unwrap counters, find bugs by small tests, calibrate,
 # record, replay, and drive a robot through a growing map.
 #
-# **Next:** the corrected map is sharp after one round. After ten, small errors add up and walls
-# stand twice: lesson 15 recognises places and closes the loop.
+# **Next:** the corrected map is sharp after one round. In a larger building small errors add up, and
+# where the robot comes back walls stand twice: lesson 15 recognises places and closes the loop.
 #
 # **Exercise:** [decode nodes, frames and counters](../exercises/14_the_emir_system.ipynb), judged
 # with bytes that no one has seen before.
