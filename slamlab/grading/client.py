@@ -1,14 +1,12 @@
 """The judge's end: asks a worker for cells and tasks, each with a time limit of its own."""
 
-import builtins
 import contextlib
 import queue
-import re
 import threading
 import time
 
 from slamlab.checks.drives import StudentError
-from slamlab.grading import wire
+from slamlab.grading import said, wire
 from slamlab.grading.workers import CannotStart
 
 START_SECONDS = 120.0
@@ -16,9 +14,6 @@ CELL_SECONDS = 10.0
 TOTAL_SECONDS = 300.0
 GLANCE = 0.2
 """How often it is looked whether to stop [s]."""
-_RAISED = re.compile(r"(\w+): .*?( \(line \d{1,6} of the cell(?:, in \w{1,60})?\))?", re.S)
-_NUMBER = re.compile(r"\d*\.\d+|\d{5,}")
-KINDS = {"missing", "not attempted", "raised", "malformed"}
 
 
 class Gone(Exception):
@@ -83,9 +78,11 @@ class Client:
             self._end()
             raise StudentError(gone.kind, _say(gone.kind, task.drive.seconds)) from None
         if head.get("problem") is not None:
-            kind = head.get("kind") if head.get("kind") in KINDS else "raised"
-            said = _text(head["problem"])
-            raise StudentError(kind, said if self._tell else _without_inputs(kind, said))
+            kind = head.get("kind") if head.get("kind") in said.KINDS else "raised"
+            problem = _text(head["problem"])
+            if not self._tell:
+                problem = said.told(kind, problem, task, self._exercise, self._cells)
+            raise StudentError(kind, problem)
         return arrays
 
     def load(self):
@@ -127,9 +124,9 @@ class Client:
         try:
             head, _ = self._exchange(b"", START_SECONDS)
         except Gone as gone:
-            said = self._process.errors()
+            why = self._process.errors()
             self._end()
-            raise CannotStart(f"the worker did not start ({gone.kind}): {said}") from None
+            raise CannotStart(f"the worker did not start ({gone.kind}): {why}") from None
         if head.get("ready") is not True:
             self._end()
             raise CannotStart("the worker did not say that it is ready")
@@ -189,17 +186,6 @@ def _say(kind, seconds):
     if kind == "time":
         return f"still running after {seconds:g} s"
     return "ended the whole Python process"
-
-
-def _without_inputs(kind, problem):
-    """What a worker says of a task, without what its functions may have put in of their inputs."""
-    if kind != "raised":
-        return _NUMBER.sub("…", problem[:200])
-    match = _RAISED.fullmatch(problem)
-    name, where = match.groups() if match else ("", "")
-    if not isinstance(getattr(builtins, name, None), type):
-        name = "an exception of its own"
-    return f"raised {name}{where or ''}; check(…) in the notebook shows what it says"
 
 
 def _text(value):

@@ -23,8 +23,11 @@ def fingerprints(cells, exercise):
     -------
     dict, task to a hash; tasks whose functions are missing or short are left out
     """
-    functions = {}
+    functions, letters = {}, 0
     for _, source in cells:
+        letters += len(source)
+        if letters > LONGEST:
+            return {}
         functions |= _functions(source)
     found = {}
     for task in exercise.tasks:
@@ -56,8 +59,6 @@ def clusters(records):
 
 def _functions(source):
     """Name to (size, normal form) of the functions a cell defines at its top."""
-    if len(source) > LONGEST:
-        return {}
     try:
         tree = ast.parse(source)
         return {node.name: _normal(node) for node in tree.body if isinstance(node, ast.FunctionDef)}

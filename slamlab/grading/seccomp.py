@@ -54,7 +54,6 @@ ALLOWED = {
     "exit": (60, 93),
     "wait4": (61, 260),
     "uname": (63, 160),
-    "fcntl": (72, 25),
     "flock": (73, 32),
     "fsync": (74, 82),
     "fdatasync": (75, 83),
@@ -121,10 +120,14 @@ ALLOWED = {
 }
 CLONE, CLONE3 = (56, 220), (435, 435)
 KILL, TGKILL, PRCTL, IOCTL, PRLIMIT = (62, 129), (234, 131), (157, 167), (16, 29), (302, 261)
+FCNTL = (72, 25)
 
 CLONE_THREAD = 0x10000
 PR_SET_SECCOMP, FILTER = 22, 2
 NAMES_OF_THREADS = (15, 16)  # PR_SET_NAME, PR_GET_NAME
+# F_DUPFD, its close-on-exec form, descriptor's and file's flags, locks; not F_SETOWN, which sends
+# signals to whom one likes, nor F_SETPIPE_SZ, which takes memory that nobody counts
+OF_FILES = (0, 1030, 1, 2, 3, 4, 5, 6, 7)
 ASKING_A_STREAM = (0x5401, 0x5450, 0x5451, 0x541B)  # TCGETS, FIONCLEX, FIOCLEX, FIONREAD
 
 LOAD, EQUAL, ANY_BIT, AT_LEAST, RETURN = 0x20, 0x15, 0x45, 0x35, 0x06
@@ -180,6 +183,7 @@ def _program(machine, pid):
         parts += _where(call[column], 0, EQUAL, [pid], errno.EPERM)
     parts += _where(PRLIMIT[column], 0, EQUAL, [0], errno.EPERM)
     parts += _where(PRCTL[column], 0, EQUAL, NAMES_OF_THREADS, errno.EPERM)
+    parts += _where(FCNTL[column], 1, EQUAL, OF_FILES, errno.EPERM)
     parts += _where(IOCTL[column], 1, EQUAL, ASKING_A_STREAM, errno.ENOTTY)
     parts.append(_step(RETURN, DENY | errno.EPERM))
     return b"".join(parts)

@@ -11,10 +11,14 @@ from pathlib import Path
 from slamlab.checks import catalogue
 
 MOST_BYTES = 20 << 20
+MOST_CELLS = 1000  # of code
+MOST_LETTERS = 100  # of nbgrader's note on the time
+DEEPEST = 10  # folders in folders
 
 _MOODLE = re.compile(r"(?P<student>.+?)_(?P<number>\d+)_assignsubmission_file_?(?P<file>.*)", re.S)
 _CANVAS = re.compile(r"(?P<student>[^_]+)_(LATE_)?(?P<number>\d+)_\d+_(?P<file>.+)", re.S)
-_CHECK = re.compile(r"\s*(check\(\s*[\"'][^\"']*[\"']\s*\)\s*;?\s*)+")
+# possessive throughout: it must not try a hostile cell's letters in every way there is
+_CHECK = re.compile(r"\s*+(?:check\(\s*+[\"'][^\"']*+[\"']\s*+\)\s*+;?+\s*+)++")
 
 
 class Unreadable(Exception):
@@ -32,6 +36,7 @@ class Submission:
     path : Path
     problem : str or None, why there is nothing to read
     number : str or None, of the student in Moodle or Canvas
+    noted : bool, whether nbgrader, not the student, wrote the note on the time beside it
     """
 
     name: str
@@ -39,16 +44,18 @@ class Submission:
     path: Path
     problem: str | None = None
     number: str | None = None
+    noted: bool = False
 
     @property
     def handed_in(self):
         """When, in ISO's form: what nbgrader noted beside it, else when the file was written."""
         note = self.path.parent / "timestamp.txt"
         try:
-            if note.is_file():
-                return _time(note.read_text("utf-8", "replace").strip())
+            if self.noted and note.is_file() and not note.is_symlink():
+                with open(note, encoding="utf-8", errors="replace") as file:
+                    return _time(file.read(MOST_LETTERS).strip())
             return datetime.fromtimestamp(self.path.stat().st_mtime, UTC).isoformat()
-        except (OSError, ValueError):
+        except (OSError, ValueError, OverflowError):
             return None
 
 
@@ -99,13 +106,18 @@ def find(folder: Path, out: Path | None = None) -> list[Submission]:
     for place, folders, files in os.walk(folder):
         place = Path(place)
         folders[:] = [f for f in folders if _is_searched(place / f, skipped)]
+        empty += [place / f for f in folders if place == folder or f.lower().endswith(".ipynb")]
+        if len(place.relative_to(folder).parts) >= DEEPEST:
+            folders.clear()
         notebooks = [f for f in files if f.lower().endswith(".ipynb") and not f.startswith(".")]
         found += [_submission(folder, place / file) for file in notebooks]
-        empty += [place / f for f in folders if place == folder or f.lower().endswith(".ipynb")]
-    for place in empty:
-        if not any(place in submission.path.parents for submission in found):
-            reason = "a folder without a notebook in it"
-            found.append(_submission(folder, place, reason))
+        if place == folder:  # what Moodle or Canvas put there is somebody's, whatever it is
+            others = (_submission(folder, place / f, "not a notebook") for f in files
+                      if f not in notebooks)  # fmt: skip
+            found += [other for other in others if other.number]
+    handed_in = {parent for submission in found for parent in submission.path.parents}
+    reason = "a folder without a notebook in it"
+    found += [_submission(folder, place, reason) for place in empty if place not in handed_in]
     return sorted(found, key=lambda submission: submission.name)
 
 
@@ -161,6 +173,8 @@ def parse(data: bytes) -> Notebook:
     cells = tuple(_code(content["cells"]))
     if not cells:
         notes.append("no code cells")
+    if len(cells) > MOST_CELLS:
+        raise Unreadable(f"{len(cells)} cells of code, more than {MOST_CELLS}")
     own = tuple((number, source) for number, source in cells if not _CHECK.fullmatch(source))
     digest = hashlib.sha256(data).hexdigest()
     return Notebook(own, _named(content, "exercise"), digest, tuple(notes))
@@ -209,7 +223,8 @@ def _submission(folder, path, problem=None):
     own = relative.stem if len(relative.parts) == 1 else first
     student, number = (match["student"], match["number"]) if match else (own, None)
     name = _printable(relative.as_posix())
-    return Submission(name, _printable(student), path, problem, number)
+    noted = folder.name == "submitted" and len(relative.parts) == 3
+    return Submission(name, _printable(student), path, problem, number, noted)
 
 
 def _original(name):

@@ -2,11 +2,14 @@
 
 import csv
 import io
+import re
 
 from slamlab.checks import catalogue
 from slamlab.checks.report import number
 from slamlab.grading.records import write
 
+# at the beginning, and behind what other countries' spreadsheets take for the end of a cell
+_FORMULA = re.compile(r"(^\s*|;\s*)([=+\-@])")
 COLUMNS = (
     "submission", "student", "exercise", "score", "max_score", "late", "handed_in", "note",
 )  # fmt: skip
@@ -83,4 +86,4 @@ def _write(path, rows):
 def _harmless(text):
     """Text that no spreadsheet takes for a formula."""
     text = "".join(c if c.isprintable() else " " for c in text)
-    return f"'{text}" if text.lstrip().startswith(("=", "+", "-", "@")) else text
+    return _FORMULA.sub(r"\1'\2", text)

@@ -134,6 +134,7 @@ def _take_streams():
     nowhere = os.open(os.devnull, os.O_RDWR)
     for number in (0, 1, 2):
         os.dup2(nowhere, number)
+    os.close(nowhere)
     return receiving, sending
 
 

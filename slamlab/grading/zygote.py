@@ -18,10 +18,12 @@ import signal
 import socket
 import sys
 
-from slamlab.grading import jail, worker
+from slamlab.grading import excess, jail, worker
 
 LONGEST = 1 << 16
 NOBODY = 65534
+GLANCE = 0.5
+"""How often it is looked at what a worker holds [s]."""
 
 
 def main(control, plan):
@@ -52,7 +54,13 @@ def main(control, plan):
     _say(control, {"ready": True})
     pid = None
     while True:
-        said, handles, _, _ = socket.recv_fds(control, LONGEST, 2)
+        control.settimeout(None if pid is None else GLANCE)
+        try:
+            said, handles, _, _ = socket.recv_fds(control, LONGEST, 2)
+        except TimeoutError:
+            if excess.beyond_reason(pid, home):
+                os.kill(pid, signal.SIGKILL)
+            continue
         if not said:
             break
         if json.loads(said)["do"] == "fork":

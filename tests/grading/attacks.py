@@ -121,6 +121,62 @@ class double:
     points = 99
 """,
     "an attribute for an answer": "double.score = double.points = double.full = 99\n",
+    "numbers beyond all rounding": """
+def double(a): return -1e300
+def turn(v, angle): return np.array([1e300, -1e300])
+""",
+    "an integer without end": "def double(a): return 10 ** 5000\n",
+    "an array for whoever asks": """
+class Later:
+    asked = 0
+    def __array__(self, *a, **k):
+        Later.asked += 1
+        return np.array([3.0] * Later.asked)
+    __float__ = __index__ = __len__ = lambda self: 3
+def double(a): return Later()
+def turn(v, angle): return Later()
+""",
+    "what unpickles to points": """
+class Points(float):
+    def __reduce__(self): return print, (99,)
+def double(a): return Points(-a)
+def turn(v, angle): return (x for x in (1, 2))
+""",
+    "numpy in the worker": """
+import json, math, struct
+real = np.asarray
+np.asarray = np.array = np.ascontiguousarray = lambda *a, **k: real([3.0])
+np.isfinite = np.frombuffer = json.dumps = math.prod = struct.pack = lambda *a, **k: True
+""",
+    "a trace of the drives": """
+import sys
+def watch(frame, event, arg):
+    for name in ('results', 'outputs', 'arrays', 'verdict'):
+        if name in frame.f_locals: frame.f_locals[name] = [3.0] * 20
+    return watch
+sys.settrace(watch); sys.setprofile(watch)
+""",
+    "a thread that answers": """
+import json, os, struct, threading, time
+def shout():
+    for _ in range(200):
+        for turn in range(2, 12):
+            head = {'head': {'turn': turn, 'full': True}, 'arrays': [['result', 'f8', [20]]]}
+            head = json.dumps(head).encode()
+            frame = struct.pack('<II', len(head), 160) + head + np.full(20, 3.0).tobytes()
+            for fd in range(3, 10):
+                try: os.write(fd, frame)
+                except OSError: pass
+        time.sleep(0.005)
+threading.Thread(target=shout, daemon=True).start()
+""",
+    "the last moment": """
+import time
+def double(a):
+    if not hasattr(double, 'end'): double.end = time.monotonic() + 2.99
+    time.sleep(max(0, double.end - time.monotonic()))
+    return -a
+""",
     "exit code 0": "import atexit, os; atexit.register(os._exit, 0)\ndef double(a): os._exit(0)\n",
     "silence": "def double(a): raise SystemExit(0)\ndef turn(v, angle): raise SystemExit(0)\n",
 }
@@ -150,6 +206,53 @@ tell(act)
     "another's home": "import os; tell(lambda: os.listdir('..'))\n",
     "a link out": "import os; tell(lambda: (os.symlink(CANARY, 'l'), open('l').read())[1])\n",
     "a shell line": "found = !cat $CANARY\nif found: raise ValueError('LEAKED ' + str(found))\n",
+    "inherited files": """
+import os
+def act():
+    found = []
+    for fd in range(256):
+        try: found.append((fd, os.fstat(fd)))
+        except OSError: pass
+    if len(found) <= 5: raise OSError  # the pipe's two ends, and three that lead nowhere
+    return found
+tell(act)
+""",
+    "inherited memory": """
+import gc, os, sys
+def act():
+    told = [str(x) for x in gc.get_objects() if isinstance(x, (list, dict, tuple)) and len(x) < 99]
+    told += [str(sys.argv), str(sys.orig_argv), str(os.environ), *map(str, sys.modules)]
+    OWN = 'CANARY = ' + repr(CANARY)
+    return [t for t in told if OUT in t and OWN not in t and 'CANARY' not in t][0]
+tell(act)
+""",
+    "a hard link": "import os; tell(lambda: (os.link(CANARY, 'hard'), open('hard').read())[1])\n",
+    "folders by their handles": """
+import os
+def act():
+    fd = os.open('/', os.O_RDONLY)
+    return os.listdir(fd)
+tell(act)
+""",
+    "its own process": "tell(lambda: open('/proc/self/maps').read())\n",
+    "the first process": "tell(lambda: open('/proc/1/cmdline').read())\n",
+    "every call of the kernel": """
+import ctypes, errno, platform
+from slamlab.grading import seccomp
+def act():
+    column = list(seccomp.ARCHITECTURES).index(platform.machine())
+    calls = [*seccomp.ALLOWED.values(), seccomp.CLONE, seccomp.KILL, seccomp.TGKILL, seccomp.PRCTL,
+             seccomp.IOCTL, seccomp.PRLIMIT, seccomp.FCNTL]
+    allowed = {numbers[column] for numbers in calls}
+    libc, open_ = ctypes.CDLL(None, use_errno=True), []
+    for number in [*range(1100), *(0x40000000 + n for n in range(600))]:
+        if number not in allowed:
+            libc.syscall(number, 0, 0, 0, 0, 0, 0)
+            if ctypes.get_errno() not in (errno.EPERM, errno.ENOSYS): open_.append(number)
+    if not open_: raise OSError
+    return open_
+tell(act)
+""",
     "C itself": """
 import ctypes
 def act():
@@ -212,6 +315,74 @@ def act():
     s = socket.socket(); s.bind(('', PORT + 1)); s.listen()
 harm(act)
 """,
+    "a signal by a file's owner": """
+import fcntl, os, signal
+def act(judge):
+    reading, writing = os.pipe()
+    fcntl.fcntl(reading, fcntl.F_SETOWN, judge)
+    fcntl.fcntl(reading, 10, signal.SIGKILL)  # F_SETSIG
+    fcntl.fcntl(reading, fcntl.F_SETFL, os.O_ASYNC | os.O_NONBLOCK)
+    os.write(writing, b'x')
+for pid in (JUDGE, os.getppid()): harm(lambda: act(pid))
+""",
+    "small threads without number": """
+import threading, time
+def act():
+    threading.stack_size(32768)
+    for _ in range(3000): threading.Thread(target=time.sleep, args=(30,), daemon=True).start()
+harm(act)
+""",
+    "small files without number": """
+import time
+def act():
+    end, i = time.monotonic() + 2, 0
+    while time.monotonic() < end:
+        i += 1
+        open(f'f{i}', 'w').close()
+harm(act)
+""",
+    "large pipes": """
+import fcntl, os
+def act():
+    for _ in range(50): fcntl.fcntl(os.pipe()[1], 1031, 1 << 20)  # F_SETPIPE_SZ
+harm(act)
+""",
+    "a name that no folder knows": """
+import socket
+def act():
+    s = socket.socket(socket.AF_UNIX); s.bind(chr(0) + 'forged'); s.listen()
+harm(act)
+harm(lambda: socket.socketpair())
+""",
+    "a traceback that ends all": """
+import faulthandler
+faulthandler.dump_traceback_later(1, exit=True)
+""",
+    "an alarm": "import signal; signal.alarm(1); signal.setitimer(signal.ITIMER_REAL, 0.5, 0.1)\n",
+    "an abort": "import os; os.abort()\n",
+    "streams closed": """
+import os, sys
+for stream in (sys.stdin, sys.stdout, sys.stderr): harm(stream.close)
+sys.stdout = sys.stderr = None
+for number in (0, 1, 2): harm(lambda: os.close(number))
+""",
+    "everything raises": """
+import warnings
+warnings.simplefilter('error')
+np.seterr(all='raise')
+""",
+    "a notebook's own words": """
+%load_ext autoreload
+%matplotlib widget
+%run nothing.py
+!rm -rf / ; touch $CANARY-by-shell
+get_ipython().run_cell('1 / 0')
+""",
+    "JavaScript": "%%javascript\nalert(1)\n",
+    "a question": "name = input('your name? ')\n",
+    "an exit": "exit()\n",
+    "awaiting": "import asyncio\nawait asyncio.sleep(30)\n",
+    "rubbish kept": "import gc; gc.set_debug(gc.DEBUG_SAVEALL); gc.disable(); gc.freeze()\n",
     "eight gigabytes": "harm(lambda: bytearray(8 << 30).append(1))\n",
     "a long file": """
 def act():

@@ -18,6 +18,7 @@ from tests.grading.test_folder import processes_of
 ROOT = Path(__file__).resolve().parents[2]
 SECRET = "the canary sings"
 ODD_NAMES = ["with space", "quo'te\"d", "line\nbreak", "Zoë", "=1+1", "-rf", "$(touch x)", "04"]
+ODD_NAMES += ["\x1b[31mred\x07", "anna;=1+1", "\u202egnp", "x" * 200, "[bold]", "%s%n"]
 
 
 def submissions():

@@ -4,9 +4,11 @@ import ast
 import json
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from slamlab.checks import catalogue
+from slamlab.checks.task import LARGEST, MOST_ROWS
 from slamlab.grading import judge, submissions
 from tests.grading.conftest import workers
 
@@ -34,6 +36,25 @@ def test_what_is_handed_out_earns_nothing_and_all_its_cells_run_in_a_worker(id):
     assert {v.points for v in result["verdicts"]} == {0}
     assert {v.kind for v in result["verdicts"]} <= {"not attempted", "needs"}
     assert result["cells"] == {}
+
+
+CONSTANTS = [0.0, 1.0, -1.0, 5e-324, 1e3, -1e6, LARGEST, -LARGEST]
+
+
+@pytest.mark.parametrize("id", EXERCISES)
+@pytest.mark.parametrize("rows", [0, 1, MOST_ROWS])
+def test_the_same_number_everywhere_solves_no_task(id, rows):
+    for task in catalogue.exercise(id).tasks:
+        inputs = task.draw(b"a seed of the suite")
+        count = min(len(array) for array in inputs.values())
+        for constant in CONSTANTS:
+            outputs = {}
+            for name, shape in task.shapes.items():
+                several = sum(size is None for size in shape)
+                most = rows if several == 1 else min(rows, 30)
+                shape = [most if size is None else size for size in shape]
+                outputs[name] = np.full((count, *shape) if name == "result" else shape, constant)
+            assert not task.judge(inputs, outputs).full, (task.id, constant)
 
 
 def without(function):

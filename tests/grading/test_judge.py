@@ -130,6 +130,33 @@ def test_what_is_said_of_a_failure_tells_nothing_of_the_inputs():
     assert not re.search(r"\d[._]\d", said)
 
 
+LETTERS = """
+letters = lambda *values: 'leak' + ''.join(chr(ord(c) + 49) for c in str(values) if c.isdigit())
+"""
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        "return type(letters(*args), (), {})()",
+        "raise type(letters(*args), (Exception,), {})('x')",
+        "exec(compile(f'def {letters(*args)}(): 1 / 0', '<cell 2>', 'exec')); locals()"
+        "[letters(*args)]()",
+        "import slamlab.checks.drives as d; raise d.StudentError('malformed', letters(*args))",
+        "import slamlab.checks.drives as d; raise d.StudentError('missing', letters(*args)"
+        " + ' is not defined')",
+        "import slamlab.checks.drives as d; raise d.StudentError('not attempted', letters(*args)"
+        " + ' is not attempted yet')",
+        "import slamlab.checks.drives as d; raise d.StudentError('malformed',"
+        " f'turn is of type {letters(*args)}, not a function')",
+    ],
+)
+def test_not_even_as_letters_do_inputs_come_out(body):
+    result = judged(LETTERS, changed("turn", body))["verdicts"][1]
+    assert result.points == 0
+    assert "leak" not in result.problem
+
+
 def test_a_cell_that_hangs_is_left_out(monkeypatch):
     monkeypatch.setattr(client, "CELL_SECONDS", 1.0)
     result = judged("x = 1", "while True: pass", fake.SOLUTION)

@@ -2,6 +2,7 @@
 
 import csv
 import json
+import os
 from dataclasses import replace
 
 import pytest
@@ -216,18 +217,38 @@ def test_nbgraders_gradebook_is_filled(results, tmp_path, capsys):
         assert not submission.needs_manual_grade
 
 
-def test_a_submission_tells_when_it_was_handed_in(tmp_path):
+def handed_in(folder):
     from slamlab.grading import submissions
 
-    folder = tmp_path / "anna" / "99_fake"
+    (found,) = submissions.find(folder)
+    return found.handed_in
+
+
+def test_a_submission_tells_when_it_was_handed_in(tmp_path):
+    folder = tmp_path / "submitted" / "anna" / "99_fake"
     folder.mkdir(parents=True)
     (folder / "99_fake.ipynb").write_text(json.dumps({}))
-    (found,) = submissions.find(tmp_path)
-    assert found.handed_in.endswith("+00:00")
-    (folder / "timestamp.txt").write_text("2026-12-01 11:00:00.5 UTC\n")
-    assert found.handed_in == "2026-12-01T11:00:00.500000+00:00"
-    (folder / "timestamp.txt").write_text("yesterday")
-    assert found.handed_in is None
+    assert handed_in(tmp_path).endswith("+00:00")
+    note = folder / "timestamp.txt"
+    note.write_text("2026-12-01 11:00:00.5 UTC\n")
+    assert handed_in(tmp_path) == "2026-12-01T11:00:00.500000+00:00"
+    for odd in ("yesterday", "", "9" * 200):
+        note.write_text(odd)
+        assert handed_in(tmp_path) is None
+    with open(note, "wb") as file:
+        file.truncate(1 << 40)  # read whole it would be the end
+    assert handed_in(tmp_path) is None
+    note.unlink()
+    os.utime(folder / "99_fake.ipynb", (2**33, 2**33))
+    assert handed_in(tmp_path) is None or handed_in(tmp_path).startswith("2242")
+
+
+@pytest.mark.parametrize("place", ["anna/99_fake", "Anna_12_assignsubmission_file_"])
+def test_a_note_on_the_time_that_the_student_may_have_written_is_not_believed(tmp_path, place):
+    (tmp_path / place).mkdir(parents=True)
+    (tmp_path / place / "99_fake.ipynb").write_text(json.dumps({}))
+    (tmp_path / place / "timestamp.txt").write_text("2001-01-01 11:00:00 UTC")
+    assert not handed_in(tmp_path).startswith("2001")
 
 
 def test_every_submission_is_in_just_one_shard(tmp_path):

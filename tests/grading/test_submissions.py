@@ -2,6 +2,7 @@
 
 import json
 import os
+import time
 
 import pytest
 
@@ -72,6 +73,23 @@ def test_a_folder_that_is_none_is_refused(tmp_path):
         submissions.find(tmp_path / "nowhere")
 
 
+def test_what_moodle_or_canvas_delivered_is_listed_whatever_it_is(tmp_path):
+    lay(tmp_path, "Ben Ivo_102_assignsubmission_file_work.zip", "novak_1021_55031_x.pdf", "a.pdf")
+    listed = {s.student: s.problem for s in submissions.find(tmp_path)}
+    assert listed == {"Ben Ivo": "not a notebook", "novak": "not a notebook"}
+
+
+def test_folders_in_folders_without_end_are_not_followed(tmp_path, monkeypatch):
+    lay(tmp_path, "anna.ipynb")
+    monkeypatch.chdir(tmp_path)
+    for _ in range(1500):
+        os.mkdir("ben")
+        os.chdir("ben")
+    os.chdir(tmp_path)
+    problems = {s.name: s.problem for s in submissions.find(tmp_path)}
+    assert problems == {"anna.ipynb": None, "ben": "a folder without a notebook in it"}
+
+
 @pytest.mark.skipif(os.name == "nt", reason="Windows has no such names")
 def test_names_of_any_kind_are_found(tmp_path):
     names = ["a b.ipynb", "q\"u'o.ipynb", "new\nline.ipynb", "$(x);.ipynb", "-.ipynb", "Я.IPYNB"]
@@ -131,6 +149,24 @@ def test_cells_are_read_in_order_checks_left_out_odd_ones_ignored():
         (5, ""),
         (7, "s = '?'"),
     )
+
+
+@pytest.mark.parametrize(
+    "source",
+    ['check("a")' + " " * 100_000 + "x", 'check("a")  ' * 1000 + "x", " " * 100_000 + "check("],
+    ids=lambda source: source[:14],
+)
+def test_a_cell_that_is_nearly_a_check_is_read_at_once(source):
+    begin = time.process_time()
+    cells = [{"cell_type": "code", "source": source}]
+    assert submissions.parse(json.dumps({"cells": cells}).encode()).cells == ((1, source),)
+    assert time.process_time() - begin < 20  # every way of reading it would take years
+
+
+def test_more_cells_than_anybody_writes_are_refused():
+    cells = [{"cell_type": "code", "source": "1 / 0"}] * (submissions.MOST_CELLS + 1)
+    with pytest.raises(Unreadable, match="1001 cells of code"):
+        submissions.parse(json.dumps({"cells": cells}).encode())
 
 
 def test_no_code_cells_is_noted():

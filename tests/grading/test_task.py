@@ -31,6 +31,8 @@ def test_inputs_are_told_by_the_seed_and_the_task():
         ({"result": RIGHT[:, :1]}, r"shape \(1,\), expected \(2,\)"),
         ({"result": RIGHT[:, :, None]}, r"shape \(2, 1\), expected \(2,\)"),
         ({"result": RIGHT * np.nan}, "NaN or infinity"),
+        ({"result": RIGHT * 1e18}, "larger than any"),
+        ({"result": np.full(RIGHT.shape, -(2**63))}, "larger than any"),
     ],
 )
 def test_malformed_outputs_earn_nothing(outputs, said):
@@ -44,9 +46,10 @@ def test_the_right_outputs_earn_everything_whatever_their_number_type():
     assert TURN.judge(INPUTS, {"result": RIGHT > 0}).points == 0
 
 
-def test_a_law_that_fails_on_wild_numbers_does_not_hold():
+@pytest.mark.parametrize("error", [np.linalg.LinAlgError, IndexError, MemoryError, AttributeError])
+def test_a_law_that_fails_on_wild_numbers_does_not_hold(error):
     def wild(inputs, outputs):
-        raise np.linalg.LinAlgError
+        raise error
 
     task = dataclasses.replace(TURN, laws=(Law("wild", 1, "", wild), *TURN.laws))
     verdict = task.judge(INPUTS, {"result": RIGHT})
@@ -72,3 +75,8 @@ def test_of_several_functions_the_one_not_attempted_is_named():
         drive({"done": done, "open_": open_}, {})
     with pytest.raises(StudentError, match=r"^not attempted yet$"):
         Drive(("open_",), lambda functions, inputs: functions["open_"](1))({"open_": open_}, {})
+
+
+def test_an_output_of_any_length_may_not_be_of_every_length():
+    task = dataclasses.replace(TURN, shapes={"points": (None, 2)})
+    assert "2001 entries: too many" in task.judge(INPUTS, {"points": np.zeros((2001, 2))}).problem
