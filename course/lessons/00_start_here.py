@@ -221,6 +221,15 @@ for theta in (25, 115):
 # | K | `step.K` | (n, m) | the gain: P Hᵀ S⁻¹; x grows by K v |
 # | | `step.nis` | () | vᵀ S⁻¹ v: m on average while the filter is consistent |
 #
+# A graph of poses (lesson 15) holds edges z between poses i and j; its letters are those of its books,
+# so H and b mean something else there:
+#
+# | Symbol | In the code | Shape | What it is |
+# | --- | --- | --- | --- |
+# | e | `edges.error(x_i, x_j, z)` | (3,) | how far pose j is from where pose i and z say it is |
+# | A | `jacobians.J_i(x_i, x_j, z)` | (3, 3) | ∂e/∂x_i |
+# | B | `jacobians.J_j(x_i, x_j, z)` | (3, 3) | ∂e/∂x_j |
+#
 # Put the cursor behind a name in any cell and press **Shift+Tab** to read what it does.
 
 # %% [markdown] slideshow={"slide_type": "slide"} name="map-of-lessons"
@@ -241,9 +250,11 @@ for theta in (25, 115):
 # | 10 | [Boxes](10_boxes.ipynb) | a filter that promises bounds, not likelihoods, and what one broken promise does | 90 min | 70 min |
 # | 11 | [Samples](11_samples.ipynb) | a cloud of guesses that can say "here or there", which no ellipse can | 90 min | 45 min |
 # | 12 | [Three filters, one robot](12_three_filters.ipynb) | box, ellipse and samples on the same three laps of a small robot, over hundreds of drives | 75 min | 60 min |
-# | 13 | [Scan matching](13_scan_matching.ipynb) | laying one scan over another until it fits, though nobody knows which points belong together | 90 min | 60 min |
+# | 13 | [Scan matching](13_scan_matching.ipynb) | laying one scan over another until it fits, though nobody knows which points belong together | 120 min | 60 min |
+# | 14 | [The eMIR system](14_the_emir_system.ipynb) | from bytes on a wire to a live map: a real lidar and robot, or their emulators, driven by you | 110 min | 60 min |
+# | 15 | [Closing the loop](15_closing_the_loop.ipynb) | a place seen again mends the whole map: a graph of poses, loops true and false, a real building | 100 min | 75 min |
 #
-# They are numbered in the order in which to read them; the numbers leave room for lessons between.
+# They are numbered in the order in which to read them.
 
 # %% [markdown] slideshow={"slide_type": "skip"}
 # ## If you give the lecture

@@ -75,6 +75,16 @@ def test_a_symbol_of_the_filter_is_a_field_of_that_shape():
         assert np.shape(getattr({"b": b, "step": step}[owner], field)) == want, code
 
 
+def test_a_symbol_of_the_graph_is_a_function_that_returns_its_shape():
+    rng, rows = np.random.default_rng(3), tables("notation")[2]
+    assert len(rows) == 3
+    for _, code, size, _ in rows:
+        room, name, names = re.fullmatch(r"`(\w+)\.(\w+)\((.*)\)`", code).groups()
+        function = getattr(importlib.import_module(f"slamlab.posegraph.{room}"), name)
+        assert names.split(", ") == list(inspect.signature(function).parameters)
+        assert np.shape(function(*rng.uniform(0.5, 1.5, (3, 3)))) == shape(size)
+
+
 @pytest.mark.parametrize("room", ROOMS)
 def test_every_function_of_the_models_stands_in_the_notation(room):
     module = importlib.import_module(f"slamlab.{room}")
