@@ -24,6 +24,7 @@ from slamlab.devices.transport import open_port
 
 LOCAL = "127.0.0.1", 0, 0
 needs_pty = pytest.mark.skipif(os.name != "posix", reason="this system has no pseudo-terminals")
+pytestmark = pytest.mark.usefixtures("busy_machine")
 ENDS = [pytest.param(None, marks=needs_pty, id="pty"), pytest.param(LOCAL, id="tcp")]
 
 
@@ -303,10 +304,21 @@ def test_faults_are_switched_by_words():
         assert all(line.split()[0] in HELP for line in HELP.splitlines())
 
 
+# as the fixture busy_machine does
+COMMAND = """
+import sys
+from slamlab import cli
+from slamlab.devices.emir import session
+from slamlab.devices.rplidar import stream
+session.STEADY = stream.STEADY = 30.0
+sys.exit(cli.main())
+"""
+
+
 def command(*words):
     """The command line, running; what it prints comes line by line."""
     return subprocess.Popen(
-        [sys.executable, "-c", "import slamlab.cli as c, sys; sys.exit(c.main())", *words],
+        [sys.executable, "-c", COMMAND, *words],
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,

@@ -20,6 +20,7 @@ from tests.devices.test_emulator_ports import ENDS, running
 PERIOD = 0.1  # of a turn [s]
 PATIENCE = 60  # [s] for anything that is waited for; what is there is not waited for
 SLOW = 20  # times slower than this machine should be, others may be
+pytestmark = pytest.mark.usefixtures("busy_machine")
 both = pytest.mark.parametrize("tcp", ENDS)
 
 

@@ -16,6 +16,7 @@ from slamlab.devices.rplidar.requests import Command
 from tests.devices.test_emulator_ports import ENDS, LOCAL, command, needs_pty, running
 
 PATIENCE = 60  # [s] for anything that is waited for; what is there is not waited for
+pytestmark = pytest.mark.usefixtures("busy_machine")
 signals = pytest.mark.skipif(os.name != "posix", reason="signals cannot be sent to one there")
 
 

@@ -411,6 +411,7 @@ def test_both_devices_are_played_on_one_timeline(recorded):
     assert now > 20.8
 
 
+@pytest.mark.usefixtures("busy_machine")
 def test_a_recorded_session_is_played_to_our_drivers(tmp_path):
     with bench(worlds.polygon(), np.random.default_rng(0), ("127.0.0.1", 0, 0)) as it:
         ports = ",".join(it.ports.values())
@@ -461,6 +462,7 @@ def test_replay_says_what_a_recording_holds(recorded, capsys):
     assert f"{len(list(statuses(recording)))} statuses" in out
 
 
+@pytest.mark.usefixtures("busy_machine")
 @pytest.mark.skipif(os.name != "posix", reason="Ctrl-C cannot be sent to one process there")
 def test_replay_serves_ports_until_ctrl_c(recorded):
     process = command("replay", str(recorded["standard"]), "--tcp", "--speed", "2")

@@ -8,6 +8,9 @@ SECONDS = 30
 TRIES = 3  # a machine that others keep busy may stand still, though hardly every time
 
 
+pytestmark = pytest.mark.usefixtures("busy_machine")
+
+
 @pytest.mark.slow
 def test_no_scan_is_dropped_and_none_comes_late():
     for _ in range(TRIES):

@@ -162,6 +162,7 @@ def test_a_robot_is_closed_again_where_the_lidar_does_not_open(monkeypatch):
     assert emir.closed
 
 
+@pytest.mark.usefixtures("busy_machine")
 def test_live_the_readings_follow_the_robot():
     """In real time, but whatever the machine's speed: late turns are dropped, the way is not."""
     rng, clock = np.random.default_rng(0), Clock()
