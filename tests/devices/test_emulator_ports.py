@@ -40,9 +40,12 @@ def test_our_drivers_see_the_room_and_drive_through_it(tcp):
         for _ in range(6):
             lidar.turn(timeout=20)
         emir.stop()
-        for _ in range(3):
+        while it.body._speeds.any():
             emir.wait()
-        turn = lidar.turn(latest=True, timeout=20)
+        stands = lidar.clock.now()
+        while emir.odometry.until < stands + 0.1:
+            emir.wait()
+        turn = next(turn for turn in lidar if turn.times[0] > stands)
         x, y, theta = it.body.pose
         assert x > 0.05 and abs(1.03 * emir.pose[0] - x) < 0.02  # its counts are 1.03 cm
         scan = turn.scan()
