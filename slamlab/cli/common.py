@@ -1,6 +1,7 @@
 """What several commands share."""
 
 import signal
+import threading
 
 SOURCES = (
     "a log file, a ROS bag, a raw recording of devices, sim:WORLD, a recording's name, or, live, "
@@ -48,7 +49,8 @@ class Interruptible:
     def __iter__(self):
         from slamlab.sources import SourceError  # late, as above
 
-        before, begun = signal.signal(signal.SIGINT, self._pressed), False
+        begun, in_main = False, threading.current_thread() is threading.main_thread()
+        before = signal.signal(signal.SIGINT, self._pressed) if in_main else None
         try:
             for reading in self._source:
                 if self.ended:
@@ -60,7 +62,8 @@ class Interruptible:
                 raise
             self.ended, self.code = str(error), 2
         finally:
-            signal.signal(signal.SIGINT, before)
+            if in_main:  # no other thread hears of Ctrl-C
+                signal.signal(signal.SIGINT, before)
 
     def _pressed(self, number, frame):
         if self.ended:

@@ -8,6 +8,7 @@ import time
 import pytest
 
 from slamlab import sources
+from slamlab.cli import main
 from slamlab.devices.closing import SIGNALS
 from slamlab.devices.emir import commands
 from slamlab.devices.recording import load
@@ -127,3 +128,12 @@ def test_a_lidar_that_is_lost_ends_a_run_with_what_it_came_to(tmp_path):
         assert "Next: " in said and "until then" in said
         until(lambda: not moving(it))
     assert json.loads((tmp_path / "summary.json").read_text())["frames"] > 3
+
+
+@pytest.mark.parametrize("word", ["run", "convert"])
+def test_the_help_names_live_devices_and_recordings(word, capsys):
+    with pytest.raises(SystemExit):
+        main([word, "--help"])
+    said = " ".join(capsys.readouterr().out.split())
+    for words in ("devices:LIDAR_PORT,EMIR_PORT", "a raw recording", "Ctrl-C ends"):
+        assert words in said
