@@ -76,7 +76,7 @@ class Emir:
 
     @property
     def pose(self):
-        """(3,) where the counters say it is now, from where it was opened or reset [m, m, rad]."""
+        """(3,) where the counters say it is now, from where it was opened [m, m, rad]."""
         return self.pose_at(self.clock.now())
 
     def pose_at(self, time):

@@ -68,7 +68,9 @@ class Session:
         with self._writing:
             if self._closed:
                 raise ConnectionLost(
-                    f"eMIR on {self.name} is closed", "close() was called", "open it anew"
+                    f"eMIR on {self.name} is closed",
+                    "it was closed, or it was lost and not yet found again",
+                    "open it anew",
                 )
             self._send(frame)
 
