@@ -950,7 +950,7 @@ seen_live = views.live(
     truth=False,
     title="eMIR: naive map on the left, corrected map on the right",
     speed=20,
-    tops=(0.3, 0.8),
+    tops=(0.3, 0.6),
     size=(860, 400),
 )
 
@@ -987,7 +987,8 @@ print("naive pose at least ten times worse:", distances[0] > 10 * distances[1])
 # record, replay, and drive a robot through a growing map.
 #
 # **Next:** the corrected map is sharp after one round. In a larger building small errors add up, and
-# where the robot comes back walls stand twice: lesson 15 recognises places and closes the loop.
+# where the robot comes back walls stand twice: lesson [15](15_closing_the_loop.ipynb) recognises
+# places and closes the loop.
 #
 # **Exercise:** [decode nodes, frames and counters](../exercises/14_the_emir_system.ipynb), judged
 # with bytes that no one has seen before.
