@@ -42,6 +42,7 @@ SMALL = {  # what is set to run in seconds, and what the rows must compare: (nam
             ("a match: match", "thesis' way"),
             ("a match: match", "point to line"),
             ("a match: match, clouds made ready", "thesis' way"),
+            ("parts of a match: fitting lines to both", "match"),
             ("position error: match", "thesis' way"),
             ("heading error: match", "thesis' way"),
             ("tight at 1 % noise: match", "all"),
