@@ -104,8 +104,10 @@ def _marks(book, policy):
 
 
 def _write(arguments, book, policy):
-    from slamlab.grading import folder
+    from slamlab.grading import feedback, folder
 
     marks = _marks(book, policy)
     folder.write_results(arguments.out, marks)
+    for mark in marks:
+        feedback.write_page(arguments.out, mark)
     return len(marks)

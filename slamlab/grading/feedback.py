@@ -5,7 +5,8 @@ from pathlib import Path
 import jinja2
 
 from slamlab.checks.report import number, points
-from slamlab.grading.records import Record, write
+from slamlab.grading.marks import Mark
+from slamlab.grading.records import write
 
 PAGES = jinja2.Environment(
     loader=jinja2.FileSystemLoader(Path(__file__).parent),
@@ -17,20 +18,20 @@ PAGES = jinja2.Environment(
 PAGES.filters |= {"number": number, "points": points}
 
 
-def page(record: Record) -> str:
+def page(mark: Mark) -> str:
     """The page of a submission; whatever the student wrote stands in it as text only.
 
     Parameters
     ----------
-    record : Record
+    mark : Mark
 
     Returns
     -------
     str, HTML without scripts or anything to load
     """
-    return PAGES.get_template("feedback.html").render(record=record)
+    return PAGES.get_template("feedback.html").render(mark=mark, record=mark.record)
 
 
-def write_page(out: Path, record: Record):
+def write_page(out: Path, mark: Mark):
     """Write the page to ``out/feedback``."""
-    write(out / "feedback" / f"{record.stem}.html", page(record))
+    write(out / "feedback" / f"{mark.record.stem}.html", page(mark))

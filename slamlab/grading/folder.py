@@ -112,17 +112,16 @@ def write_down(graded, out, book, default=None, policy=late.NONE):
     ------
     Record, written
     """
-    done = []
+    done, by_hand = [], book.adjustments()
     try:
         for record in graded:
-            done.append(record)
+            done.append(mark(record, by_hand, policy))
             if not record.failed:
                 book.add(record)
-            feedback.write_page(out, record)
+            feedback.write_page(out, done[-1])
             yield record
     finally:
-        by_hand = book.adjustments()
-        write_results(out, [mark(record, by_hand, policy) for record in done], default)
+        write_results(out, done, default)
 
 
 def write_results(out, marks, default=None):

@@ -1,6 +1,6 @@
 """The mark of a submission: what the judge found, what was changed by hand, what lateness cost."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from slamlab.grading import late
 from slamlab.grading.records import Record
@@ -58,5 +58,7 @@ def mark(record, adjustments=None, policy=late.NONE):
     for (submission, task), (value, reason) in (adjustments or {}).items():
         if submission == record.submission:
             points[task], by_hand[task] = value, reason
+    if by_hand and record.exercise is None:
+        record = replace(record, exercise=min(by_hand)[:2])
     taken = policy.taken(record.exercise, record.handed_in, sum(points.values()))
     return Mark(record, points, by_hand, taken)

@@ -10,6 +10,7 @@ import subprocess
 import sys
 import time
 from dataclasses import replace
+from datetime import UTC, datetime
 from pathlib import Path
 
 import pytest
@@ -18,6 +19,7 @@ from slamlab.checks.verdict import LawResult, Verdict
 from slamlab.cli import main
 from slamlab.grading import feedback, jail, judge, records, tables
 from slamlab.grading.gradebook import Gradebook
+from slamlab.grading.late import Policy
 from slamlab.grading.marks import mark
 from slamlab.grading.records import Record
 from tests.grading import fake
@@ -127,16 +129,31 @@ def test_grading_again_gives_the_same_and_a_new_secret_other_inputs(class_folder
         command("grade", class_folder, "--out", out, *more)
         return [replace(record, seconds={}) for record in book(out).values()]
 
-    first, again, other = (
+    first, again, elsewhere, other = (
         graded(tmp_path / "a"),
         graded(tmp_path / "a", "--regrade"),
+        graded(tmp_path / "c", "--secret", tmp_path / "a" / "secret", "--jobs", 1),
         graded(tmp_path / "b"),
     )
-    assert first == again
+    assert first == again == elsewhere
     assert [r.seed for r in first] != [r.seed for r in other]
     assert [r.score for r in first] == [r.score for r in other]
     if os.name == "posix":
         assert stat.S_IMODE((tmp_path / "a" / "secret").stat().st_mode) == 0o600
+
+
+def test_what_could_not_be_read_stands_once_and_is_graded_when_it_is_mended(tmp_path):
+    folder, out = tmp_path / "class", tmp_path / "out"
+    folder.mkdir()
+    (folder / "anna.ipynb").write_text(notebook(fake.SOLUTION)[:99])
+    for _ in range(2):
+        command("grade", folder, "--out", out)
+        assert not book(out)["anna.ipynb"].graded
+    (folder / "anna.ipynb").write_text(notebook(fake.SOLUTION))
+    command("grade", folder, "--out", out)
+    assert book(out)["anna.ipynb"].score == 6.5
+    with Gradebook(f"sqlite:///{out / 'grades.db'}") as opened:
+        assert len(opened.known()) == 2
 
 
 def test_results_within_the_folder_are_not_graded(class_folder, tmp_path):
@@ -227,12 +244,26 @@ OURS |= {"ul", "li", "strong", "code"}
 def test_feedback_says_what_held_what_broke_and_what_gains_the_rest():
     laws = (LawResult("a", "is <even>", 1, 1, 0, 20), LawResult("b", "grows", 0.0, 2, 7, 20))
     verdict = Verdict("99-turn", 1, 3, laws, "right", "turn the other way")
-    text = feedback.page(Record("x.ipynb", "x", "99", verdicts=(verdict,), titles={"99-turn": "T"}))
+    graded = Record("x.ipynb", "x", "99", verdicts=(verdict,), titles={"99-turn": "T"})
+    text = feedback.page(mark(graded))
     for expected in ("is &lt;even&gt;", "broken by 7 of 20 inputs", "turn the other way"):
         assert expected in text
     assert "To gain 2 points" in text
     assert "1 of 3 points" in text
     assert "right" not in Tags(text).tags
+
+
+def test_feedback_says_what_was_set_by_hand_and_what_lateness_took():
+    late = Policy({"99": datetime(2026, 12, 1, tzinfo=UTC)}, per_day=0.25)
+    verdict = Verdict("99-turn", 1, 3)
+    graded = Record("x.ipynb", "x", "99", verdicts=(verdict,), titles={"99-turn": "T"})
+    graded = replace(graded, handed_in="2026-12-01T12:00:00+00:00")
+    text = feedback.page(mark(graded, {("x.ipynb", "99-turn"): (2.0, "right idea")}, late))
+    assert "1.5 of 3 points" in text
+    assert "0.5 points taken for lateness" in text
+    assert "99-turn set by hand to 2 points: right idea" in text
+    lost = feedback.page(mark(Record("x.ipynb", "x", "99", reason="empty")))
+    assert "Could not be graded<" in lost
 
 
 def test_whatever_stands_in_a_submission_is_text_in_its_feedback():
@@ -247,7 +278,7 @@ def test_whatever_stands_in_a_submission_is_text_in_its_feedback():
         titles={"99-turn": HTML},
     )
     for record in (graded, Record(HTML, HTML, reason=HTML)):
-        text = feedback.page(record)
+        text = feedback.page(mark(record, {(HTML, HTML): (1.0, HTML)}))
         assert Tags(text).tags <= OURS
         assert "&lt;script&gt;" in text
 

@@ -1,6 +1,7 @@
 """The gradebook: what was graded stays, nothing stands twice, whatever the database."""
 
 import os
+import random
 import shutil
 import signal
 import subprocess
@@ -16,6 +17,7 @@ from slamlab.grading.gradebook import Gradebook, NoGradebook
 from slamlab.grading.records import Record
 from tests.grading import fake
 from tests.grading.conftest import notebook
+from tests.grading.test_folder import comes_true
 
 LAW = LawResult("twice", "is twice as large", 0.0, 2.0, 3, 20)
 VERDICT = Verdict("99-double", 1.0, 3.0, (LAW,), "square", "you squared")
@@ -136,14 +138,17 @@ def test_a_database_that_cannot_be_opened_is_told_in_one_line(url):
 def test_a_grader_killed_at_any_moment_loses_nothing_and_doubles_nothing(tmp_path):
     folder, out = tmp_path / "class", tmp_path / "out"
     folder.mkdir()
-    names = [f"s{i:02}_04.ipynb" for i in range(30)]
+    names = [f"s{i:02}_04.ipynb" for i in range(60)]
     for i, name in enumerate(names):
         (folder / name).write_text(notebook(f"x = {i}", fake.SOLUTION, exercise="04"))
     start = "import sys; from slamlab.cli import main; sys.exit(main())"
     command = [sys.executable, "-c", start, "grade", folder, "--out", out, "--isolation", "none"]
-    for kill in range(20):
+    rng, graded = random.Random(9), lambda: len(list(out.glob("feedback/*")))
+    for _ in range(20):
+        before = graded()
         grading = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        time.sleep(0.6 + 0.33 * kill)  # from before the first to long after
+        assert comes_true(lambda: graded() > before or grading.poll() is not None)  # noqa: B023
+        time.sleep(rng.uniform(0, 0.2))
         grading.send_signal(signal.SIGKILL)
         grading.wait()
     assert subprocess.run(command, stdout=subprocess.DEVNULL).returncode == 0

@@ -85,9 +85,10 @@ def test_points_set_by_hand_count_in_place_of_the_judges_and_are_told():
 
 
 def test_what_could_not_be_graded_has_no_mark_until_one_is_set():
-    lost = record(reason="empty", verdicts=())
+    lost = record(reason="empty", verdicts=(), exercise=None)
     assert mark(lost).total is None
-    assert mark(lost, {("anna.ipynb", "99-turn"): (2.0, "read on paper")}).total == 2
+    made = mark(lost, {("anna.ipynb", "99-turn"): (2.0, "read on paper")})
+    assert (made.total, made.record.exercise) == (2, "99")
 
 
 def read(path):
@@ -208,13 +209,18 @@ def test_gradebooks_of_shards_are_merged_without_doubling(results, tmp_path, cap
 def test_nbgraders_gradebook_is_filled(results, tmp_path, capsys):
     from nbgrader.api import Gradebook as Theirs
 
+    lost = record("ben.ipynb", reason="empty", verdicts=(), exercise=None)
+    with Gradebook(f"sqlite:///{results / 'grades.db'}") as book:
+        book.add(lost)
+        book.adjust("ben.ipynb", "99", "99-turn", 1.5, "read on paper")
     url = f"sqlite:///{tmp_path / 'gradebook.db'}"
     words = ["grade", "export", "--out", str(results), "--nbgrader-gradebook", url]
     assert main(words) == main(words) == 0
-    with Theirs(url) as book:
-        submission = book.find_submission(fake.EXERCISE.notebook, "anna")
+    with Theirs(url) as theirs:
+        submission = theirs.find_submission(fake.EXERCISE.notebook, "anna")
         assert (submission.score, submission.max_score) == (6.5, 6.5)
         assert not submission.needs_manual_grade
+        assert theirs.find_submission(fake.EXERCISE.notebook, "ben").score == 1.5
 
 
 def handed_in(folder):
