@@ -38,7 +38,7 @@ def scanned(it, seconds):
 def started(it, *words):
     """A command on both devices, once they send and the robot moves."""
     process = command(words[0], "devices:" + ",".join(it.ports.values()), *words[1:])
-    until(lambda: scanned(it, 3.0) or process.poll() is not None)
+    until(lambda: scanned(it, 2.0) or process.poll() is not None)
     it["emir"]._drive(20, 30, 1)  # as somebody else drives it
     until(lambda: moving(it))
     return process
@@ -87,11 +87,10 @@ def test_ctrl_c_ends_a_live_conversion_with_a_whole_log(tmp_path):
 
 
 @signals
-@pytest.mark.parametrize("tcp", ENDS)
 @pytest.mark.parametrize("word", ["run", "record"])
 @pytest.mark.parametrize("number", SIGNALS)
-def test_told_to_end_the_program_leaves_motor_and_robot_at_rest(tcp, word, number, tmp_path):
-    with running(tcp) as it:
+def test_told_to_end_the_program_leaves_motor_and_robot_at_rest(word, number, tmp_path):
+    with running() as it:
         more = ["--out", str(tmp_path / "a.raw")] if word == "record" else []
         process = started(it, word, *more)
         said = ended(process, number)
