@@ -348,6 +348,16 @@ def test_the_command_says_its_ports_takes_faults_and_ends_with_ctrl_c():
     assert process.returncode == 0
 
 
+@needs_pty
+def test_told_to_end_the_command_leaves_no_ports_behind():
+    process = command("emulate")
+    port = process.stdout.readline().split()[1]
+    assert os.path.exists(port)
+    process.terminate()
+    process.communicate(timeout=30)
+    assert not os.path.exists(os.path.dirname(port))
+
+
 @pytest.mark.parametrize(
     ("words", "said"),
     [

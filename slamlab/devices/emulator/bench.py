@@ -5,6 +5,7 @@ import select
 import numpy as np
 
 from slamlab.devices.clock import Clock
+from slamlab.devices.closing import closed_at_exit
 from slamlab.devices.emulator.body import Body
 from slamlab.devices.emulator.emir import EmirMachine
 from slamlab.devices.emulator.ends import PtyEnd
@@ -31,6 +32,7 @@ class Bench:
         self.error = None
         self._thread = Reader(self._step, "emulator", self._ended)
         self._thread.start()
+        closed_at_exit(self)  # after the drivers that hang on it: they were opened later
 
     @property
     def ports(self):
