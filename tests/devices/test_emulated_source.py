@@ -94,6 +94,13 @@ def test_a_rehearsed_drive_is_read_as_any_recording(tmp_path):
     assert np.nanmedian(np.abs(off)) < 0.02
 
 
+@pytest.mark.parametrize(("mode", "points"), [(0, 197), (1, 394), (2, 787)])
+def test_a_rehearsed_drive_is_of_the_mode_that_was_asked_for(tmp_path, mode, points):
+    rehearse(tmp_path / "drive", worlds.polygon(), np.random.default_rng(0), [(0.5, 0, 0)], mode)
+    found = list(turns(load(tmp_path / "drive")))
+    assert abs(np.median([len(turn) for turn in found]) - points) <= 2
+
+
 def test_drivers_find_their_answers_when_a_rehearsed_drive_is_replayed(tmp_path):
     rehearsed(tmp_path / "drive")
     clock, found = Clock(), playback(load(tmp_path / "drive"))

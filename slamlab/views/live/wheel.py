@@ -128,9 +128,6 @@ class Way:
         self._left, self._turn, self._tops = distance, angle, tops
         self._last, self._turning = np.array(pose, dtype=float), True
 
-    def __str__(self):
-        return f"{self._left:.2f} m, {np.degrees(self._turn):.0f}° to go"
-
     def steer(self, pose):
         """The next command.
 
