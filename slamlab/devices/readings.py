@@ -40,6 +40,8 @@ class Carried(Source):
             last = pose
             if not turn.complete:
                 self.damage["turns with a gap"] += 1
+            if turn.after_gap:
+                self.damage["connections lost and found"] += 1
             yield Reading(time - begin, odometry, self._scan(turn))
 
     def _turns(self):

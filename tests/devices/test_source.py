@@ -1,5 +1,7 @@
 """Lidar and robot as a source of readings: one clock, odometry between turns, drivable."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -106,6 +108,9 @@ def test_turns_with_gaps_are_counted_and_not_lost():
     devices = source.Devices(ReadyLidar([turn(51.0), turn(51.1, complete=False)]))
     assert len(list(devices)) == 2
     assert devices.damage == {"turns with a gap": 1}
+    again = replace(turn(51.1), after_gap=True)
+    devices = source.Devices(ReadyLidar([turn(51.0), again, turn(51.2)]))
+    assert len(list(devices)) == 3 and devices.damage == {"connections lost and found": 1}
 
 
 def test_it_is_drivable_where_there_is_a_robot():
