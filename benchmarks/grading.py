@@ -16,7 +16,7 @@ from pathlib import Path
 
 from benchmarks.common import Missing, main, row
 from slamlab.checks import catalogue
-from slamlab.grading import jail, submissions
+from slamlab.grading import jail, notebooks
 from slamlab.grading.client import Client
 from slamlab.grading.gradebook import Gradebook
 from slamlab.grading.workers import Workers
@@ -113,7 +113,7 @@ def level():
 
 def floor(count):
     """CPU of a forked worker that runs the cells and is driven by nobody [s]."""
-    content = submissions.parse(derived("solutions").encode())
+    content = notebooks.parse(derived("solutions").encode())
     exercise, spent = catalogue.exercise("04"), []
     with Workers(level()) as workers:
         for _ in range(count):

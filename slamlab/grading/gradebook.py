@@ -5,43 +5,14 @@ in one transaction when it is known, under a key that is the same for the same c
 grader that was killed loses what it was at, and one started again doubles nothing.
 """
 
-import hashlib
 import json
-from dataclasses import asdict, replace
-from datetime import UTC, datetime
 
 import sqlalchemy as sa
 
-from slamlab.checks.verdict import LawResult, Verdict
-from slamlab.grading.records import Record
+from slamlab.grading import rows
+from slamlab.grading.rows import ADJUSTMENTS, ATTEMPTS, TABLES
 
-_TABLES = sa.MetaData()
-ATTEMPTS = sa.Table(
-    "attempts",
-    _TABLES,
-    sa.Column("id", sa.Integer, primary_key=True),
-    sa.Column("key", sa.String(64), unique=True, nullable=False),
-    sa.Column("submission", sa.Text, nullable=False, index=True),
-    sa.Column("student", sa.Text, nullable=False),
-    sa.Column("exercise", sa.String(8)),
-    sa.Column("sha256", sa.String(64)),
-    sa.Column("score", sa.Float),
-    sa.Column("max_score", sa.Float),
-    sa.Column("isolation", sa.String(8)),
-    sa.Column("at", sa.String(32), nullable=False),
-    sa.Column("record", sa.JSON, nullable=False),
-)
-ADJUSTMENTS = sa.Table(
-    "adjustments",
-    _TABLES,
-    sa.Column("id", sa.Integer, primary_key=True),
-    sa.Column("submission", sa.Text, nullable=False, index=True),
-    sa.Column("exercise", sa.String(8), nullable=False),
-    sa.Column("task", sa.Text, nullable=False),
-    sa.Column("points", sa.Float, nullable=False),
-    sa.Column("reason", sa.Text, nullable=False),
-    sa.Column("at", sa.String(32), nullable=False),
-)
+NEWEST_LAST = ATTEMPTS.c.at, ATTEMPTS.c.id
 
 
 class NoGradebook(Exception):
@@ -63,7 +34,7 @@ class Gradebook:
     def __init__(self, url):
         try:
             self._engine = sa.create_engine(url)
-            _TABLES.create_all(self._engine)
+            TABLES.create_all(self._engine)
         except (sa.exc.SQLAlchemyError, ModuleNotFoundError) as error:
             said = str(error).strip().splitlines()[0][:300]
             raise NoGradebook(f"the gradebook cannot be opened: {said}") from None
@@ -89,22 +60,11 @@ class Gradebook:
         -------
         bool, whether it was new
         """
-        row = {
-            "key": key(record.submission, record.sha256, record.seed, record.reason),
-            "submission": _storable(record.submission),
-            "student": _storable(record.student),
-            "exercise": record.exercise,
-            "sha256": record.sha256,
-            "score": record.score,
-            "max_score": record.max_score,
-            "isolation": record.isolation,
-            "at": datetime.now(UTC).isoformat(timespec="seconds"),
-            "record": _storable(asdict(record)),
-        }
+        row = rows.of(record)
         mine = ATTEMPTS.c.submission == row["submission"]
-        rows = sa.select(ATTEMPTS.c.key, ATTEMPTS.c.record).where(mine).order_by(ATTEMPTS.c.id)
+        known = sa.select(ATTEMPTS.c.key, ATTEMPTS.c.record).where(mine)
         with self._engine.begin() as connection:
-            before = connection.execute(rows).all()
+            before = connection.execute(known.order_by(*NEWEST_LAST)).all()
             new = all(one.key != row["key"] for one in before)
             if not new:
                 if before[-1] == (row["key"], json.loads(json.dumps(row["record"]))):
@@ -128,11 +88,12 @@ class Gradebook:
         added = 0
         for table in (ATTEMPTS, ADJUSTMENTS):
             with other._engine.connect() as connection:
-                rows = connection.execute(sa.select(table).order_by(table.c.id)).mappings().all()
+                theirs = connection.execute(sa.select(table).order_by(table.c.id)).mappings().all()
             with self._engine.begin() as connection:
-                known = {tuple(row) for row in connection.execute(sa.select(*_told_apart(table)))}
-                for row in rows:
-                    if tuple(row[column.name] for column in _told_apart(table)) not in known:
+                columns = rows.told_apart(table)
+                known = {tuple(row) for row in connection.execute(sa.select(*columns))}
+                for row in theirs:
+                    if tuple(row[column.name] for column in columns) not in known:
                         new = {key: value for key, value in row.items() if key != "id"}
                         connection.execute(sa.insert(table).values(new))
                         added += table is ATTEMPTS
@@ -149,7 +110,7 @@ class Gradebook:
         """
         with self._engine.begin() as connection:
             for name in submissions:
-                here = ATTEMPTS.c.submission == _storable(name)
+                here = ATTEMPTS.c.submission == rows.storable(name)
                 connection.execute(sa.delete(ATTEMPTS).where(here))
 
     def known(self):
@@ -160,8 +121,8 @@ class Gradebook:
         dict, key to Record
         """
         with self._engine.connect() as connection:
-            rows = connection.execute(sa.select(ATTEMPTS.c.key, ATTEMPTS.c.record))
-            return {row.key: _record(row.record) for row in rows}
+            found = connection.execute(sa.select(ATTEMPTS.c.key, ATTEMPTS.c.record))
+            return {row.key: rows.record(row.record) for row in found}
 
     def latest(self):
         """The newest attempt at each submission and exercise.
@@ -173,8 +134,8 @@ class Gradebook:
         columns = ATTEMPTS.c.submission, ATTEMPTS.c.exercise, ATTEMPTS.c.record
         newest = {}
         with self._engine.connect() as connection:
-            for row in connection.execute(sa.select(*columns).order_by(ATTEMPTS.c.id)):
-                newest[row.submission] = _record(row.record)
+            for row in connection.execute(sa.select(*columns).order_by(*NEWEST_LAST)):
+                newest[row.submission] = rows.record(row.record)
         return [newest[name] for name in sorted(newest)]
 
     def adjust(self, submission, exercise, task, points, reason):
@@ -187,12 +148,12 @@ class Gradebook:
         reason : str
         """
         row = {
-            "submission": _storable(submission),
+            "submission": rows.storable(submission),
             "exercise": exercise,
             "task": task,
             "points": float(points),
-            "reason": _storable(reason),
-            "at": datetime.now(UTC).isoformat(timespec="seconds"),
+            "reason": rows.storable(reason),
+            "at": rows.now(),
         }
         with self._engine.begin() as connection:
             connection.execute(sa.insert(ADJUSTMENTS).values(row))
@@ -205,8 +166,10 @@ class Gradebook:
         dict, (submission, task) to (points, reason)
         """
         with self._engine.connect() as connection:
-            rows = connection.execute(sa.select(ADJUSTMENTS).order_by(ADJUSTMENTS.c.id))
-            return {(row.submission, row.task): (row.points, row.reason) for row in rows}
+            found = connection.execute(
+                sa.select(ADJUSTMENTS).order_by(ADJUSTMENTS.c.at, ADJUSTMENTS.c.id)
+            )
+            return {(row.submission, row.task): (row.points, row.reason) for row in found}
 
 
 def url_of(out, new=True):
@@ -229,52 +192,3 @@ def url_of(out, new=True):
     if not new and not file.is_file():
         raise NoGradebook(f"there is no gradebook {file}: grade first, or say --db URL")
     return f"sqlite:///{file}"
-
-
-def _told_apart(table):
-    """The columns that tell one row from another, whichever database it stands in."""
-    if table is ATTEMPTS:
-        return [ATTEMPTS.c.key]
-    return [column for column in ADJUSTMENTS.columns if column.name != "id"]
-
-
-def key(submission, sha256, seed, reason=None):
-    """What an attempt is told apart by: whose, which content, which inputs.
-
-    What had no content to grade is told apart by the reason.
-
-    Parameters
-    ----------
-    submission : str
-    sha256, seed : str or None
-    reason : str or None
-
-    Returns
-    -------
-    str, 64 hexadecimal digits
-    """
-    parts = submission, sha256 or "", seed or "", "" if sha256 and seed else reason or ""
-    text = "\0".join(parts)
-    return hashlib.sha256(text.encode("utf-8", "surrogatepass")).hexdigest()
-
-
-def _storable(value):
-    """A value that every database takes: no half characters, no zero characters in its text."""
-    if isinstance(value, str):
-        text = value.encode("utf-8", "backslashreplace").decode("utf-8")
-        return text.replace("\0", "\\x00")
-    if isinstance(value, dict):
-        return {_storable(str(name)): _storable(item) for name, item in value.items()}
-    if isinstance(value, list | tuple):
-        return [_storable(item) for item in value]
-    return value
-
-
-def _record(stored):
-    verdicts = tuple(
-        Verdict(**(v | {"laws": tuple(LawResult(**law) for law in v["laws"])}))
-        for v in stored["verdicts"]
-    )
-    cells = {int(cell): problem for cell, problem in stored["cells"].items()}
-    record = Record(**(stored | {"verdicts": verdicts, "cells": cells}))
-    return replace(record, notes=tuple(record.notes))

@@ -15,8 +15,8 @@ from slamlab import __version__
 from slamlab.checks.drives import StudentError
 from slamlab.grading import kinship, submissions
 from slamlab.grading.client import Client
-from slamlab.grading.gradebook import key
 from slamlab.grading.records import Record
+from slamlab.grading.rows import key
 from slamlab.grading.submissions import Submission, Unreadable
 from slamlab.grading.workers import CannotStart, Workers
 

@@ -1,7 +1,5 @@
-"""Finding submissions in a folder and reading notebooks that may be anything."""
+"""Finding the submissions in a folder, whatever its layout, and what each of them holds."""
 
-import hashlib
-import json
 import os
 import re
 from dataclasses import dataclass
@@ -9,20 +7,14 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 from slamlab.checks import catalogue
+from slamlab.grading.notebooks import Notebook, Unreadable, parse
 
 MOST_BYTES = 20 << 20
-MOST_CELLS = 1000  # of code
 MOST_LETTERS = 100  # of nbgrader's note on the time
 DEEPEST = 10  # folders in folders
 
 _MOODLE = re.compile(r"(?P<student>.+?)_(?P<number>\d+)_assignsubmission_file_?(?P<file>.*)", re.S)
 _CANVAS = re.compile(r"(?P<student>[^_]+)_(LATE_)?(?P<number>\d+)_\d+_(?P<file>.+)", re.S)
-# possessive throughout: it must not try a hostile cell's letters in every way there is
-_CHECK = re.compile(r"\s*+(?:check\(\s*+[\"'][^\"']*+[\"']\s*+\)\s*+;?+\s*+)++")
-
-
-class Unreadable(Exception):
-    """A submission cannot be graded; the message says why."""
 
 
 @dataclass(frozen=True)
@@ -62,24 +54,6 @@ class Submission:
 def _time(text):
     when = datetime.fromisoformat(text.removesuffix(" UTC").strip())
     return (when if when.tzinfo else when.replace(tzinfo=UTC)).isoformat()
-
-
-@dataclass(frozen=True)
-class Notebook:
-    """What a submission holds.
-
-    Parameters
-    ----------
-    cells : (number, source) of the student's code cells in order, check cells left out
-    exercise : str or None, the exercise its metadata names
-    sha256 : str, of the file's bytes
-    notes : what was odd about the file
-    """
-
-    cells: tuple[tuple[int, str], ...]
-    exercise: str | None
-    sha256: str
-    notes: tuple[str, ...] = ()
 
 
 def find(folder: Path, out: Path | None = None) -> list[Submission]:
@@ -145,41 +119,6 @@ def read(submission: Submission) -> Notebook:
     return parse(data)
 
 
-def parse(data: bytes) -> Notebook:
-    """The notebook that some bytes are.
-
-    Raises
-    ------
-    Unreadable
-    """
-    if not data.strip():
-        raise Unreadable("the file is empty")
-    text, notes = _decoded(data)
-    try:
-        content = json.loads(text)
-    except RecursionError:
-        raise Unreadable("nested too deeply to be a notebook") from None
-    except ValueError as error:
-        raise Unreadable(f"not a notebook, or a part of one: {error}") from None
-    if not isinstance(content, dict):
-        raise Unreadable("not a notebook: no cells and no metadata")
-    if "worksheets" in content or content.get("nbformat") in (1, 2, 3):
-        content = _upgraded(content)
-        notes.append("an old notebook format, upgraded")
-    if not isinstance(content.get("cells"), list):
-        raise Unreadable("not a notebook: it has no list of cells")
-    if _named(content, "lesson"):
-        raise Unreadable("a lesson, not an exercise; those are in the folder exercises")
-    cells = tuple(_code(content["cells"]))
-    if not cells:
-        notes.append("no code cells")
-    if len(cells) > MOST_CELLS:
-        raise Unreadable(f"{len(cells)} cells of code, more than {MOST_CELLS}")
-    own = tuple((number, source) for number, source in cells if not _CHECK.fullmatch(source))
-    digest = hashlib.sha256(data).hexdigest()
-    return Notebook(own, _named(content, "exercise"), digest, tuple(notes))
-
-
 def exercise_of(submission: Submission, notebook: Notebook, default=None):
     """The exercise of a submission: by the notebook's metadata, else its path, else a default.
 
@@ -236,44 +175,3 @@ def _original(name):
 def _printable(text):
     # names on disk may hold bytes that are no text
     return text.encode("utf-8", "surrogateescape").decode("utf-8", "backslashreplace")
-
-
-def _decoded(data):
-    for encoding in (
-        ("utf-8-sig", "utf-16") if data[:2] in (b"\xff\xfe", b"\xfe\xff") else ("utf-8-sig",)
-    ):
-        try:
-            return data.decode(encoding), []
-        except UnicodeDecodeError:
-            continue
-    return data.decode("latin-1"), ["not UTF-8, read as Latin-1"]
-
-
-def _upgraded(content):
-    import nbformat
-
-    try:
-        return nbformat.convert(nbformat.from_dict(content), 4)
-    except Exception as error:  # the converters expect what they expect
-        raise Unreadable(
-            f"an old notebook that cannot be upgraded: {type(error).__name__}"
-        ) from None
-
-
-def _code(cells):
-    for number, cell in enumerate(cells, 1):
-        if not isinstance(cell, dict) or cell.get("cell_type") != "code":
-            continue
-        source = cell.get("source", "")
-        if isinstance(source, list):
-            source = "".join(line for line in source if isinstance(line, str))
-        if isinstance(source, str):
-            # half a character, legal in JSON, cannot be sent on
-            yield number, source.encode("utf-8", "replace").decode("utf-8")
-
-
-def _named(content, kind):
-    metadata = content.get("metadata")
-    ours = metadata.get("slamlab") if isinstance(metadata, dict) else None
-    named = ours.get(kind) if isinstance(ours, dict) else None
-    return named if isinstance(named, str) else None

@@ -9,7 +9,7 @@ import pytest
 
 from slamlab.checks import catalogue
 from slamlab.checks.task import LARGEST, MOST_ROWS
-from slamlab.grading import judge, submissions
+from slamlab.grading import judge, notebooks
 from tests.grading.conftest import workers
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -18,7 +18,7 @@ EXERCISES = list(catalogue.EXERCISES)
 
 def judged(folder, exercise, change=lambda cells: cells):
     data = (ROOT / folder / f"{exercise.notebook}.ipynb").read_bytes()
-    notebook = submissions.parse(data)
+    notebook = notebooks.parse(data)
     assert notebook.exercise == exercise.id
     return judge.judge(exercise, change(notebook.cells), b"a seed of the suite", workers())
 

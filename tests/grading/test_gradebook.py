@@ -13,6 +13,7 @@ from pathlib import Path
 import pytest
 
 from slamlab.checks.verdict import LawResult, Verdict
+from slamlab.grading import rows
 from slamlab.grading.gradebook import Gradebook, NoGradebook
 from slamlab.grading.records import Record
 from tests.grading import fake
@@ -124,6 +125,17 @@ def test_points_set_by_hand_outlive_grading_again(book):
     book.forget(["anna.ipynb"])
     assert book.latest() == []
     assert book.adjustments()["anna.ipynb", "99-double"] == (2.5, "more than half")
+
+
+def test_of_merged_books_the_newest_attempt_counts_whichever_comes_first(tmp_path, monkeypatch):
+    older, newer = record(), record(sha="c" * 64)
+    books = [Gradebook(f"sqlite:///{tmp_path / name}.db") for name in ("a", "b", "all")]
+    for each, made, at in zip(books, (older, newer), ("2026-12-01", "2026-12-02"), strict=False):
+        monkeypatch.setattr(rows, "now", lambda at=at: at)
+        each.add(made)
+    for each in (books[1], books[0]):
+        books[2].take(each)
+    assert books[2].latest() == [newer]
 
 
 @pytest.mark.parametrize("url", ["nonsense", "sqlite:////nowhere/at/all.db", "oracle://x"])

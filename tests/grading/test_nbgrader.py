@@ -11,7 +11,7 @@ import pytest
 
 from benchmarks.grading import CONFIG, NAME, derived
 from slamlab.checks import catalogue
-from slamlab.grading import judge, submissions
+from slamlab.grading import judge, notebooks, submissions
 from tests.grading.conftest import workers
 
 
@@ -63,9 +63,7 @@ def test_nbgrader_scores_each_task_as_the_judge_does(course, student):
 
     exercise = catalogue.exercise("04")
     file = course / "submitted" / student / NAME / f"{NAME}.ipynb"
-    result = judge.judge(
-        exercise, submissions.parse(file.read_bytes()).cells, b"nbgrader", workers()
-    )
+    result = judge.judge(exercise, notebooks.parse(file.read_bytes()).cells, b"nbgrader", workers())
     ours = {verdict.task: verdict.points for verdict in result["verdicts"]}
     with Gradebook(f"sqlite:///{course / 'gradebook.db'}") as gradebook:
         submission = gradebook.find_submission(NAME, student)

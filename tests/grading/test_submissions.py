@@ -6,7 +6,7 @@ import time
 
 import pytest
 
-from slamlab.grading import submissions
+from slamlab.grading import notebooks, submissions
 from slamlab.grading.submissions import Submission, Unreadable
 from tests.grading.conftest import notebook
 
@@ -120,7 +120,7 @@ def test_names_of_any_kind_are_found(tmp_path):
 )
 def test_what_is_no_notebook_is_refused_with_its_reason(data, reason):
     with pytest.raises(Unreadable, match=reason):
-        submissions.parse(data)
+        notebooks.parse(data)
 
 
 def test_a_file_too_large_a_link_and_a_pipe_are_refused(tmp_path):
@@ -146,7 +146,7 @@ def test_cells_are_read_in_order_checks_left_out_odd_ones_ignored():
         {"cell_type": "code", "source": "s = '\ud800'"},
         "no cell",
     ]
-    read = submissions.parse(json.dumps({"cells": cells}).encode())
+    read = notebooks.parse(json.dumps({"cells": cells}).encode())
     assert read.cells == (
         (2, "a = 1\nb = 2"),
         (4, "x = check('99-double')"),
@@ -163,24 +163,24 @@ def test_cells_are_read_in_order_checks_left_out_odd_ones_ignored():
 def test_a_cell_that_is_nearly_a_check_is_read_at_once(source):
     begin = time.process_time()
     cells = [{"cell_type": "code", "source": source}]
-    assert submissions.parse(json.dumps({"cells": cells}).encode()).cells == ((1, source),)
+    assert notebooks.parse(json.dumps({"cells": cells}).encode()).cells == ((1, source),)
     assert time.process_time() - begin < 20  # every way of reading it would take years
 
 
 def test_more_cells_than_anybody_writes_are_refused():
-    cells = [{"cell_type": "code", "source": "1 / 0"}] * (submissions.MOST_CELLS + 1)
+    cells = [{"cell_type": "code", "source": "1 / 0"}] * (notebooks.MOST_CELLS + 1)
     with pytest.raises(Unreadable, match="1001 cells of code"):
-        submissions.parse(json.dumps({"cells": cells}).encode())
+        notebooks.parse(json.dumps({"cells": cells}).encode())
 
 
 def test_no_code_cells_is_noted():
-    assert submissions.parse(b'{"cells": []}').notes == ("no code cells",)
+    assert notebooks.parse(b'{"cells": []}').notes == ("no code cells",)
 
 
 def test_an_old_format_is_upgraded_and_other_encodings_are_read():
     cell = {"cell_type": "code", "language": "python", "input": "x = 'é'", "outputs": []}
     old = {"nbformat": 3, "nbformat_minor": 0, "metadata": {}, "worksheets": [{"cells": [cell]}]}
-    read = submissions.parse(json.dumps(old).encode())
+    read = notebooks.parse(json.dumps(old).encode())
     assert read.cells == ((1, "x = 'é'"),)
     text = notebook().replace(
         '"cells": []', '"cells": [{"cell_type": "code", "source": "x = \'é\'"}]'
@@ -190,7 +190,7 @@ def test_an_old_format_is_upgraded_and_other_encodings_are_read():
         ("utf-16", ()),
         ("latin-1", ("not UTF-8, read as Latin-1",)),
     ]:
-        read = submissions.parse(text.encode(encoding))
+        read = notebooks.parse(text.encode(encoding))
         assert read.cells == ((1, "x = 'é'"),)
         assert read.notes == notes
 
@@ -198,12 +198,12 @@ def test_an_old_format_is_upgraded_and_other_encodings_are_read():
 def test_a_lesson_is_no_submission():
     text = notebook(exercise=None, metadata={"slamlab": {"lesson": "99"}})
     with pytest.raises(Unreadable, match="a lesson, not an exercise"):
-        submissions.parse(text.encode())
+        notebooks.parse(text.encode())
 
 
 def exercise(name, text, default=None):
     submission = Submission(name, "anna", None)
-    return submissions.exercise_of(submission, submissions.parse(text.encode()), default).id
+    return submissions.exercise_of(submission, notebooks.parse(text.encode()), default).id
 
 
 def test_the_exercise_is_told_by_the_metadata_else_the_name_else_the_default():
