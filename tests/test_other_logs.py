@@ -113,12 +113,13 @@ def test_every_recording_opens_by_its_name(name):
     assert len(source) > 5 and first.scan.valid.sum() > 100
 
 
-def test_a_matched_breezyslam_log_sees_its_walls_more_sharply_than_odometry_does():
+@pytest.mark.parametrize("kind", ["icp", "graph"])
+def test_a_matched_breezyslam_log_sees_its_walls_more_sharply_than_odometry_does(kind):
     try:
         source = sources.open("exp1")
     except SourceError as error:
         pytest.skip(str(error))
-    result = run(source, make("icp", source))
+    result = run(source, make(kind, source))
     cells = {
         layer.name: len(np.unique(np.round(layer.xy / 0.05), axis=0))
         for layer in result.estimator.layers()
