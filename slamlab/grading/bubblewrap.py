@@ -4,9 +4,8 @@ import os
 import shutil
 from pathlib import Path
 
-from slamlab.grading import place
+from slamlab.grading import excess, place
 
-HOME_BYTES = 256 << 20
 ROOT = {Path(p) for p in ("/bin", "/sbin", "/lib", "/lib64", "/lib32")}
 
 
@@ -58,7 +57,7 @@ def command(folder, home, python):
         for entry in place.own(library):
             hide = ["--tmpfs"] if entry.is_dir() else ["--ro-bind", "/dev/null"]
             words += [*hide, str(entry)]
-    words += ["--perms", "0777", "--size", str(HOME_BYTES), "--tmpfs", str(home)]
+    words += ["--perms", "0777", "--size", str(excess.BYTES), "--tmpfs", str(home)]
     return [*words, "--chdir", str(home), "--"]
 
 

@@ -52,19 +52,15 @@ def main(control, plan):
     gc.collect()
     gc.freeze()  # a collection would write to every page that is shared until then
     _say(control, {"ready": True})
+    _answer(control, lambda handles: _fork(handles, drives, files), home)
+
+
+def _answer(control, fork, home):
     pid = None
-    while True:
-        control.settimeout(None if pid is None else GLANCE)
-        try:
-            said, handles, _, _ = socket.recv_fds(control, LONGEST, 2)
-        except TimeoutError:
-            if excess.beyond_reason(pid, home):
-                os.kill(pid, signal.SIGKILL)
-            continue
-        if not said:
-            break
-        if json.loads(said)["do"] == "fork":
-            pid = _fork(handles, drives, files)
+    while heard := _hear(control, pid, home):
+        asked, handles = heard
+        if asked["do"] == "fork":
+            pid = fork(handles)
             _say(control, {"ready": True})
             continue
         cpu, pid = _end(pid), None
@@ -74,6 +70,18 @@ def main(control, plan):
             break
     if pid is not None:
         _end(pid)
+
+
+def _hear(control, pid, home):
+    """What is asked, and the handles sent with it; None when the judge hung up."""
+    control.settimeout(None if pid is None else GLANCE)
+    while True:
+        try:
+            said, handles, _, _ = socket.recv_fds(control, LONGEST, 2)
+            return (json.loads(said), handles) if said else None
+        except TimeoutError:
+            if excess.beyond_reason(pid, home):
+                os.kill(pid, signal.SIGKILL)
 
 
 def _fork(handles, drives, files):

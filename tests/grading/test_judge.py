@@ -274,6 +274,16 @@ def test_nothing_a_submission_started_outlives_it(tmp_path):
         assert not mark.exists()
 
 
+def test_where_none_can_be_forked_each_worker_is_a_fresh_interpreter(monkeypatch, tmp_path):
+    monkeypatch.setattr("slamlab.grading.workers.FORKS", False)
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    with Workers() as fresh:
+        result = judged(fake.SOLUTION, "import os; os._exit(0)", "print('x' * 10**6)", by=fresh)
+    assert [verdict.points for verdict in result["verdicts"]] == FULL
+    assert result["cells"] == {2: "ended the whole Python process"}
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_temporary_files_are_gone_afterwards(monkeypatch, tmp_path):
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
     with Workers(workers().level, warm=False) as own:
