@@ -9,6 +9,7 @@ from slamlab.devices.clock import SimulatedClock
 from slamlab.devices.emir import Calibration, Emir, commands
 from slamlab.devices.emir.odometry import Odometry
 from slamlab.devices.emir.robot import PATIENCE
+from slamlab.devices.emir.session import Session
 from slamlab.devices.emulator.body import Body
 from slamlab.devices.emulator.emir import EmirMachine
 from slamlab.devices.emulator.line import Faults
@@ -104,38 +105,62 @@ def test_a_command_is_repeated_five_times_a_second_until_the_next():
         assert len(moves(machine)) == count
 
 
+class Stepped(Session):
+    """A connection in simulated time that passes only as the test goes on: no thread is late."""
+
+    def __init__(self, machine):
+        self.time = SimulatedClock(100.0)
+        odometry = Odometry(Calibration())
+        super().__init__("memory", 57600, odometry, PATIENCE, self.port_of(machine), self.time)
+
+    def port_of(self, machine):
+        return lambda name, baud: MemoryPort(machine, self.time, name)
+
+    def go_on(self, seconds):
+        end = self.time.now() + seconds
+        while self.time.now() < end:
+            self.step()
+
+
 @pytest.mark.parametrize("watchdog", [None, 0.5])
 def test_a_motion_that_nobody_renews_ends_and_one_that_is_renewed_goes_on(watchdog):
     body = body_in(WIDE)
-    with opened(EmirMachine(body, watchdog=watchdog)) as emir:
-        emir.move(50, 0)
-        for _ in range(20):
-            until(emir, emir.clock.now() + 0.5)
-            emir.renew()
-            assert body._speeds.any()
-        until(emir, emir.clock.now() + 0.9 * PATIENCE)
-        assert body._speeds.any() and not emir.stats["forgotten"]
-        until(emir, emir.clock.now() + 0.1 * PATIENCE + 0.5)
-        assert not body._speeds.any() and emir.stats["forgotten"] == 1
-        until(emir, emir.clock.now() + 10)
-        assert not body._speeds.any() and emir.stats["forgotten"] == 1
-        emir.move(50, 0)
-        until(emir, emir.clock.now() + 0.5)
+    session = Stepped(EmirMachine(body, watchdog=watchdog))
+    session.move(commands.move(50, 0), repeated=True)
+    for _ in range(20):
+        session.go_on(0.5)
+        session.renew()
         assert body._speeds.any()
+    session.go_on(0.9 * PATIENCE)
+    assert body._speeds.any() and not session.forgotten
+    session.go_on(0.1 * PATIENCE + 0.5)
+    for _ in range(2):
+        assert not body._speeds.any() and session.forgotten == 1
+        session.go_on(10)
+    session.move(commands.move(50, 0), repeated=True)
+    session.go_on(0.5)
+    assert body._speeds.any()
+
+
+def test_what_is_no_motion_leaves_the_motion_as_it_is():
+    body = body_in(WIDE)
+    session = Stepped(EmirMachine(body, watchdog=0.5))
+    session.move(commands.move(50, 0), repeated=True)
+    session.go_on(0.5)
+    for frame in (commands.beep(0.2), commands.reset_counters()):
+        session.say(frame)
+    session.go_on(1)
+    assert body._speeds.any()  # still repeated: the robot's own watchdog keeps quiet
+    session.go_on(PATIENCE)
+    assert not body._speeds.any()  # and still to be renewed
 
 
 @pytest.mark.parametrize("act", [Emir.reset, Emir.beep])
-def test_what_is_no_motion_leaves_the_motion_as_it_is(act):
-    body, machine = body_in(WIDE), None
-    machine = EmirMachine(body, watchdog=0.5)
-    with opened(machine) as emir:
+def test_to_beep_and_to_reset_are_no_motions(act):
+    with opened(EmirMachine(body_in(WIDE)), patience=None) as emir:
         emir.move(50, 0)
-        until(emir, emir.clock.now() + 0.5)
         act(emir)
-        until(emir, emir.clock.now() + 1)
-        assert body._speeds.any()  # still repeated: the robot's own watchdog keeps quiet
-        until(emir, emir.clock.now() + PATIENCE)
-        assert not body._speeds.any()
+        assert emir._session._frame == commands.move(50, 0)
 
 
 def replugged(machine, begin, end):
@@ -147,7 +172,7 @@ def replugged(machine, begin, end):
 
 def test_back_in_reach_it_goes_on_where_that_is_wanted_and_the_robot_stands():
     body = body_in(WIDE)
-    machine = replugged(Driven(body), 103.0, 104.0)
+    machine = replugged(Driven(body), 160.0, 161.0)  # by then it surely drives
     with opened(machine, reconnect=True, patience=None) as emir:
         emir.move(50, 20)
         while not emir.stats["reconnects"]:
@@ -155,7 +180,8 @@ def test_back_in_reach_it_goes_on_where_that_is_wanted_and_the_robot_stands():
         until(emir, emir.clock.now() + 1)
         assert emir.error is None and not body._speeds.any()
         d, turn = np.array(body.counters()) * COUNTS
-        assert emir.pose[2] == pytest.approx(turn, abs=np.radians(4))  # what it drove meanwhile
+        off = np.angle(np.exp(1j * (emir.pose[2] - turn)))
+        assert abs(off) < np.radians(4)  # what it drove meanwhile, too
         assert d > 0.5
         emir.move(50, 0)
         until(emir, emir.clock.now() + 1)
