@@ -155,15 +155,18 @@ def test_a_grader_killed_at_any_moment_loses_nothing_and_doubles_nothing(tmp_pat
         (folder / name).write_text(notebook(f"x = {i}", fake.SOLUTION, exercise="04"))
     start = "import sys; from slamlab.cli import main; sys.exit(main())"
     command = [sys.executable, "-c", start, "grade", folder, "--out", out, "--isolation", "none"]
+    (tmp_path / "temporary").mkdir()  # whoever is killed clears nothing away
+    run = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+    run["env"] = os.environ | {"TMPDIR": str(tmp_path / "temporary")}
     rng, graded = random.Random(9), lambda: len(list(out.glob("feedback/*")))
     for _ in range(20):
         before = graded()
-        grading = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        grading = subprocess.Popen(command, **run)
         assert comes_true(lambda: graded() > before or grading.poll() is not None)  # noqa: B023
         time.sleep(rng.uniform(0, 0.2))
         grading.send_signal(signal.SIGKILL)
         grading.wait()
-    assert subprocess.run(command, stdout=subprocess.DEVNULL).returncode == 0
+    assert subprocess.run(command, **run).returncode == 0
     with Gradebook(f"sqlite:///{out / 'grades.db'}") as opened:
         assert [r.submission for r in opened.latest()] == names
         assert len(opened.known()) == len(names)
