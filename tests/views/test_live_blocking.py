@@ -126,6 +126,24 @@ def test_a_reading_that_comes_late_is_taken_in_and_shown():
     assert loop.pair.estimator.pose[0] == pytest.approx(0.3)
 
 
+def test_what_comes_in_its_own_time_waits_for_no_picture_and_the_next_one_shows_it_all():
+    loop = made()
+    loop.screen.at_once = False
+
+    async def watch():
+        loop.run()
+        for count in (1, 2, 3, 4, 5):
+            loop.pair.source.give()
+            await until(lambda count=count: loop.pair.count == count)
+        assert loop.screen.most == 1
+        loop.pause()
+        loop.screen.draw()
+        await until(lambda: loop.screen.scenes[-1].status.startswith("step 5 "))
+        loop.close()
+
+    asyncio.run(watch())
+
+
 def test_a_step_waits_for_one_reading_and_then_pauses():
     loop = made()
 

@@ -167,7 +167,7 @@ class Loop:
             if self.pair.count >= until or (not made and self._at_end):
                 self.pause()
             await asyncio.sleep(max(self._pace(made) - (monotonic() - began), BREATH))
-            while self._task is mine and not self.screen.free:
+            while self._task is mine and not self.screen.free and not self.pair.live:
                 await self.screen.until_drawn()
 
     @property

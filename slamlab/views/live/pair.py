@@ -91,6 +91,11 @@ class Pair:
         return self._feed is None or self._feed.ended or 0 < len(self.source) <= self.count
 
     @property
+    def live(self):
+        """bool, whether readings come in their own time: they do not wait for a picture."""
+        return self.source is not None and not len(self.source) and not self.over
+
+    @property
     def waited(self):
         """float, for how long a reading has been waited for [s]; 0 when none is."""
         return 0.0 if self._feed is None else self._feed.waited
