@@ -8,7 +8,7 @@ from slamlab.landmarks.ransac import Ransac, lines
 from slamlab.readings import Observations
 
 SHORT_SIGHTED = 1.0  # m, a sensor that reaches less far sees walls of a few centimetres
-CLOSE = Ransac(window=6, needed=5, gap=0.05, shortest=0.05)
+CLOSE = Ransac(window=6, needed=5, gap=0.05, hidden=2.5, shortest=0.05)
 CLOSE_REACH = 0.04  # m, beyond a wall's seen end
 """For the infrared scanner: at most 0.28 m away its readings are 3 to 20 mm apart on a wall. Beyond
 4 cm a line meets the wrong one: one corner in thirty is then none."""

@@ -34,14 +34,14 @@ class Ransac:
     shortest : float, least length of a wall [m]
     """
 
-    window: int = 11
+    window: int = 9
     needed: int = 8
     band: float | None = None
     sigmas: float = 2.8
     roughness: float = 1.6
     grow: bool = True
     gap: float = 0.4
-    hidden: float = 2.5
+    hidden: float = 3.0
     shortest: float = 0.3
 
     def __post_init__(self):
