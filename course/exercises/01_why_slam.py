@@ -285,5 +285,5 @@ def _():
 # only delays it. Something must look at the **walls** and notice that they have been seen before.
 # That is SLAM, and the rest of the course.
 #
-# Hand in this notebook as it is. To see your points again, run all the checks (*Run → Run All
-# Cells*).
+# Save the notebook. The cell below then says what the grader will say about it; the grader draws
+# other inputs. Hand it in as it is.

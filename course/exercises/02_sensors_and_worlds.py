@@ -274,7 +274,7 @@ def _():
 # %% [markdown]
 # ## Done?
 #
-# Save the notebook. `slamlab check` on it, in a terminal, says what the grader will say about it;
+# Save the notebook. The cell below then says what the grader will say about it;
 # the grader draws other inputs. The next lesson, [03 · The Kalman
 # filter](../notebooks/03_kalman_filter.ipynb), asks what such numbers are for: how much a reading
 # is worth against what one believed before.

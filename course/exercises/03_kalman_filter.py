@@ -279,7 +279,7 @@ def _():
 # %% [markdown]
 # ## Done?
 #
-# Save the notebook. `slamlab check` on it, in a terminal, says what the grader will say about it;
+# Save the notebook. The cell below then says what the grader will say about it;
 # the grader draws other inputs. **Next:** lesson
 # [04 · Models and Jacobians](../notebooks/04_models_and_jacobians.ipynb): F and H of a robot that
 # turns.

@@ -235,6 +235,6 @@ def _():
 # %% [markdown]
 # ## Done?
 #
-# Save the notebook. `slamlab check` on it, in a terminal, says what the grader will say about it;
+# Save the notebook. The cell below then says what the grader will say about it;
 # the grader draws other inputs. The next lesson puts H and A to work: localisation in a known map,
 # and a map from known poses.

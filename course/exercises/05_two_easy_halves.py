@@ -321,6 +321,6 @@ def _():
 #
 # ## Done?
 #
-# Save the notebook. `slamlab check` on it, in a terminal, says what the grader will say about it;
+# Save the notebook. The cell below then says what the grader will say about it;
 # the grader draws other inputs. **Next:** [lesson 06](../notebooks/06_ekf_slam.ipynb), where neither
 # the pose nor the map is known.

@@ -270,6 +270,6 @@ def _():
 #
 # ## Done?
 #
-# Save the notebook. `slamlab check` on it, in a terminal, says what the grader will say about it;
+# Save the notebook. The cell below then says what the grader will say about it;
 # the grader draws other inputs. The next lesson asks what the off-diagonal blocks are worth, by
 # throwing them away.

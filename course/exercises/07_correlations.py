@@ -410,6 +410,6 @@ def _():
 #
 # ## Done?
 #
-# Save the notebook. `slamlab check` on it, in a terminal, says what the grader will say about it;
+# Save the notebook. The cell below then says what the grader will say about it;
 # the grader draws other inputs. Correlations stay with you: in lesson 08 the landmarks lose their
 # names, and S, with all it shares, decides which is which.

@@ -284,5 +284,5 @@ def _():
 # %% [markdown]
 # ## Done?
 #
-# Save the notebook. `slamlab check` on it, in a terminal, says what the grader will say about it;
+# Save the notebook. The cell below then says what the grader will say about it;
 # the grader draws other inputs. The next lesson puts these five into a filter that drives.

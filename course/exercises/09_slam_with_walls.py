@@ -314,5 +314,5 @@ def _():
 #
 # ## Done?
 #
-# Save the notebook. `slamlab check` on it, in a terminal, says what the grader will say about it;
+# Save the notebook. The cell below then says what the grader will say about it;
 # the grader draws other inputs. Then drive the robot yourself: lesson 09 has the buttons.

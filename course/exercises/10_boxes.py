@@ -340,5 +340,5 @@ def _():
 # %% [markdown]
 # ## Done?
 #
-# Save the notebook. `slamlab check` on it, in a terminal, says what the grader will say about it;
+# Save the notebook. The cell below then says what the grader will say about it;
 # the grader draws other inputs. The next lesson drops boxes and ellipses for a cloud of samples.
