@@ -52,6 +52,14 @@ class Diagnosis:
     matches: Callable[[Arrays, Arrays], bool]
 
 
+IDLE = Diagnosis(
+    "always the same",
+    "Whatever it is given, the answer is the same: compute it from the arguments.",
+    lambda inputs, outputs: True,
+)
+"""Of an answer that does not ask: it may obey a law by chance, but earns nothing."""
+
+
 @dataclass(frozen=True)
 class Task:
     """One thing a student solves.
@@ -126,11 +134,12 @@ class Task:
             return self.failed("malformed", problem)
         outputs = {name: np.asarray(outputs[name], dtype=float) for name in self.shapes}
         with np.errstate(all="ignore"):
-            results = tuple(self._apply(law, inputs, outputs) for law in self.laws)
+            idle = _the_same(outputs)
+            results = tuple(self._apply(law, inputs, outputs, idle) for law in self.laws)
             found = None
             if any(result.failed for result in results):
                 matching = (d for d in self.diagnoses if _safely(d.matches, inputs, outputs))
-                found = next(matching, None)
+                found = next(matching, IDLE if idle else None)
         return Verdict(
             self.id,
             sum(result.points for result in results),
@@ -157,8 +166,9 @@ class Task:
         except StudentError as error:
             return self.failed(error.kind, error.message)
 
-    def _apply(self, law, inputs, outputs):
-        holds = np.atleast_1d(np.asarray(_safely(law.holds, inputs, outputs), dtype=bool))
+    def _apply(self, law, inputs, outputs, idle):
+        holds = False if idle else _safely(law.holds, inputs, outputs)
+        holds = np.atleast_1d(np.asarray(holds, dtype=bool))
         failed = int(np.count_nonzero(~holds))
         points = 0.0 if failed else law.points
         return LawResult(law.name, law.says, points, law.points, failed, holds.size)
@@ -188,6 +198,12 @@ class Task:
             if outputs[name].size and np.abs(outputs[name].astype(float)).max() > LARGEST:
                 return f"{what} returned numbers larger than any that is asked for"
         return None
+
+
+def _the_same(outputs):
+    """Whether nothing in the outputs changes from one input to the next."""
+    rows = [array for array in outputs.values() if array.ndim and len(array) > 1]
+    return bool(rows) and all((array == array[:1]).all() for array in rows)
 
 
 def _safely(claim, inputs, outputs):

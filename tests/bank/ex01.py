@@ -431,7 +431,7 @@ DRIFT = [
         {"simulated"},
         "degrees",
     ),
-    Wrong("nothing", drift("0.0"), {"simulated", "linear", "longer"}),
+    Wrong("nothing", drift("0.0"), {"simulated", "linear", "longer"}, "always the same"),
     Wrong(
         "an array",
         drift("sigma * d * np.arange(n)"),

@@ -60,7 +60,7 @@ RAY = [
     Wrong(
         "way to the wall reversed",
         ray(d="p[0] - wall[0], p[1] - wall[1]"),
-        {"reached"},
+        {"02-ray-wall"},
         "never met",
     ),
     Wrong(
@@ -112,7 +112,12 @@ RAY = [
         "from the origin",
         may_lose=ELSEWHERE,
     ),
-    Wrong("always 1", "def ray_wall(p, phi, wall):\n    return 1.0", {"02-ray-wall"}),
+    Wrong(
+        "always 1",
+        "def ray_wall(p, phi, wall):\n    return 1.0",
+        {"02-ray-wall"},
+        "always the same",
+    ),
     Wrong(
         "NaN for nothing",
         ray().replace("else np.inf", "else np.nan"),
@@ -204,7 +209,7 @@ SCAN = [
     Wrong(
         "comparison reversed",
         scan("np.where(nearest > range_max, np.nan, np.nan)"),
-        {"on a wall", "free sight"},
+        {"02-scan"},
         "nothing seen",
     ),
     Wrong(
@@ -420,7 +425,7 @@ NOISE = [
     Wrong(
         "a seed of its own",
         noisy(before="rng = np.random.default_rng(0)"),
-        {"seed", "dropouts"},
+        {"02-noise"},
         "always the same",
     ),
     Wrong(

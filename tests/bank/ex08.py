@@ -267,7 +267,7 @@ WRONG = [
     Wrong("guess not refitted", wall(line="guess"), {REFITTED}, "not-refitted"),
     Wrong("refitted on all", wall(line="fit_line(points)"), {NEAR, REFITTED}, "refitted-on-all"),
     Wrong("always a wall", wall(none="pass"), {NOTHING}, "never-none"),
-    Wrong("never a wall", wall(better="False"), {MOST, NEAR, REFITTED}, "always-none"),
+    Wrong("never a wall", wall(better="False"), {MOST, NEAR, REFITTED, NOTHING}, "always-none"),
     Wrong(
         "mask inverted",
         wall(result="rho, alpha, ~best"),

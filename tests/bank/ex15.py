@@ -304,7 +304,7 @@ WRONG = [
     Wrong("2 missing", weight("(s / 2) ** 2"), {"15-weight"}, "two-missing"),
     Wrong("Huber's", weight("min(1, phi / chi2) ** 0.5"), DOUBTED, "other-kernel"),
     Wrong("scaled χ²", weight("s**2 * chi2"), {"15-weight"}, "cost-for-weight"),
-    Wrong("always one", weight("1.0"), DOUBTED, "always-trusted"),
+    Wrong("always one", weight("1.0"), {"15-weight"}, "always-trusted"),
     Wrong("no bound", update("l + add"), {"15-cell:clamped"}, "not-clamped"),
     Wrong("bound above only", update("min(l + add, bound)"), {"15-cell:clamped"}, "one-side"),
     Wrong("bound below only", update("max(l + add, -bound)"), {"15-cell:clamped"}, "one-side"),

@@ -4,6 +4,7 @@ import numpy as np
 
 from slamlab.checks.drives import Drive, StudentError, numbers, rows
 
+FAR = 1e6  # a line nearly along the beam may be met anywhere; farther than this says no more [m]
 NOTHING, FINITE, INFINITE = 0, 1, 2  # NaN, a number, infinity
 
 
@@ -31,7 +32,8 @@ def one_beam(functions, inputs):
     if np.isnan(distance).any():
         raise StudentError("malformed", "ray_wall returned NaN: a beam that meets nothing is inf")
     met = np.isfinite(distance)
-    return {"met": met.astype(float), "distance": np.where(met, distance, 0.0)}
+    distance = np.where(met, np.clip(distance, -FAR, FAR), 0.0)
+    return {"met": met.astype(float), "distance": distance}
 
 
 def whole_scan(functions, inputs):

@@ -4,6 +4,7 @@ import numpy as np
 
 from slamlab.checks.drives import Drive, StudentError, numbers, rows
 
+MOST = 1e8  # no right answer is larger; how much larger a wrong one is says no more
 AGAIN = 20  # seeds drawn twice: one draw comes out the same by chance now and then
 
 
@@ -187,7 +188,8 @@ def _copies(value, n):
 def _flagged(vectors):
     logs = np.array(list(vectors))
     finite = np.isfinite(logs)
-    return {"logs": np.where(finite, logs, 0.0), "finite": finite.astype(float)}
+    logs = np.where(finite, np.clip(logs, -MOST, MOST), 0.0)
+    return {"logs": logs, "finite": finite.astype(float)}
 
 
 DRIVES = {
