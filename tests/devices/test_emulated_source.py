@@ -30,6 +30,7 @@ def rehearsed(path, seed=0):
 
 
 @pytest.mark.parametrize("tcp", [False, True])
+@pytest.mark.usefixtures("busy_machine")
 def test_readings_come_through_ports_and_the_truth_is_known_of_each(tcp, monkeypatch):
     if tcp:
         monkeypatch.setattr(source, "WHERE", ("127.0.0.1", 0, 0))
