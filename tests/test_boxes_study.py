@@ -63,7 +63,7 @@ def test_the_command_writes_its_words_seeds_and_versions(tmp_path, capsys):
 
 def test_no_runs_at_all_are_refused_in_one_line(tmp_path, capsys):
     assert main(["--runs", "0", "--out", str(tmp_path / "t.json")]) == 2
-    assert "runs is how many" in capsys.readouterr().err
+    assert "--runs is at least 1" in capsys.readouterr().err
 
 
 def test_the_stored_table_is_of_a_million_steps_and_none_of_them_is_outside():
