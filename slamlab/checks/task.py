@@ -53,7 +53,7 @@ class Diagnosis:
 
 
 IDLE = Diagnosis(
-    "always the same",
+    "idle",
     "Whatever it is given, the answer is the same: compute it from the arguments.",
     lambda inputs, outputs: True,
 )

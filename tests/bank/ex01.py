@@ -431,7 +431,7 @@ DRIFT = [
         {"simulated"},
         "degrees",
     ),
-    Wrong("nothing", drift("0.0"), {"simulated", "linear", "longer"}, "always the same"),
+    Wrong("nothing", drift("0.0"), {"simulated", "linear", "longer"}, "idle"),
     Wrong(
         "an array",
         drift("sigma * d * np.arange(n)"),

@@ -116,7 +116,7 @@ RAY = [
         "always 1",
         "def ray_wall(p, phi, wall):\n    return 1.0",
         {"02-ray-wall"},
-        "always the same",
+        "idle",
     ),
     Wrong(
         "NaN for nothing",

@@ -175,7 +175,7 @@ WRONG = [
     Wrong("half of it", gain("P @ H.T @ np.linalg.inv(S) / 2"), K),
     Wrong("transposed", gain("(P @ H.T @ np.linalg.inv(S)).T"), K, None, "malformed"),
     Wrong("H for Hᵀ", gain("P @ H @ np.linalg.inv(S)"), K, None, "raised"),
-    Wrong("zeros", gain("np.zeros((3, 2))"), K, "always the same"),
+    Wrong("zeros", gain("np.zeros((3, 2))"), K, "idle"),
     Wrong("text", gain("'K'"), K, None, "malformed"),
     # update
     Wrong("x = K v", update(x="K @ v"), U_X, "x-lost"),

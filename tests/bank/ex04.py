@@ -114,7 +114,7 @@ IN_H_ROBOT = [
     _h_robot("missing −1", "[H[0], [dy / q, -dx / q, 0]]", BEARING, "heading-missing"),
     _h_robot("plus one", "[H[0], [dy / q, -dx / q, 1]]", BEARING, "heading-sign"),
     _h_robot("one sign of the range", "[[-dx / r, dy / r, 0], H[1]]", RANGE, "sign"),
-    _h_robot("made-up numbers", "[[1, 2, 3], [4, 5, 6]]", BOTH_ROWS, "always the same"),
+    _h_robot("made-up numbers", "[[1, 2, 3], [4, 5, 6]]", BOTH_ROWS, "idle"),
     _h_robot("transposed", "H.T", BOTH_ROWS, **SHAPE),
     _h_robot("both parts at once", "np.hstack([H, L])", BOTH_ROWS, **SHAPE),
     _h_robot("not a number", "H * np.nan", BOTH_ROWS, **SHAPE),

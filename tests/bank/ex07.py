@@ -160,7 +160,7 @@ IN_RHO = [
         "certain-not-zero",
         then="rho = np.where(np.isfinite(rho), rho, 1)",
     ),
-    _rho("zeros", RHO_ALL, "always the same", rho="0 * P"),
+    _rho("zeros", RHO_ALL, "idle", rho="0 * P"),
     _rho("half", (SAMPLES,), rho="P / np.outer(s, s) / 2"),
     _rho("one row", RHO_ALL, result="rho[0]", **SHAPE),
     _rho("the robot's block", RHO_ALL, result="rho[:3, :3]", **SHAPE),

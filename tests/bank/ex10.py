@@ -213,9 +213,9 @@ IN_PREDICT = [
         "a box far too wide",
         predict(result="np.array([-99, 99, -99, 99])"),
         BOTH,
-        "always the same",
+        "idle",
     ),
-    Wrong("made-up box", predict(result="np.array([1, 2, 3, 4])"), BOTH, "always the same"),
+    Wrong("made-up box", predict(result="np.array([1, 2, 3, 4])"), BOTH, "idle"),
 ]
 
 IN_PREDICT += [
@@ -281,7 +281,7 @@ IN_EDGES = [
         NORMALS | PLACED,
         "degrees",
     ),
-    Wrong("made-up lines", edges(result="np.ones((4, 3))"), NORMALS | PLACED, "always the same"),
+    Wrong("made-up lines", edges(result="np.ones((4, 3))"), NORMALS | PLACED, "idle"),
     Wrong("three edges", edges(result="np.array(rows)[:3]"), NORMALS | PLACED, **MALFORMED),
 ]
 

@@ -257,7 +257,7 @@ def decide(doing, reading, driven):
         {"stays"},
         "zero-for-never",
     ),
-    Wrong("never lost", lost("return -1"), {"12-lost"}, "always the same"),
+    Wrong("never lost", lost("return -1"), {"12-lost"}, "idle"),
     Wrong("yes or no", lost("return bool(far[-1])"), {"12-lost"}, "yes-or-no"),
     Wrong("nothing for never", lost("if far[-1]:\n    return 0"), {"12-lost"}, None, "malformed"),
     Wrong("Wald", interval(**WALD), {"inside", "doubt", "covers"}, "wald"),
@@ -292,7 +292,7 @@ def decide(doing, reading, driven):
     Wrong("high before low", interval(result="middle + half, middle - half"), {"12-interval"}),
     Wrong("middle and half", interval(result="middle, half"), {"12-interval"}),
     Wrong("one number", interval(result="half"), {"12-interval"}, None, "malformed"),
-    Wrong("always everything", interval(result="0, 1"), {"12-interval"}, "always the same"),
+    Wrong("always everything", interval(result="0, 1"), {"12-interval"}, "idle"),
 ]
 
 RIGHT = [
