@@ -7,7 +7,8 @@ import re
 from collections.abc import Mapping
 
 from slamlab.checks import tasks
-from slamlab.checks.task import Exercise, Task
+from slamlab.checks.exercise import Exercise
+from slamlab.checks.task import Task
 
 
 class Catalogue(Mapping):

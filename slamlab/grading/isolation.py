@@ -8,7 +8,7 @@ from pathlib import Path
 
 import slamlab
 from slamlab.checks.drives import StudentError
-from slamlab.checks.task import Exercise
+from slamlab.checks.exercise import Exercise
 from slamlab.grading import bubblewrap, jail, landlock, probe, seccomp
 from slamlab.grading.client import Client
 from slamlab.grading.workers import FORKS, CannotStart, Workers

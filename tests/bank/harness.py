@@ -15,7 +15,7 @@ import numpy as np
 
 import tests.bank
 from slamlab.checks import catalogue
-from slamlab.checks.task import Exercise
+from slamlab.checks.exercise import Exercise
 from tests.bank import Right, Wrong
 
 ROOT = Path(__file__).resolve().parents[2]

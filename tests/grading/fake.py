@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from slamlab.checks.task import Diagnosis, Exercise, Law, Task
+from slamlab.checks.exercise import Exercise
+from slamlab.checks.task import Diagnosis, Law, Task
 from tests.grading.fake_drives import DRIVES
 
 

@@ -7,6 +7,7 @@ from slamlab.grading import place
 from slamlab.grading.closure import closure
 
 JUDGE = (
+    "slamlab.checks.exercise",
     "slamlab.checks.task",
     "slamlab.checks.tasks",
     "slamlab.checks.verdict",

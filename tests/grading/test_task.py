@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from slamlab.checks.drives import Drive, StudentError
-from slamlab.checks.task import Exercise, Law
+from slamlab.checks.exercise import Exercise
+from slamlab.checks.task import Law
 from tests.grading import fake
 
 TURN = fake.EXERCISE.task("99-turn")

@@ -1,6 +1,6 @@
 """Exercise 01: dead reckoning and the map it smears."""
 
-from slamlab.checks.task import Exercise
+from slamlab.checks.exercise import Exercise
 from slamlab.checks.tasks.ex01_drift import DRIFT
 from slamlab.checks.tasks.ex01_place import PLACE
 from slamlab.checks.tasks.ex01_seen import SEEN_FROM

@@ -1,6 +1,6 @@
 """Exercise 02, sensors and worlds: what it asks and what its solutions may import."""
 
-from slamlab.checks.task import Exercise
+from slamlab.checks.exercise import Exercise
 from slamlab.checks.tasks.ex02_fit import FIT
 from slamlab.checks.tasks.ex02_noise import NOISE
 from slamlab.checks.tasks.ex02_points import TO_POINTS

@@ -1,6 +1,6 @@
 """Exercise 03, the Kalman filter: what it asks and what its solutions may import."""
 
-from slamlab.checks.task import Exercise
+from slamlab.checks.exercise import Exercise
 from slamlab.checks.tasks.ex03_filter import FILTER
 from slamlab.checks.tasks.ex03_gain import GAIN
 from slamlab.checks.tasks.ex03_innovation import INNOVATION

@@ -3,7 +3,8 @@
 import numpy as np
 
 from slamlab.checks.drives.ex04 import DRIVES
-from slamlab.checks.task import Exercise, Law, Task
+from slamlab.checks.exercise import Exercise
+from slamlab.checks.task import Law, Task
 from slamlab.checks.tasks.ex04_covariance import P_NN, P_RN
 from slamlab.checks.tasks.ex04_laws import (
     agree,

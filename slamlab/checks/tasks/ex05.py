@@ -1,6 +1,6 @@
 """Exercise 05, two easy halves: what it asks and what its solutions may import."""
 
-from slamlab.checks.task import Exercise
+from slamlab.checks.exercise import Exercise
 from slamlab.checks.tasks.ex05_localise import LOCALISE
 from slamlab.checks.tasks.ex05_map import MAP
 from slamlab.checks.tasks.ex05_predict import PREDICT

@@ -1,6 +1,6 @@
 """Exercise 06, EKF-SLAM: what it asks and what its solutions may import."""
 
-from slamlab.checks.task import Exercise
+from slamlab.checks.exercise import Exercise
 from slamlab.checks.tasks.ex06_augment import AUGMENT
 from slamlab.checks.tasks.ex06_h import H_FULL
 from slamlab.checks.tasks.ex06_predict import PREDICT

@@ -1,6 +1,6 @@
 """Exercise 07, correlations: what it asks and what its solutions may import."""
 
-from slamlab.checks.task import Exercise
+from slamlab.checks.exercise import Exercise
 from slamlab.checks.tasks.ex07_correlation import CORRELATION
 from slamlab.checks.tasks.ex07_corridor import CORRIDOR
 from slamlab.checks.tasks.ex07_first import FIRST_ESTIMATES

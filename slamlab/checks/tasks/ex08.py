@@ -1,6 +1,6 @@
 """Exercise 08, landmarks from scans: what it asks and what its solutions may import."""
 
-from slamlab.checks.task import Exercise
+from slamlab.checks.exercise import Exercise
 from slamlab.checks.tasks.ex08_associate import ASSOCIATE
 from slamlab.checks.tasks.ex08_corner import CORNER
 from slamlab.checks.tasks.ex08_fit import FIT_LINE

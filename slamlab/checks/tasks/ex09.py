@@ -1,6 +1,6 @@
 """Exercise 09, SLAM with walls: what it asks and what its solutions may import."""
 
-from slamlab.checks.task import Exercise
+from slamlab.checks.exercise import Exercise
 from slamlab.checks.tasks.ex09_life import LIFE
 from slamlab.checks.tasks.ex09_place import PLACE
 from slamlab.checks.tasks.ex09_thin import THIN

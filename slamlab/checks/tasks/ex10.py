@@ -1,6 +1,6 @@
 """Exercise 10, boxes: what it asks and what its solutions may import."""
 
-from slamlab.checks.task import Exercise
+from slamlab.checks.exercise import Exercise
 from slamlab.checks.tasks.ex10_clip import CLIP
 from slamlab.checks.tasks.ex10_edges import EDGES
 from slamlab.checks.tasks.ex10_heading import HEADING

@@ -1,6 +1,6 @@
 """Exercise 11, samples: what it asks and what its solutions may import."""
 
-from slamlab.checks.task import Exercise
+from slamlab.checks.exercise import Exercise
 from slamlab.checks.tasks.ex11_draw import DRAW
 from slamlab.checks.tasks.ex11_localise import LOCALISE
 from slamlab.checks.tasks.ex11_move import MOVE

@@ -1,6 +1,6 @@
 """Exercise 12, three filters and one robot: what it asks and what its solutions may import."""
 
-from slamlab.checks.task import Exercise
+from slamlab.checks.exercise import Exercise
 from slamlab.checks.tasks.ex12_decide import DECIDE
 from slamlab.checks.tasks.ex12_interval import INTERVAL
 from slamlab.checks.tasks.ex12_lost import LOST

@@ -1,6 +1,6 @@
 """Exercise 13, scan matching: what it asks and what its solutions may import."""
 
-from slamlab.checks.task import Exercise
+from slamlab.checks.exercise import Exercise
 from slamlab.checks.tasks.ex13_fit import BEST_MOTION, MIRROR
 from slamlab.checks.tasks.ex13_icp import ICP
 from slamlab.checks.tasks.ex13_trimmed import TRIMMED

@@ -1,6 +1,6 @@
 """Exercise 14, the eMIR system: what it asks and what its solutions may import."""
 
-from slamlab.checks.task import Exercise
+from slamlab.checks.exercise import Exercise
 from slamlab.checks.tasks.ex14_command import COMMAND
 from slamlab.checks.tasks.ex14_nodes import NODES
 from slamlab.checks.tasks.ex14_points import POINTS

@@ -1,6 +1,6 @@
 """Exercise 15, closing the loop: what it asks and what its solutions may import."""
 
-from slamlab.checks.task import Exercise
+from slamlab.checks.exercise import Exercise
 from slamlab.checks.tasks.ex15_cell import CELL
 from slamlab.checks.tasks.ex15_error import ERROR
 from slamlab.checks.tasks.ex15_jacobians import JACOBIANS
