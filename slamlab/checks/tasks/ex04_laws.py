@@ -33,53 +33,53 @@ def close(got, want):
 
 
 def differences(f, x, angle=None):
-    """∂f/∂x at one point by central differences.
+    """∂f/∂x by central differences, at all points at once.
 
     Parameters
     ----------
-    f : (k,) -> (m,)
-    x : (k,)
+    f : (..., k, k) -> (..., k, m), row by row
+    x : (..., k)
     angle : int or None, the component of f that is one: it may jump by a turn between the two
 
     Returns
     -------
-    (m, k)
+    (..., m, k)
     """
-    found = np.column_stack([f(x + e) - f(x - e) for e in STEP * np.eye(len(x))])
+    x, steps = x[..., None, :], STEP * np.eye(x.shape[-1])
+    found = (f(x + steps) - f(x - steps)).swapaxes(-1, -2)
     if angle is not None:
-        found[angle] = wrap(found[angle])
+        found[..., angle, :] = wrap(found[..., angle, :])
     return found / (2 * STEP)
 
 
 def by_robot(inputs):
     """∂h/∂x by differences, (n, 2, 3)."""
-    return _each(lambda x, p: differences(lambda v: models.h(v, p), x, 1), inputs["x"], inputs["p"])
+    p = inputs["p"][:, None]
+    return differences(lambda x: models.h(x, p), inputs["x"], 1)
 
 
 def by_landmark(inputs):
     """∂h/∂p by differences, (n, 2, 2)."""
-    return _each(lambda x, p: differences(lambda v: models.h(x, v), p, 1), inputs["x"], inputs["p"])
+    x = inputs["x"][:, None]
+    return differences(lambda p: models.h(x, p), inputs["p"], 1)
 
 
 def by_pose(inputs):
     """∂f/∂x of the odometry model by differences, (n, 3, 3)."""
-    return _each(
-        lambda x, u: differences(lambda v: models.f_odometry(v, u), x, 2), inputs["x"], inputs["u"]
-    )
+    u = inputs["u"].T
+    return differences(lambda x: models.f_odometry(x.T, u).T, inputs["x"], 2)
 
 
 def new_by_robot(inputs):
     """∂g/∂x by differences, (n, 2, 3)."""
-    return _each(lambda x, z: differences(lambda v: models.g(v, z), x), inputs["x"], inputs["z"])
+    z = inputs["z"][:, None]
+    return differences(lambda x: models.g(x, z), inputs["x"])
 
 
 def new_by_measurement(inputs):
     """∂g/∂z by differences, (n, 2, 2)."""
-    return _each(lambda x, z: differences(lambda v: models.g(x, v), z), inputs["x"], inputs["z"])
-
-
-def _each(derivative, *arrays):
-    return np.array([derivative(*row) for row in zip(*arrays, strict=True)])
+    x = inputs["x"][:, None]
+    return differences(lambda z: models.g(x, z), inputs["z"])
 
 
 def sampled(inputs):
@@ -93,14 +93,12 @@ def sampled(inputs):
     -------
     (n, 5, 5) : pose first, landmark last
     """
-    return _each(_sampled, *(inputs[name] for name in ("x", "P", "z", "R")))
-
-
-def _sampled(x, P, z, R):
-    pose_errors = NARROW * WHITE[:, :3] @ np.linalg.cholesky(P).T
-    z_errors = NARROW * WHITE[:, 3:] @ np.linalg.cholesky(R).T
-    landmarks = models.g(x + pose_errors, z + z_errors)
-    return np.cov(np.hstack([pose_errors, landmarks]).T, bias=True) / NARROW**2
+    x, z = inputs["x"][:, None], inputs["z"][:, None]
+    x_errors = NARROW * WHITE[:, :3] @ np.linalg.cholesky(inputs["P"]).swapaxes(1, 2)
+    z_errors = NARROW * WHITE[:, 3:] @ np.linalg.cholesky(inputs["R"]).swapaxes(1, 2)
+    joint = np.concatenate([x_errors, models.g(x + x_errors, z + z_errors)], axis=2)
+    joint -= joint.mean(axis=1, keepdims=True)
+    return joint.swapaxes(1, 2) @ joint / (len(WHITE) * NARROW**2)
 
 
 def agree(got, block, inputs):

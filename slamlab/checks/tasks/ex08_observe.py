@@ -59,7 +59,8 @@ def _by(which, inputs):
 
 
 def _unwrapped(x, line):
-    return np.array([models.h_line(x, line)[0], line[1] - x[2]])
+    """(k, 2) of many poses and a line, or of a pose and many lines."""
+    return np.stack([models.h_line(x.T, line)[..., 0], line[..., 1] - x[..., 2]], axis=-1)
 
 
 H_LINE = Task(
