@@ -4,6 +4,7 @@ import numpy as np
 
 from slamlab.checks.drives.ex02 import DRIVES
 from slamlab.checks.task import Diagnosis, Law, Task
+from slamlab.checks.tasks.ex02_turns import back, points, turns
 
 TOLERANCE = 1e-6  # [m]
 SCANS, READINGS, EMPTY = 6, 20, 4
@@ -20,10 +21,7 @@ def inputs(rng):
     -------
     {"degrees", "millimetres": (n, k), "mount", "pose": (n, 3)}
     """
-    degrees = np.sort(rng.uniform(0, 360, (SCANS, READINGS)), axis=1)
-    millimetres = rng.uniform(300, 6000, (SCANS, READINGS))
-    for row in millimetres:
-        row[rng.choice(READINGS, EMPTY, replace=False)] = 0
+    degrees, millimetres = turns(rng, SCANS, READINGS, EMPTY)
 
     def frames(reach):
         turn = rng.uniform(0.3, 2.8, SCANS) * rng.choice([-1, 1], SCANS)
@@ -37,27 +35,10 @@ def inputs(rng):
     }
 
 
-def _of_readings(i, values):
-    """(n, k) of all readings to (n, k - EMPTY) of those that came back."""
-    return values[i["millimetres"] > 0].reshape(SCANS, -1)
-
-
-def _points(i, o):
-    """(n, k - EMPTY) complex: the points of readings that came back, whether others were kept."""
-    z = o["points"][..., 0] + 1j * o["points"][..., 1]
-    found = np.full((SCANS, READINGS - EMPTY), np.nan + 0j)
-    for row, (count, back) in enumerate(zip(o["count"], i["millimetres"] > 0, strict=True)):
-        if count == READINGS - EMPTY:
-            found[row] = z[row, : READINGS - EMPTY]
-        elif count == READINGS:
-            found[row] = z[row, back]
-    return found
-
-
 def _readings(i):
     """(n, k - EMPTY) ranges [m] and bearings, counter-clockwise [rad]."""
     r, beta = i["millimetres"] / 1000, -np.radians(i["degrees"])
-    return _of_readings(i, r), _of_readings(i, beta)
+    return back(i, r), back(i, beta)
 
 
 def _frame(rows):
@@ -80,18 +61,18 @@ def _distances(z):
 
 
 def _range(i, o):
-    return _small(abs(_points(i, o) - _sensor(i)[0]) - _readings(i)[0])
+    return _small(abs(points(i, o) - _sensor(i)[0]) - _readings(i)[0])
 
 
 def _bearing(i, o):
     (place, heading), (_, beta) = _sensor(i), _readings(i)
-    way = _points(i, o) - place
+    way = points(i, o) - place
     return _small(way / abs(way) - np.exp(1j * (heading + beta)))
 
 
 def _rigid(i, o):
     r, beta = _readings(i)
-    return _small(_distances(_points(i, o)) - _distances(r * np.exp(1j * beta)))
+    return _small(_distances(points(i, o)) - _distances(r * np.exp(1j * beta)))
 
 
 def _came_out(formula):
@@ -100,7 +81,7 @@ def _came_out(formula):
 
     def matches(i, o):
         want = formula(*_readings(i), _frame(i["mount"]), _frame(i["pose"]))
-        return bool(_small(_points(i, o) - want).all())
+        return bool(_small(points(i, o) - want).all())
 
     return matches
 

@@ -4,6 +4,7 @@ import numpy as np
 
 from slamlab.checks.drives.ex14 import DRIVES
 from slamlab.checks.task import Diagnosis, Law, Task
+from slamlab.checks.tasks.ex02_turns import back, points, turns
 
 TURNS, READINGS, EMPTY = 6, 18, 4
 TOLERANCE = 1e-6  # [m]
@@ -20,31 +21,14 @@ def inputs(rng):
     -------
     {"degrees", "millimetres": (n, k), "front": (n,)}
     """
-    degrees = np.sort(rng.uniform(0, 360, (TURNS, READINGS)), axis=1)
-    millimetres = rng.uniform(300, 6000, (TURNS, READINGS))
-    for row in millimetres:
-        row[rng.choice(READINGS, EMPTY, replace=False)] = 0
+    degrees, millimetres = turns(rng, TURNS, READINGS, EMPTY)
     front = rng.uniform(20, 70, TURNS) + rng.choice([0, 90, 180, 270], TURNS)
     return {"degrees": degrees, "millimetres": millimetres, "front": front}
 
 
-def _points(i, o):
-    """(n, k - EMPTY) complex: the points of readings that came back, whether others were kept."""
-    z = o["points"][..., 0] + 1j * o["points"][..., 1]
-    found = np.full((TURNS, READINGS - EMPTY), np.nan + 0j)
-    for row, (count, back) in enumerate(zip(o["count"], i["millimetres"] > 0, strict=True)):
-        if count == READINGS - EMPTY:
-            found[row] = z[row, : READINGS - EMPTY]
-        elif count == READINGS:
-            found[row] = z[row, back]
-    return found
-
-
 def _readings(i):
     """Clockwise angles and distances (n, k - EMPTY), fronts (n, 1) [degree, m, degree]."""
-    back = i["millimetres"] > 0
-    shaped = (i[name][back].reshape(TURNS, -1) for name in ("degrees", "millimetres"))
-    degrees, millimetres = shaped
+    degrees, millimetres = (back(i, i[name]) for name in ("degrees", "millimetres"))
     return degrees, millimetres / 1000, i["front"][:, None]
 
 
@@ -55,13 +39,13 @@ def at(degrees, r):
 
 def _came_out(formula):
     def holds(i, o):
-        return (np.abs(_points(i, o) - formula(*_readings(i))) < TOLERANCE).all(axis=1)
+        return (np.abs(points(i, o) - formula(*_readings(i))) < TOLERANCE).all(axis=1)
 
     return holds
 
 
 def _range(i, o):
-    return (np.abs(np.abs(_points(i, o)) - _readings(i)[1]) < TOLERANCE).all(axis=1)
+    return (np.abs(np.abs(points(i, o)) - _readings(i)[1]) < TOLERANCE).all(axis=1)
 
 
 def _mistake(name, hint, *formulas):
