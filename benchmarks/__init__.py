@@ -1,4 +1,4 @@
-"""Speed and accuracy against peers and limits: ``python -m benchmarks.NAME``, or all of them."""
+"""Benchmarks: speed and accuracy against peers and limits (``python -m benchmarks.NAME``)."""
 
 import os
 

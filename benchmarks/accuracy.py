@@ -1,4 +1,4 @@
-"""SLAM on real logs and simulated tours: error, time of each reading, memory; GTSAM's optimum.
+"""SLAM accuracy on real logs and simulated tours: error, CPU time, memory; GTSAM's optimum.
 
 The relations are those 108 of 2984 whose stamps this shorter Intel log has; published figures are
 of all of them and of the whole log.
@@ -23,7 +23,7 @@ ESTIMATORS = ("odometry", "icp", "graph")
 PUBLISHED = 0.031  # graph mapping on all relations of the Intel log, Kümmerle et al. 2009 [m]
 TOURS = ("room", "corridor", "twins", "situation-1", "situation-2")
 QUICK = 250  # readings of a log
-FALSE = 0.15, 0.1  # a loop farther off the truth is false [m, rad]
+FALSE_LOOP = 0.15, 0.1  # a loop closure farther off the truth is a false positive [m, rad]
 
 
 def run(quick):
@@ -31,20 +31,20 @@ def run(quick):
     rows = []
     for name in ("intel", "exp1"):
         try:
-            found, slam = of_log(name, quick)
+            found, slam = log_rows(name, quick)
         except SourceError as error:
             print(f"left out: {error}", file=sys.stderr)
             continue
         rows += found
         if name == "intel":
-            rows += of_optimum(slam.graph, quick)
+            rows += optimum_rows(slam.graph, quick)
     for tour in TOURS[:2] if quick else TOURS:
-        rows += of_tour(tour, 1 if quick else 5)
+        rows += tour_rows(tour, 1 if quick else 5)
     return rows
 
 
-def fed(estimator, readings):
-    """Feed readings; the trajectory in the end and (n,) CPU seconds of each reading."""
+def run_estimator(estimator, readings):
+    """Run an estimator over readings; its final trajectory and (n,) CPU seconds of each reading."""
     spent, times = [], []
     for reading in readings:
         begin = time.process_time()
@@ -54,7 +54,7 @@ def fed(estimator, readings):
     return Trajectory(np.array(times), estimator.trajectory().poses), np.array(spent)
 
 
-def of_log(name, quick):
+def log_rows(name, quick):
     """Relations errors where there are relations; time of readings and memory of the graph."""
     rows, rng = [], np.random.default_rng(0)
     log = sources.open(name, rng)
@@ -62,7 +62,7 @@ def of_log(name, quick):
     relations = load_relations("intel-relations") if name == "intel" else None
     for kind in ESTIMATORS if relations else ("graph",):
         before, slam = peak_memory(), estimators.make(kind, log)
-        trajectory, spent = fed(slam, readings)
+        trajectory, spent = run_estimator(slam, readings)
         if relations:
             error = relations_error(trajectory, relations)
             label = f"{name}: {kind}, {error.count} relations"
@@ -98,7 +98,7 @@ def of_log(name, quick):
 
 
 def peak_memory():
-    """The most that this process ever held [MB], or None where the system does not say."""
+    """Peak memory of this process [MB], or None where the system does not say."""
     try:
         import resource
     except ImportError:
@@ -107,13 +107,13 @@ def peak_memory():
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / scale
 
 
-def of_tour(name, seeds):
-    """Largest error and error at the end of a tour, and loops that are false."""
+def tour_rows(name, seeds):
+    """Largest error and error at the end of a tour, and false loop closures."""
     largest, ends, false = [], [], 0
     for seed in range(seeds):
         source = sources.open(f"sim:{name}", np.random.default_rng(seed))
         slam, true = estimators.make("graph", source), source.truth.poses
-        poses = fed(slam, source)[0].poses
+        poses = run_estimator(slam, source)[0].poses
         error = between(between(true[0], true), between(poses[0], poses))
         distance = np.hypot(error[:, 0], error[:, 1])
         largest.append(distance.max())
@@ -121,7 +121,8 @@ def of_tour(name, seeds):
         keys = true[np.flatnonzero(np.diff(slam.anchors, prepend=-1) > 0)]
         for edge in slam.graph.edges:
             off = between(between(keys[edge.i], keys[edge.j]), edge.measured)
-            false += edge.robust and (np.hypot(*off[:2]) > FALSE[0] or abs(off[2]) > FALSE[1])
+            outlier = np.hypot(*off[:2]) > FALSE_LOOP[0] or abs(off[2]) > FALSE_LOOP[1]
+            false += edge.robust and outlier
     label = f"{name}, {seeds} seeds"
     return [
         row(f"{label}: largest error", 1e3 * np.max(largest), "mm", "", 1),
@@ -130,8 +131,8 @@ def of_tour(name, seeds):
     ]
 
 
-def of_optimum(graph, quick):
-    """Our optimum and GTSAM's of the same edges, all trusted, from where the chain alone leads."""
+def optimum_rows(graph, quick):
+    """Pose-graph optimum, ours and GTSAM's of the same edges, all trusted, from odometry alone."""
     start = [np.zeros(3)]
     for edge in graph.edges:
         if edge.j == len(start) and edge.i == edge.j - 1:

@@ -1,4 +1,4 @@
-"""BOR: what a sighting costs as the map grows, its memory, and how wide its boxes are.
+"""BOR filter: CPU time of an update as the map grows, memory, tightness of its boxes.
 
 A step is one prediction and four sightings of known objects, as in :mod:`benchmarks.mak`, whose
 filter takes turns with it. Association means that nobody says who was seen. Widths are of one
@@ -13,24 +13,24 @@ import numpy as np
 from benchmarks import mak as peer
 from benchmarks.common import cpu_times, main, row, speed_rows
 from slamlab.filters.bor import BOR
-from slamlab.filters.bor.angles import angles
+from slamlab.filters.bor.angle_intervals import angle_interval
 from slamlab.filters.bor.intervals import around, width
-from slamlab.filters.bor.predict import moved, odometry, steered, wheels
-from slamlab.models import h
-from slamlab.simulator import arc
+from slamlab.filters.bor.prediction import odometry, predict_box, steered, wheels
+from slamlab.models.observation import h
+from slamlab.simulation.differential_drive import arc
 
 TITLE = "BOR: predict + 4 sightings, memory, width over the exact hull"
 SIZES = (10, 100, 1000, 10_000)
 MAK_TO = 1000  # landmarks up to which the MAK filter takes its turns
 QUICK_MAK_TO = 100
-BOUNDS = (0.05, 0.02)
+BOUNDS = (0.05, 0.02)  # of range and bearing errors [m, rad]
 STILL = odometry((0.0, 0.0, 0.0), 1e-4, 1e-4)
 PREDICTIONS, SAMPLES = 200, 20_000
 BASE = 0.3  # of wheels and axles [m]
 
 
 def scene(N):
-    """A filter that knows N objects' boxes, four of their ids, and how they look."""
+    """Test scene: a filter that knows N objects' boxes, four of their ids, and how they look."""
     rng = np.random.default_rng(N)
     side = np.sqrt(N)  # one object a square metre, however many there are
     objects = rng.uniform(-side / 2, side / 2, (N, 2))
@@ -40,7 +40,7 @@ def scene(N):
     return bor, ids, h(np.zeros(3), objects[ids])
 
 
-def of_size(N, quick):
+def times_of_size(N, quick):
     """{method: median CPU time} of a map of N objects [s]."""
     bor, ids, z = scene(N)
     sights = list(zip(ids, z.tolist(), strict=True))
@@ -83,16 +83,16 @@ def controls(drive, rng):
     return rng.uniform(low, high), rng.uniform(0.005, 0.05, 2)
 
 
-def bounds_of(drive, told, off):
-    """The motion's intervals."""
+def bounds_of(drive, u, off):
+    """The motion's intervals, as the filter is given them."""
     if drive == "odometry":
-        length, turn = told
+        length, turn = u
         return odometry(arc(length - turn / 2, length + turn / 2, 1.0), *off)
-    first, second = map(around, told, off)
+    first, second = map(around, u, off)
     return steered(first, second, BASE, 1.0) if drive == "steered" else wheels(first, second, BASE)
 
 
-def driven(drive, u, heading):
+def exact_motions(drive, u, heading):
     """x, y and turn of many drives from the origin, each exact."""
     if drive == "steered":
         V, gamma = u.T
@@ -105,7 +105,7 @@ def driven(drive, u, heading):
 
 
 def widths(drive, seed=0):
-    """How wide predictions are over the hull of many drives, noise anywhere and at its ends.
+    """Tightness: width of predictions over the hull of many drives, noise anywhere and at its ends.
 
     Parameters
     ----------
@@ -118,13 +118,13 @@ def widths(drive, seed=0):
     """
     rng, ratios = np.random.default_rng(seed), []
     for _ in range(PREDICTIONS):
-        told, off = controls(drive, rng)
-        heading = angles(*around(rng.uniform(-3, 3), rng.uniform(0.01, 0.3)))
+        u, off = controls(drive, rng)
+        heading = angle_interval(*around(rng.uniform(-3, 3), rng.uniform(0.01, 0.3)))
         noise = np.clip(rng.uniform(-1.3, 1.3, (SAMPLES, 3)), -1, 1)
         headings = np.mean(heading) + noise[:, 2] * width(heading) / 2
-        x, y, turn = driven(drive, told + noise[:, :2] * off, headings)
-        motion = bounds_of(drive, told, off)
-        box, _ = moved((0.0, 0.0, 0.0, 0.0), heading, *motion)
+        x, y, turn = exact_motions(drive, u + noise[:, :2] * off, headings)
+        motion = bounds_of(drive, u, off)
+        box, _ = predict_box((0.0, 0.0, 0.0, 0.0), heading, *motion)
         place = (width(box[:2]) + width(box[2:])) / (np.ptp(x) + np.ptp(y))
         ratios.append([place, width(motion[2]) / np.ptp(turn)])
     return np.array(ratios)
@@ -132,7 +132,7 @@ def widths(drive, seed=0):
 
 def run(quick):
     """Rows of times, of their growth, of memory and of widths."""
-    times = {N: of_size(N, quick) for N in SIZES}
+    times = {N: times_of_size(N, quick) for N in SIZES}
     rows = []
     for N, found in times.items():
         rows += speed_rows(f"N = {N}", found, [("slamlab", "MAK filter")])

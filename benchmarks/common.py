@@ -1,4 +1,4 @@
-"""What the benchmarks share: interleaved timing, rows, the table, the command line.
+"""Benchmark utilities: interleaved timing, rows, the table, the command line.
 
 A benchmark is a module with ``TITLE`` and ``run(quick) -> rows``. Only ratios of one run mean
 anything: methods take turns, so that a busy machine is busy for all of them alike.
@@ -106,7 +106,7 @@ def table(title, rows):
 
 
 class Missing(Exception):
-    """What a benchmark compares with is not installed; the text says how to get it."""
+    """A peer that a benchmark compares with is not installed; the text says how to get it."""
 
 
 def main(benchmarks, prog, argv=None):

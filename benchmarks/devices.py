@@ -1,4 +1,4 @@
-"""What decoding one second of a lidar's bytes costs, and ten minutes of live SLAM through ports."""
+"""Decoding cost of one second of device bytes, and ten minutes of live SLAM through ports."""
 
 import sys
 
@@ -8,25 +8,25 @@ from benchmarks import soak
 from benchmarks.common import cpu_times, main, row
 from slamlab.devices.emir.frames import Framer
 from slamlab.devices.emir.status import Status
-from slamlab.devices.emulator.packets import PACKERS
-from slamlab.devices.rplidar.answers import Answer
-from slamlab.devices.rplidar.modes import Mode
-from slamlab.devices.rplidar.stream import Stream
+from slamlab.devices.emulator.packet_encoder import ENCODERS
+from slamlab.devices.rplidar.responses import AnswerType
+from slamlab.devices.rplidar.scan_modes import ScanMode
+from slamlab.devices.rplidar.scan_stream import ScanStream
 
 TITLE = "devices: decoding one second of data (CPU time, one thread, methods taking turns)"
 BAUD = 115200
 READ = 0.01  # how often bytes are read: an adapter hands them on every 1 to 16 ms [s]
-LIMITS = {Answer.SCAN: 1.0, Answer.EXPRESS: 3.0, Answer.ULTRA: 3.0}  # share of a core [%]
+LIMITS = {AnswerType.SCAN: 1.0, AnswerType.EXPRESS: 3.0, AnswerType.ULTRA: 3.0}  # of a core [%]
 MODES = (
-    Mode(0, "SCAN", 508e-6, 12.0, Answer.SCAN),
-    Mode(1, "EXPRESS", 254e-6, 12.0, Answer.EXPRESS),
-    Mode(2, "ultra", 127e-6, 12.0, Answer.ULTRA),
+    ScanMode(0, "SCAN", 508e-6, 12.0, AnswerType.SCAN),
+    ScanMode(1, "EXPRESS", 254e-6, 12.0, AnswerType.EXPRESS),
+    ScanMode(2, "ultra", 127e-6, 12.0, AnswerType.ULTRA),
 )
 STATUS_RATE = 10  # eMIR's status frames a second
 
 
 def room(directions):
-    """Distances with edges, empty places and noise [mm]."""
+    """Simulated distances of a room, with edges, empty places and noise [mm]."""
     rng = np.random.default_rng(0)
     walls = 1500 / np.maximum(np.abs(np.cos(np.radians(directions))), 0.3)
     walls[rng.random(len(walls)) < 0.05] = 0
@@ -35,7 +35,7 @@ def room(directions):
 
 def second(mode):
     """The bytes of one second of a mode, in the pieces in which they are read."""
-    packer, size, ahead = PACKERS[mode.answer]
+    packer, size, ahead = ENCODERS[mode.answer_type]
     step, packets = 3600 * mode.period, []
     for at in range(0, int(1 / mode.period), size):
         packets += packer(step * np.arange(at, at + size + ahead), step, room, at == 0)
@@ -46,7 +46,7 @@ def second(mode):
 
 def decode(mode, pieces):
     """From bytes to whole turns; the stream goes on from call to call."""
-    stream, now = Stream(mode.answer, mode.period, BAUD, 0.0), 0.0
+    stream, now = ScanStream(mode.answer_type, mode.period, BAUD, 0.0), 0.0
 
     def one_second():
         nonlocal now
@@ -67,9 +67,9 @@ def frames():
 
 def run(quick):
     """Rows: share of a core, and how many times less than the limit."""
-    methods = {mode.answer: decode(mode, second(mode)) for mode in MODES}
+    methods = {mode.answer_type: decode(mode, second(mode)) for mode in MODES}
     for mode in MODES:
-        turns = sum(methods[mode.answer]() for _ in range(3))
+        turns = sum(methods[mode.answer_type]() for _ in range(3))
         if not 25 <= turns <= 31:
             raise AssertionError(f"{mode.name}: {turns} turns in three seconds, not about 30")
     times = cpu_times({**methods, "eMIR": frames()}, quick)

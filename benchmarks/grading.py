@@ -1,4 +1,4 @@
-"""Grading a class: against nbgrader on the same notebooks, and against the floor of a fork."""
+"""Grading (autograding) a class: against nbgrader on the same notebooks, and a bare fork."""
 
 import contextlib
 import ctypes
@@ -15,11 +15,11 @@ import time
 from pathlib import Path
 
 from benchmarks.common import Missing, main, row
-from slamlab.checks import catalogue
-from slamlab.grading import jail, notebooks
-from slamlab.grading.client import Client
+from slamlab.exercises import catalogue
+from slamlab.grading import notebooks, sandbox
 from slamlab.grading.gradebook import Gradebook
-from slamlab.grading.workers import Workers
+from slamlab.grading.worker_client import WorkerClient
+from slamlab.grading.worker_pool import WorkerPool
 
 TITLE = "Grading: a class with five tasks each, CPU and wall time of whole commands in turns"
 ROOT = Path(__file__).resolve().parents[1]
@@ -42,8 +42,8 @@ def derived(folder):
     return (ROOT / folder / f"{NAME}.ipynb").read_text("utf-8")
 
 
-def hand_in(folder, count):
-    """A class of right solutions, no two files alike."""
+def make_submissions(folder, count):
+    """Make the submissions of a class: right solutions, no two files alike."""
     content = json.loads(derived("solutions"))
     for i in range(count):
         content["metadata"]["slamlab"]["copy"] = i
@@ -85,39 +85,40 @@ def nbgrader(count):
         (source / f"{NAME}.ipynb").write_text(derived("exercises"), "utf-8")
         command = [sys.executable, "-m", "nbgrader"]
         timed([*command, "generate_assignment", NAME], course)
-        hand_in(course / "submitted", count)
+        make_submissions(course / "submitted", count)
         return timed([*command, "autograde", NAME], course)
 
 
 def slamlab(count, jobs=1):
     """One class by ``slamlab grade``, at the strict level where it can be had."""
     with tempfile.TemporaryDirectory() as folder:
-        hand_in(Path(folder, "class"), count)
+        make_submissions(Path(folder, "class"), count)
         words = [sys.executable, "-c", "import sys; from slamlab.cli import main; sys.exit(main())"]
-        words += ["grade", "class", "--out", "out", "--jobs", str(jobs), "--isolation", level()]
+        words += ["grade", "class", "--out", "out", "--jobs", str(jobs)]
+        words += ["--isolation", isolation_level()]
         spent = timed(words, folder)
         with Gradebook(f"sqlite:///{Path(folder, 'out', 'grades.db')}") as book:
-            records = book.latest()
+            records = book.latest_attempts()
     full = catalogue.exercise("04").points
     if len(records) != count or any(record.score != full for record in records):
         raise Missing("a right solution did not get full marks: nothing to compare")
     return spent, [record.seconds for record in records]
 
 
-def level():
-    """The walls to grade within here."""
+def isolation_level():
+    """Isolation level of the sandbox that can be had here."""
     from slamlab.grading import isolation
 
-    return jail.STRICT if isolation.missing(jail.STRICT) is None else jail.NONE
+    return sandbox.STRICT if isolation.missing_requirement(sandbox.STRICT) is None else sandbox.NONE
 
 
-def floor(count):
-    """CPU of a forked worker that runs the cells and is driven by nobody [s]."""
+def fork_floor(count):
+    """Lower bound: CPU of a forked worker that runs the cells and is driven by nobody [s]."""
     content = notebooks.parse(derived("solutions").encode())
     exercise, spent = catalogue.exercise("04"), []
-    with Workers(level()) as workers:
+    with WorkerPool(isolation_level()) as workers:
         for _ in range(count):
-            with Client(exercise, content.cells, workers.start) as client:
+            with WorkerClient(exercise, content.cells, workers.start) as client:
                 client.load()
             spent.append(client.cpu)
     return statistics.median(spent)
@@ -186,7 +187,7 @@ def run(quick):
         for name in SIZES:
             label = f"{kind}, each further submission: {name}"
             rows.append(row(label, each[name], "s", PEER, each[PEER] / each[name]))
-    least = floor(5 if quick else 30)
+    least = fork_floor(5 if quick else 30)
     for stage in ("worker_cpu", "judge_cpu"):
         value = statistics.median(s[stage] for s in stages)
         rows.append(

@@ -1,4 +1,4 @@
-"""Scan matching against the thesis' way, and against small_gicp and Open3D where they are.
+"""Scan matching (ICP) against the thesis' ICP, and small_gicp and Open3D where installed.
 
 What a match cannot go below is told by its parts. With clouds as they come, about half of it
 goes into the lines that are fitted to both; a SLAM fits them once a scan. Its half a dozen looks at
@@ -17,15 +17,15 @@ from benchmarks import icp_peers
 from benchmarks.common import cpu_times, main, row, speed_rows
 from slamlab.geometry import between, transform
 from slamlab.scanmatching import match, point_to_line, point_to_point, rigid_fit, surface
-from slamlab.scanmatching.align import paired
-from slamlab.sensors import RPLIDAR_A2
-from slamlab.sources.simulation import POLYGON_WRONG_STEPS, simulation, turn_then_drive
+from slamlab.scanmatching.registration import find_correspondences
+from slamlab.simulation.range_scanners import RPLIDAR_A2
+from slamlab.sources.simulated_robot import POLYGON_WRONG_STEPS, simulation, turn_then_drive
 
 TITLE = "Scan matching on the polygon, wrong odometry as the guess (CPU time, methods taking turns)"
-TOLERANCE = 1e-6  # the thesis' 0.001 mm
-NOISE, HARD = 0.0075, 0.01  # of the range: the lidar's data sheet, and Smolec's
-TIGHT, FOUND = (0.015, np.radians(0.5)), (0.05, np.radians(2))  # [m, rad]
-BASINS = {  # turns [°] and ways [m] of the guess from the truth
+TOLERANCE = 1e-6  # convergence, the thesis' 0.001 mm [m]
+NOISE, HARD = 0.0075, 0.01  # σ as a share of the range: the lidar's data sheet, and Smolec's
+TIGHT, FOUND = (0.015, np.radians(0.5)), (0.05, np.radians(2))  # success within [m, rad]
+BASINS = {  # of convergence: turns [°] and ways [m] of the guess from the truth
     "0–45°, 0–0.6 m": ((0, 15, 30, 45), (0.0, 0.2, 0.4, 0.6)),
     "60–90°, 0–1 m": ((60, 75, 90), (0.0, 0.33, 0.67, 1.0)),
 }
@@ -44,7 +44,7 @@ def thesis_way(neighbours, source, target, guess):
     return rigid_fit(source, moved)
 
 
-def problems(count, noise=NOISE):
+def scan_pairs(count, noise=NOISE):
     """Pairs of scans with their guess and true motion: (source, target, guess, true)."""
     guesses, found = turn_then_drive(POLYGON_WRONG_STEPS), []
     lidar = replace(RPLIDAR_A2, range_error=noise)
@@ -78,31 +78,31 @@ def run(quick):
         "match": lambda *case: match(*case).pose,
         **icp_peers.peers(),
     }
-    cases = problems(4 if quick else 30)
+    cases = scan_pairs(4 if quick else 30)
     found = {name: errors(method, cases) for name, method in methods.items()}
     np.testing.assert_allclose(found["point to point"], found["thesis' way"], atol=1e-3)
     return [
-        *of_time(methods, cases[:6], quick),
-        *of_parts(cases[:6], quick),
-        *of_error(found),
-        *of_success(methods, quick),
-        *of_basin(methods, problems(4), quick),
+        *time_rows(methods, cases[:6], quick),
+        *part_rows(cases[:6], quick),
+        *error_rows(found),
+        *success_rows(methods, quick),
+        *basin_rows(methods, scan_pairs(4), quick),
     ]
 
 
-def of_time(methods, cases, quick):
+def time_rows(methods, cases, quick):
     """CPU time of a match; of ``match`` also with both clouds made ready before, as SLAM has it."""
     ready = [(surface(source), surface(target), *rest) for source, target, *rest in cases]
-    calls = {name: partial(each, method, cases) for name, method in methods.items()}
-    calls["match, clouds made ready"] = partial(each, methods["match"], ready)
+    calls = {name: partial(match_all, method, cases) for name, method in methods.items()}
+    calls["match, clouds made ready"] = partial(match_all, methods["match"], ready)
     times = cpu_times(calls, quick, seconds=20.0)
     times = {name: t / len(cases) for name, t in times.items()}
     peers = [("match", name) for name in methods if name not in ("thesis' way", "match")]
     return speed_rows("a match", times, peers)
 
 
-def of_parts(cases, quick):
-    """What a match is made of, and the tree that each round of point to point asks."""
+def part_rows(cases, quick):
+    """CPU time of a match's parts, and the tree that each round of point to point asks."""
     ready = [(surface(source), surface(target), guess) for source, target, guess, _ in cases]
     rounds = [match(*case).rounds for case in ready]
 
@@ -114,14 +114,14 @@ def of_parts(cases, quick):
     def looks():
         for case, count in zip(ready, rounds, strict=True):
             for _ in range(count + 1):
-                paired(*case)
+                find_correspondences(*case)
 
     def tree():
         for source, target, *_ in cases:
             cKDTree(target).query(source)
 
     calls = {
-        "match": partial(each, match, cases),
+        "match": partial(match_all, match, cases),
         "fitting lines to both": surfaces,
         "looking at all pairs": looks,
         "building a tree, asking it once": tree,
@@ -130,7 +130,7 @@ def of_parts(cases, quick):
     return speed_rows("parts of a match", times)
 
 
-def of_error(found):
+def error_rows(found):
     """Median errors of position and of heading."""
     rows = []
     for label, column, unit, scale in (
@@ -146,9 +146,9 @@ def of_error(found):
     return rows
 
 
-def of_success(methods, quick):
+def success_rows(methods, quick):
     """Shares of results within 15 mm and 0.5° at 1 % noise."""
-    cases = problems(7 if quick else 200, HARD)
+    cases = scan_pairs(7 if quick else 200, HARD)
     shares = {"match": share(errors(methods["match"], cases), TIGHT)}
     few = cases[: 21 if quick else 60]
     shares["thesis' way"] = share(errors(methods["thesis' way"], few), TIGHT)
@@ -157,8 +157,8 @@ def of_success(methods, quick):
     ]
 
 
-def of_basin(methods, cases, quick):
-    """Shares of guesses far off that lead home, and what such a match costs beside a near one."""
+def basin_rows(methods, cases, quick):
+    """Basin of convergence: shares of far guesses that converge, their cost beside a near one."""
     tried = {
         "point to point": methods["point to point"],
         "match, no search": lambda *case: match(*case, search=0).pose,
@@ -167,18 +167,18 @@ def of_basin(methods, cases, quick):
     }
     rows = []
     for label, (turns, ways) in BASINS.items():
-        far = astray(cases, turns, ways, 1 if quick else 12)
+        far = perturbed_guesses(cases, turns, ways, 1 if quick else 12)
         for name, method in tried.items():
             home = share(errors(method, far), FOUND)
             rows.append(row(f"basin {label}: {name}", 100 * home, "%", "all", home))
-        calls = {name: partial(each, tried[name], far[:24]) for name in ("match", *tried)}
+        calls = {name: partial(match_all, tried[name], far[:24]) for name in ("match", *tried)}
         times = {name: t / 24 for name, t in cpu_times(calls, quick, seconds=6.0).items()}
         rows += speed_rows(f"basin {label}", times)
     return rows
 
 
-def astray(cases, turns, ways, each_cell):
-    """Problems with guesses that far off the truth, to either side and in any direction."""
+def perturbed_guesses(cases, turns, ways, each_cell):
+    """Scan pairs with guesses perturbed so far off the truth, to either side, in any direction."""
     rng, found = np.random.default_rng(0), []
     for turn in np.radians(turns):
         for way in ways:
@@ -190,7 +190,7 @@ def astray(cases, turns, ways, each_cell):
     return [found[i] for i in rng.permutation(len(found))]
 
 
-def each(method, cases):
+def match_all(method, cases):
     """Match every case once."""
     for source, target, guess, _ in cases:
         method(source, target, guess)

@@ -1,4 +1,4 @@
-"""Other people's scan matchers, set to their best in the plane, where they are installed."""
+"""Peer scan matchers (small_gicp, Open3D), set to their best in the plane, where installed."""
 
 import sys
 
@@ -8,8 +8,8 @@ from benchmarks.common import Missing
 from slamlab.geometry import from_matrix
 from slamlab.scanmatching import normals
 
-FAR = 1.0  # longest pair [m]; with less, their basins are narrower
-ROUNDS = 100
+MAX_PAIR_DISTANCE = 1.0  # correspondence distance [m]; less narrows their basins
+MAX_ITERATIONS = 100  # of ICP
 
 
 def sklearn_neighbours():
@@ -46,10 +46,10 @@ def small_gicp():
                 solid(source),
                 matrix_of(guess),
                 registration_type=kind,
-                max_correspondence_distance=FAR,
+                max_correspondence_distance=MAX_PAIR_DISTANCE,
                 downsampling_resolution=1e-3,
                 num_threads=1,
-                max_iterations=ROUNDS,
+                max_iterations=MAX_ITERATIONS,
             )
             return planar(result.T_target_source)
 
@@ -75,10 +75,10 @@ def open3d():
             result = registration.registration_icp(
                 cloud(source),
                 cloud(target, with_normals),
-                FAR,
+                MAX_PAIR_DISTANCE,
                 matrix_of(guess),
                 estimation,
-                registration.ICPConvergenceCriteria(max_iteration=ROUNDS),
+                registration.ICPConvergenceCriteria(max_iteration=MAX_ITERATIONS),
             )
             return planar(result.transformation)
 

@@ -1,4 +1,4 @@
-"""Walls in a scan: how many are found, how many are none, and how long it takes."""
+"""Line extraction (walls in a scan): recall, false positives, CPU time; RANSAC of scikit-learn."""
 
 import sys
 from functools import partial
@@ -8,9 +8,9 @@ import numpy as np
 from benchmarks.common import Missing, cpu_times, main, row, speed_rows
 from slamlab import worlds
 from slamlab.evaluation import precision_metres, recall_metres
-from slamlab.landmarks.fit import Line
+from slamlab.landmarks.line_fitting import Line
 from slamlab.landmarks.ransac import THESIS, Ransac, lines
-from slamlab.sources.simulation import THESIS_LIDAR as LIDAR
+from slamlab.sources.simulated_robot import THESIS_LIDAR as LIDAR
 
 TITLE = "Walls in scans of 400 beams, 1 % noise (CPU time, methods taking turns)"
 PLACES = ("situation-1", "situation-2", "corridor", "room", "table-legs", "polygon")
@@ -53,7 +53,7 @@ def line_by_line(ransac, scan, rng):
 
 
 def scenes(name, count):
-    """Scans from free places of a world: (world, pose, scan)."""
+    """Test scenes: scans from free places of a world: (world, pose, scan)."""
     world, rng, found = worlds.by_name(name), np.random.default_rng(1), []
     corners = world.walls.reshape(-1, 2)
     while len(found) < count:
@@ -66,7 +66,7 @@ def scenes(name, count):
 
 
 def shares(method, cases):
-    """Share of the wall metres seen that are found, share of the metres found that are none."""
+    """Recall and false share: of the wall metres seen, those found; of those found, those wrong."""
     sums = np.zeros(4)
     for world, pose, scan in cases:
         walls = method(scan, np.random.default_rng(0))

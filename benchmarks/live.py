@@ -1,4 +1,4 @@
-"""The live view in a real browser: from a click to the picture, and pictures a second.
+"""Live view in a real browser: latency from a click to the picture, frame rate.
 
 Against an ipywidgets.Image that gets a full redraw by matplotlib, in the same notebook and run;
 and from a click to the answer while a source keeps one waiting for a second.
@@ -54,7 +54,7 @@ COUNT = f"""
 
 
 def measured(cell, root, run, pause, quick):
-    """Median time from a click to the picture [ms], and pictures a second.
+    """Latency: median time from a click to the picture [ms]; frame rate, pictures a second.
 
     Parameters
     ----------
@@ -98,7 +98,7 @@ def run(quick):
 
 
 def rows(visit, quick):
-    """Run the notebook's cells and measure each picture."""
+    """Rows: run the notebook's cells and measure latency and frame rate of each picture."""
     visit.open(NAME)
     visit.run_all()
     late, cell = (visit.page.locator(".jp-Cell").nth(position) for position in (3, 4))

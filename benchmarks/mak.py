@@ -1,4 +1,4 @@
-"""The MAK filter against one copy of P, the textbook's dense EKF and filterpy's.
+"""EKF-SLAM (the MAK filter) against one copy of P, the textbook's dense EKF and filterpy's.
 
 A step is one prediction and one scan of four known landmarks; P holds 3 + 2N rows of float64.
 """
@@ -9,11 +9,12 @@ import numpy as np
 from filterpy.kalman import ExtendedKalmanFilter
 
 from benchmarks.common import cpu_times, main, row, speed_rows
-from slamlab import jacobians, models
-from slamlab.filters.association import nearest
-from slamlab.filters.compressed import CompressedMAK
+from slamlab import models
+from slamlab.filters.compressed_ekf import CompressedMAK
+from slamlab.filters.data_association import nearest_neighbours
 from slamlab.filters.mak import MAK
 from slamlab.geometry import wrap
+from slamlab.models import jacobians
 
 TITLE = "EKF-SLAM: predict + 4 updates (CPU time, one thread, methods taking turns)"
 SIZES = (50, 200, 500, 1000, 2000)
@@ -26,11 +27,11 @@ COMPARED = (  # besides everything with the copy: who, with whom
     ("slamlab, compressed", "slamlab"),
 )
 REGION, REGION_STEPS = 25, 100  # compressed filter: landmarks around, steps until it moves on
-Q, R = np.diag([1e-6, 1e-6, 1e-7]), np.diag([0.01, 0.001])
+Q, R = np.diag([1e-6, 1e-6, 1e-7]), np.diag([0.01, 0.001])  # process, measurement noise
 
 
 def scene(N):
-    """A filter of N landmarks, four of their ids, and how they look from its pose."""
+    """Test scene: a filter of N landmarks, four of their ids, and how they look from its pose."""
     rng = np.random.default_rng(N)
     mak = MAK([0.3, -0.2, 0.4], np.diag([0.02, 0.03, 0.01]), N)
     mak.add(range(N), np.column_stack([rng.uniform(1, 20, N), rng.uniform(-3, 3, N)]), R)
@@ -50,21 +51,21 @@ def h_and_H(x, ids):
 
 
 def residual(z, expected):
-    """z − h with its bearings wrapped."""
+    """Innovation z − h, its bearings wrapped."""
     v = z - expected
     v[1::2] = wrap(v[1::2])
     return v
 
 
 def dense_noise(n, m):
-    """Q over the whole state (n, n) and R over the whole scan (2m, 2m)."""
+    """Process noise Q of the whole state (n, n), measurement noise R of the whole scan (2m, 2m)."""
     whole = np.zeros((n, n))
     whole[:3, :3] = Q
     return whole, np.kron(np.eye(m), R)
 
 
 class Textbook:
-    """The filter as it is first written: whole matrices, P ← (I − K H) P."""
+    """Textbook dense EKF: whole matrices, P ← (I − K H) P."""
 
     def __init__(self, mak, ids, z):
         self.x, self.P, self.ids, self.z = mak.x.copy(), mak.P, ids, z.ravel()
@@ -103,7 +104,7 @@ class Filterpy:
 
 
 def compressed_round(mak):
-    """One region's life: focus, its steps, and settling; the cost of one step is its share."""
+    """Compressed EKF, one region: focus, its steps, global update; one step costs its share."""
     rng = np.random.default_rng(1)
     region = rng.choice(mak.ids, REGION, replace=False).tolist()
     z = models.h(mak.pose, mak.landmarks()[region[:4]])
@@ -128,7 +129,7 @@ def same_first_step(mak, ids, z, peers):
         np.testing.assert_allclose(peer.P, mak.P, rtol=1e-6, atol=1e-9, err_msg=name)
 
 
-def of_size(N, quick):
+def times_of_size(N, quick):
     """{method: median CPU time} of a map of N landmarks [s]."""
     mak, ids, z = scene(N)
     peers = {}
@@ -148,7 +149,7 @@ def of_size(N, quick):
     methods = {
         "np.copyto(P)": lambda: np.copyto(target, source),
         "slamlab": step,
-        "slamlab, association of 4": lambda: nearest(mak, z, R),
+        "slamlab, association of 4": lambda: nearest_neighbours(mak, z, R),
         **{name: peer.step for name, peer in peers.items()},
     }
     times = cpu_times(methods, quick)
@@ -159,14 +160,14 @@ def of_size(N, quick):
 
 
 def exponent(times, method):
-    """b of time = a Nᵇ, fitted where arithmetic rules."""
+    """Growth exponent b of time = a Nᵇ, fitted where arithmetic rules."""
     sizes = [N for N in SIZES if N >= GROWTH_FROM]
     return np.polyfit(np.log(sizes), np.log([times[N][method] for N in sizes]), 1)[0]
 
 
 def run(quick):
     """Rows of all sizes, each against one copy of P and slamlab against its peers, and growth."""
-    times = {N: of_size(N, quick) for N in SIZES}
+    times = {N: times_of_size(N, quick) for N in SIZES}
     rows = []
     for N, found in times.items():
         rows += speed_rows(f"N = {N}", found, COMPARED)

@@ -1,4 +1,4 @@
-"""Monte Carlo localisation against a plain loop over samples and landmarks, and the draws alone.
+"""Monte Carlo localisation (particle filter) against a plain loop, and resampling alone.
 
 A step moves every sample with its own noise, weighs it by 20 known landmarks and draws anew.
 """
@@ -10,13 +10,14 @@ import numpy as np
 from filterpy.monte_carlo import resampling as filterpy
 
 from benchmarks.common import cpu_times, main, speed_rows
-from slamlab import models, noise
+from slamlab import models
 from slamlab.filters.montecarlo import likelihood
-from slamlab.filters.montecarlo.motion import moved
+from slamlab.filters.montecarlo.motion_sampling import sample_motion
 from slamlab.filters.montecarlo.resampling import multinomial, systematic
 from slamlab.filters.montecarlo.weights import normalise
 from slamlab.geometry import wrap
-from slamlab.hardware import RobotModel
+from slamlab.models import noise
+from slamlab.models.parameters import RobotModel
 
 TITLE = "Monte Carlo localisation: move, weigh by 20 landmarks, draw (CPU time, one thread)"
 SIZES = (100, 1000, 10_000)
@@ -26,7 +27,7 @@ R = np.diag([0.05**2, 0.03**2])
 
 
 def scene(n):
-    """Samples round a pose, a map, and how it looks from there."""
+    """Test scene: samples (particles) round a pose, a map, and its observation."""
     rng = np.random.default_rng(n)
     x = rng.normal([1, 2, 0.5], [0.2, 0.2, 0.1], (n, 3))
     p = rng.uniform(-8, 8, (LANDMARKS, 2))
@@ -36,7 +37,7 @@ def scene(n):
 
 def slamlab_step(x, p, z, rng):
     """The package's way, all samples and landmarks at once."""
-    x = moved(x, ODOMETRY, ROBOT, rng)
+    x = sample_motion(x, ODOMETRY, ROBOT, rng)
     noises = np.broadcast_to(R, (len(p), 2, 2))
     weights, _ = normalise(likelihood.of_scan(x, p, z, noises))
     return x[systematic(weights, len(x), rng)]
@@ -44,7 +45,7 @@ def slamlab_step(x, p, z, rng):
 
 def textbook_step(x, p, z, rng):
     """numpy as it is first written: an array of samples × landmarks for each quantity."""
-    x = moved(x, ODOMETRY, ROBOT, rng)
+    x = sample_motion(x, ODOMETRY, ROBOT, rng)
     v = z - models.h(x[:, None], p)
     v[..., 1] = wrap(v[..., 1])
     logs = -0.5 * (v**2 / np.diag(R)).sum(axis=(1, 2))
@@ -86,10 +87,10 @@ def loop_step(x, p, z, rng):
     logs = loop_weights(np.array(rows), p, z)
     top = max(logs)
     weights = [math.exp(log - top) for log in logs]
-    return np.array(loop_comb(rows, weights, rng.random()))
+    return np.array(loop_resample(rows, weights, rng.random()))
 
 
-def loop_comb(rows, weights, u):
+def loop_resample(rows, weights, u):
     """Low-variance resampling in plain Python."""
     n, total = len(rows), sum(weights)
     drawn, edge, i = [], weights[0], 0
@@ -109,7 +110,7 @@ def same_weights(x, p, z):
     np.testing.assert_allclose(ours, loop, rtol=1e-6, atol=1e-12)
 
 
-def of_size(n, quick):
+def times_of_size(n, quick):
     """{method: median CPU time} of a step of n samples [s]."""
     x, p, z = scene(n)
     same_weights(x, p, z)
@@ -146,7 +147,7 @@ def run(quick):
     rows = []
     for n in SIZES:
         compared = [("slamlab", "numpy + filterpy's comb")]
-        rows += speed_rows(f"{n} samples", of_size(n, quick), compared)
+        rows += speed_rows(f"{n} samples", times_of_size(n, quick), compared)
     compared = [("slamlab multinomial", "filterpy multinomial")]
     return rows + speed_rows(f"{SIZES[-1]} draws", draws_of(SIZES[-1], quick), compared)
 

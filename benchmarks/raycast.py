@@ -6,14 +6,14 @@ import sys
 import numpy as np
 
 from benchmarks.common import cpu_times, main, speed_rows
-from slamlab.raycast import cast
+from slamlab.worlds.ray_casting import cast
 
 TITLE = "Ray casting (CPU time, one thread, methods taking turns)"
 CASES = [(400, 10), (400, 100), (400, 1000), (400, 10_000), (3600, 20)]
 
 
 def python_loop(position, directions, walls):
-    """Every beam against every wall, one at a time, as one writes it first."""
+    """Ray casting by a plain loop: every beam against every wall, one at a time."""
     px, py = position
     ranges = []
     for direction in directions:
@@ -34,7 +34,7 @@ def python_loop(position, directions, walls):
 
 
 def dense_numpy(position, directions, walls):
-    """Every beam against every wall in one table."""
+    """Ray casting by dense NumPy: every beam against every wall in one table."""
     ux, uy = np.cos(directions)[:, None], np.sin(directions)[:, None]
     a, w = walls[:, :2] - position, walls[:, 2:] - walls[:, :2]
     with np.errstate(divide="ignore", invalid="ignore"):

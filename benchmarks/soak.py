@@ -1,7 +1,7 @@
-"""Lidar, robot and SLAM live for minutes, through emulators on real ports: is any scan lost?
+"""Soak test of live SLAM through emulators on real ports: dropped scans, lag, disconnection.
 
 Emulators, drivers and SLAM share a process, as in a notebook. A machine that others keep busy is no
-fault of theirs: a heart beats beside them, and turns that went by while it did not are told.
+fault of theirs: a heartbeat runs beside them, and turns that went by while it stalled are told.
 """
 
 import os
@@ -13,24 +13,23 @@ import numpy as np
 
 from benchmarks.common import row
 from slamlab import estimators, worlds
-from slamlab.devices.emulator.bench import bench
+from slamlab.devices.emulator.emulator_runner import run_emulators
 from slamlab.devices.errors import ConnectionLost
-from slamlab.devices.rplidar import Lidar
-from slamlab.devices.source import devices
+from slamlab.devices.rplidar import RPLidar
+from slamlab.sources.live_devices import devices
 
 TITLE = "devices: live SLAM through emulators on real ports (wall time)"
 LOCAL = "127.0.0.1", 0, 0
-TURN = 0.1  # [s]
-BEAT = 0.01  # [s]
-CIRCLE = 0.1, 0.5  # what the robot drives [m/s, rad/s]
-PULLS = 10
+TURN = 0.1  # of the lidar, a revolution [s]
+BEAT = 0.01  # period of the heartbeat [s]
+CIRCLE = 0.1, 0.5  # command that the robot drives [m/s, rad/s]
 
 
-class Heart:
-    """Beats while it lasts; ``stood`` is for how many turns' time it was kept from that."""
+class Heartbeat:
+    """Heartbeat thread; ``stalled`` is for how many turns' time the machine kept it waiting."""
 
     def __enter__(self):
-        self.stood, self._stop = 0.0, threading.Event()
+        self.stalled, self._stop = 0.0, threading.Event()
         self._thread = threading.Thread(target=self._beat, daemon=True)
         self._thread.start()
         return self
@@ -44,30 +43,31 @@ class Heart:
         while not self._stop.wait(BEAT):
             now = time.monotonic()
             late = now - last - BEAT
-            self.stood += late / TURN if late > TURN / 4 else 0  # less does no harm
+            self.stalled += late / TURN if late > TURN / 4 else 0  # less does no harm
             last = now
 
 
 @dataclass
 class Soak:
-    """What came of it: turns ``made`` and ``dropped``, the largest ``lag`` [turns], turns' time for
-    which the machine ``stood`` still, ``bytes`` lost, ``cpu`` share of one core."""
+    """Result of a soak test: turns ``made`` and ``dropped``, largest ``lag`` [turns], turns' time
+    for which the machine ``stalled``, ``bytes`` lost, ``cpu`` share of one core."""
 
     made: int
     dropped: int
     lag: int
-    stood: float
+    stalled: float
     bytes: int
     cpu: float
 
 
-def running():
-    """The emulators."""
-    return bench(worlds.polygon(), np.random.default_rng(0), None if os.name == "posix" else LOCAL)
+def emulators():
+    """Start the emulators of lidar and robot."""
+    tcp = None if os.name == "posix" else LOCAL
+    return run_emulators(worlds.polygon(), np.random.default_rng(0), tcp)
 
 
 def soak(seconds, estimator="icp"):
-    """Let a robot drive in circles and a SLAM take in every scan.
+    """Soak test: a robot drives in circles while a SLAM takes in every scan.
 
     Parameters
     ----------
@@ -78,7 +78,7 @@ def soak(seconds, estimator="icp"):
     -------
     Soak
     """
-    with running() as it, devices(",".join(it.ports.values())) as source, Heart() as heart:
+    with emulators() as it, devices(",".join(it.ports.values())) as source, Heartbeat() as heart:
         slam, lag = estimators.make(estimator, source), 0
         source.drive(CIRCLE)
         cpu, begin = time.process_time(), time.monotonic()
@@ -90,17 +90,17 @@ def soak(seconds, estimator="icp"):
                 break
         cpu = (time.process_time() - cpu) / (time.monotonic() - begin)
         lost = stats["bytes dropped"] + sum(it.dropped.values())
-    return Soak(stats["turns"], stats["turns dropped"], lag, heart.stood, lost, cpu)
+    return Soak(stats["turns"], stats["turns dropped"], lag, heart.stalled, lost, cpu)
 
 
-def noticed(fault):
-    """How long until a lidar that is gone is noticed [s].
+def detection_time(fault):
+    """Time until a lost connection to the lidar is detected [s].
 
     Parameters
     ----------
     fault : str, "unplugged", or "stalled" where the port stays and nothing comes any more
     """
-    with running() as it, Lidar(it.ports["lidar"]) as lidar:
+    with emulators() as it, RPLidar(it.ports["lidar"]) as lidar:
         lidar.turn()
         setattr(it["lidar"].faults, fault, True)
         begin = time.monotonic()
@@ -113,16 +113,17 @@ def noticed(fault):
 
 
 def run(quick):
-    """Rows on ten minutes of live SLAM, and on lidars that go."""
-    came = soak(20 if quick else 600)
+    """Rows on ten minutes of live SLAM, and on lost connections to the lidar."""
+    got = soak(20 if quick else 600)
     pulls = 2 if quick else 10
-    gone = {fault: max(noticed(fault) for _ in range(pulls)) for fault in ("unplugged", "stalled")}
+    faults = "unplugged", "stalled"
+    gone = {fault: max(detection_time(fault) for _ in range(pulls)) for fault in faults}
     return [
-        row(f"turns dropped of {came.made}", came.dropped, "1", "goal 0", came.dropped == 0),
-        row("turns by which the SLAM lags, at most", came.lag, "1", "goal 1", 1 / max(came.lag, 1)),
-        row("turns' time the machine stood", came.stood, "1", "goal 0", came.stood == 0),
-        row("bytes lost", came.bytes, "1", "goal 0", came.bytes == 0),
-        row("all together: share of a core", 100 * came.cpu, "%", "one core", 1 / came.cpu),
+        row(f"turns dropped of {got.made}", got.dropped, "1", "goal 0", got.dropped == 0),
+        row("turns by which the SLAM lags, at most", got.lag, "1", "goal 1", 1 / max(got.lag, 1)),
+        row("turns' time the machine stood", got.stalled, "1", "goal 0", got.stalled == 0),
+        row("bytes lost", got.bytes, "1", "goal 0", got.bytes == 0),
+        row("all together: share of a core", 100 * got.cpu, "%", "one core", 1 / got.cpu),
         *(
             row(f"lidar {fault} → noticed, at most", seconds, "s", "goal 1 s", 1 / seconds)
             for fault, seconds in gone.items()

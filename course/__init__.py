@@ -1,1 +1,1 @@
-"""The course's text sources and the tool that derives its notebooks from them."""
+"""The course's text sources and the build tool that derives (generates) its notebooks from them."""

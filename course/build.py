@@ -1,4 +1,4 @@
-"""Derives the notebooks of the course from their text sources: ``python -m course.build``."""
+"""Build tool: derives the notebooks from their text sources by ``python -m course.build``."""
 
 import argparse
 import os
@@ -13,7 +13,7 @@ from course.source import ROOT, CourseError, sources
 
 
 def build(path, force=False, root=ROOT):
-    """Derive the notebooks of one source and store them, run where they changed.
+    """Build the notebooks of one source: derive, execute where they changed, store.
 
     Parameters
     ----------
@@ -49,7 +49,7 @@ def build(path, force=False, root=ROOT):
 
 
 def differences(path, root=ROOT):
-    """How the stored notebooks of one source differ from it, outputs aside.
+    """Check the stored notebooks of one source: how they differ from it, outputs aside.
 
     Parameters
     ----------
@@ -72,7 +72,7 @@ def differences(path, root=ROOT):
             continue
         if derived.runs and not executed(stored):
             found.append(f"{name}: was not run")
-        want, have = _bare(derived.notebook), _bare(stored)
+        want, have = _without_outputs(derived.notebook), _without_outputs(stored)
         if [c.id for c in want.cells] != [c.id for c in have.cells]:
             found.append(f"{name}: other cells than its source has")
         elif want != have:
@@ -83,8 +83,8 @@ def differences(path, root=ROOT):
     return found
 
 
-def strangers(root=ROOT):
-    """Notebooks in the derived folders that have no source, as paths from the root."""
+def orphans(root=ROOT):
+    """Find orphans: notebooks in the derived folders without a source, as paths from the root."""
     sourced = {(p.parent.name, p.stem) for p in sources(root)}
     kinds = {folder: f"{kind}s" for kind, folders in FOLDERS.items() for folder in folders}
     return [
@@ -104,7 +104,7 @@ def main(argv=None):
         "--check", action="store_true", help="only tell what differs; write nothing"
     )
     options = parser.parse_args(argv)
-    paths, problems = _chosen(options.names)
+    paths, problems = _select_sources(options.names)
     if not options.check and not (os.environ.get("SLAMLAB_DATA") or (ROOT / "data").exists()):
         print("note: no recordings here (data/ or SLAMLAB_DATA): lessons run on simulated logs")
     for path in paths:
@@ -116,13 +116,13 @@ def main(argv=None):
         except CourseError as error:
             problems += error.problems
     if not options.names:
-        problems += [f"{name}: has no source" for name in strangers()]
+        problems += [f"{name}: has no source" for name in orphans()]
     print(*problems, sep="\n", end="\n" if problems else "", file=sys.stderr)
     return 1 if problems else 0
 
 
-def _chosen(names):
-    """The sources of the names given, and what is wrong with the names."""
+def _select_sources(names):
+    """Select the sources by name; also the problems with the names."""
     known, chosen, problems = sources(), [], []
     for name in names:
         stem = Path(name).stem
@@ -159,7 +159,7 @@ def _stored(path):
         return None  # a broken file counts as none and is written again
 
 
-def _bare(notebook):
+def _without_outputs(notebook):
     bare = nbformat.from_dict(notebook)
     for cell in bare.cells:
         if cell.cell_type == "code":

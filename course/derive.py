@@ -1,21 +1,29 @@
-"""From a source to its notebooks, without outputs: nothing here runs or writes anything."""
+"""Derive (generate) notebooks from a source, without outputs: nothing is run or written here."""
 
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 import nbformat
 
-from course.exercise import PROTECTED, VALIDATE, check_metadata, regions, solution_metadata, strip
+from course import glossary
+from course.exercise import (
+    PROTECTED,
+    VALIDATE,
+    check_metadata,
+    solution_regions,
+    solution_metadata,
+    strip_solutions,
+)
 from course.lint import lint
 from course.source import ROOT, Cell, CourseError, Source, read
-from slamlab.checks import catalogue
+from slamlab.exercises import catalogue
 
 FOLDERS = {"lesson": ("notebooks",), "exercise": ("exercises", "solutions")}
 
 
 @dataclass(frozen=True)
 class Derived:
-    """One notebook of a source, without outputs.
+    """A derived notebook of a source, without outputs.
 
     Parameters
     ----------
@@ -32,7 +40,7 @@ class Derived:
 
 
 def derive(path, root=ROOT):
-    """The notebooks of one source: a lesson's, or an exercise's to solve and solved.
+    """Derive the notebooks of one source: a lesson's, or an exercise's to solve and solved.
 
     Parameters
     ----------
@@ -97,12 +105,12 @@ def _notebook(source, exercise, stubs):
 
 def _cell(cell, exercise, stubs):
     metadata = {k: v for k, v in cell.metadata.items() if k != "name"}
-    text = cell.text
+    text = glossary.filled(cell.text)
     if cell.check:
         metadata |= check_metadata(exercise.task(cell.check))
-    elif cell.type == "code" and regions(text):
+    elif cell.type == "code" and solution_regions(text):
         metadata |= solution_metadata(cell.id)
-        text = strip(text) if stubs else text
+        text = strip_solutions(text) if stubs else text
     elif cell.text == VALIDATE:
         metadata |= PROTECTED
     if stubs and "nbval-check-output" in cell.tags:  # nothing is stored to compare with

@@ -1,4 +1,4 @@
-"""Runs a notebook as a student would and stores what may be stored of its outputs."""
+"""Execute a notebook in a fresh kernel and clean its outputs for storage."""
 
 import copy
 import os
@@ -11,10 +11,10 @@ from nbclient import NotebookClient
 from nbclient.exceptions import CellExecutionError, CellTimeoutError, DeadKernelError
 
 from course.source import ROOT
-from slamlab.parallel import THREADS
+from slamlab.parallel import THREAD_VARIABLES
 
 WIDGET = "application/vnd.jupyter.widget-view+json"
-TIMEOUT = 300  # [s] for one cell
+TIMEOUT = 300  # of one cell [s]
 
 
 class ExecutionError(Exception):
@@ -40,7 +40,7 @@ def same_code(derived, stored):
 
 
 def carry_outputs(derived, stored):
-    """The derived notebook with the outputs of a stored one that runs the same code."""
+    """Copy the outputs of a stored notebook to the derived one that runs the same code."""
     notebook, outputs = copy.deepcopy(derived), {c.id: c for c in stored.cells}
     for cell in notebook.cells:
         if cell.cell_type == "code":
@@ -50,7 +50,7 @@ def carry_outputs(derived, stored):
 
 
 def execute(derived, folder):
-    """Run a notebook from its folder in a fresh kernel of this Python.
+    """Execute a notebook from its folder in a fresh kernel of this Python.
 
     Parameters
     ----------
@@ -82,7 +82,7 @@ def execute(derived, folder):
         "PYTHONHASHSEED": "0",
         "JUPYTER_PREFER_ENV_PATH": "1",
     }
-    env |= dict.fromkeys(THREADS, "1")  # measured times are those of one core
+    env |= dict.fromkeys(THREAD_VARIABLES, "1")  # measured times are those of one core
     if "SLAMLAB_DATA" in env:  # the kernel stands in another folder
         env["SLAMLAB_DATA"] = str(Path(env["SLAMLAB_DATA"]).resolve())
     try:
@@ -94,12 +94,12 @@ def execute(derived, folder):
     notebook.metadata = copy.deepcopy(derived.metadata)  # the kernel adds its version
     for number, cell in enumerate(c for c in notebook.cells if c.cell_type == "code"):
         cell.execution_count = number + 1
-        cell.outputs = [_storable(output, number + 1) for output in cell.outputs]
+        cell.outputs = [_clean_output(output, number + 1) for output in cell.outputs]
     return notebook
 
 
-def _storable(output, number):
-    """An output without live widgets that have a still picture, machine paths and counts."""
+def _clean_output(output, number):
+    """Clean an output: no live widget beside its still picture, no machine paths, no counts."""
     if "execution_count" in output:
         output["execution_count"] = number
     data = output.get("data", {})

@@ -1,4 +1,4 @@
-"""What turns a solved exercise into one to solve: stubs for solutions, nbgrader's metadata."""
+"""Strip solutions: stubs in a solved exercise in place of its solutions, nbgrader's metadata."""
 
 import ast
 
@@ -21,8 +21,8 @@ class SolutionError(Exception):
         self.line, self.message = line, message
 
 
-def regions(text):
-    """The solutions of a cell, checked: balanced marks, whole statements inside one function.
+def solution_regions(text):
+    """Find and check the solutions of a cell: balanced marks, whole statements in one function.
 
     Parameters
     ----------
@@ -58,8 +58,8 @@ def regions(text):
     return found
 
 
-def strip(text):
-    """A cell with every solution replaced by a stub; indentation and docstrings stay.
+def strip_solutions(text):
+    """Strip a cell: every solution is replaced by a stub; indentation and docstrings stay.
 
     Parameters
     ----------
@@ -74,7 +74,7 @@ def strip(text):
     SolutionError
     """
     lines = text.splitlines()
-    for first, last in reversed(regions(text)):
+    for first, last in reversed(solution_regions(text)):
         mark = lines[first - 1]
         indent = mark[: len(mark) - len(mark.lstrip())]
         lines[first - 1 : last] = [indent + STUB]
@@ -102,23 +102,23 @@ def solution_lines(text):
     lines = text.splitlines()
     return [
         line.strip()
-        for first, last in regions(text)
+        for first, last in solution_regions(text)
         for line in lines[first : last - 1]
         if line.strip() and not line.strip().startswith("#")
     ]
 
 
 def solution_metadata(id):
-    """nbgrader's metadata of a cell that a student fills in, and what protects it."""
+    """nbgrader's metadata of a solution cell, which a student fills in, with its protection."""
     return {"nbgrader": _nbgrader(id, solution=True), "deletable": False}
 
 
 def check_metadata(task):
-    """nbgrader's metadata of a check, and what protects it.
+    """nbgrader's metadata of a check (autograded test cell), with its protection.
 
     Parameters
     ----------
-    task : slamlab.checks.task.Task
+    task : slamlab.exercises.task.Task
 
     Returns
     -------

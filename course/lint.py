@@ -1,10 +1,11 @@
-"""The standards of the course's sources, told with file and line where they are not met."""
+"""Linter of the course's sources: breaches of its standards with file and line."""
 
 import ast
+import importlib
 import re
 from itertools import pairwise
 
-from course.exercise import SolutionError, regions
+from course.exercise import SolutionError, solution_regions
 from course.source import CHECK, ID, METADATA, heading
 
 TAGS = {
@@ -15,7 +16,7 @@ TAGS = {
     "remove-input",
 }
 SLIDES = {"slide", "subslide", "fragment", "notes", "skip", "-"}
-LONGEST = 30  # lines of a lesson's code cell
+MAX_CELL_LINES = 30  # lines of a lesson's code cell
 
 _FIRST = {
     "lesson": {
@@ -28,12 +29,12 @@ _FIRST = {
 
 
 def lint(source, exercise=None):
-    """Every breach of the standards in a source.
+    """Lint a source: every breach of the standards.
 
     Parameters
     ----------
     source : Source
-    exercise : slamlab.checks.task.Exercise or None, what the catalogue says of an exercise
+    exercise : slamlab.exercises.task.Exercise or None, what the catalogue says of an exercise
 
     Returns
     -------
@@ -45,7 +46,7 @@ def lint(source, exercise=None):
         if cell.type == "code":
             problems += [f"{source.at(cell, line)}: {text}" for line, text in _code(source, cell)]
     problems += [f"{source.at(cell)}: {text}" for cell, text in _slides(source)]
-    problems += [f"{source.at(cell)}: {text}" for cell, text in _frame(source)]
+    problems += [f"{source.at(cell)}: {text}" for cell, text in _first_and_last_cell(source)]
     if source.kind == "exercise":
         problems += [f"{source.at(cell)}: {text}" for cell, text in _checks(source, exercise)]
         for cell in source.cells:
@@ -87,8 +88,8 @@ def _markers(cell):
 def _code(source, cell):
     """Problems of a code cell as (line in the cell, text)."""
     lines = cell.text.splitlines()
-    if source.kind == "lesson" and len(lines) > LONGEST:
-        yield 0, f"{len(lines)} lines of code: at most {LONGEST} in a lesson's cell"
+    if source.kind == "lesson" and len(lines) > MAX_CELL_LINES:
+        yield 0, f"{len(lines)} lines of code: at most {MAX_CELL_LINES} in a lesson's cell"
     if lines and lines[-1].rstrip().endswith(";"):
         yield len(lines), "a semicolon at the end does not hide a value here: write `_ = ...`"
     try:
@@ -97,7 +98,7 @@ def _code(source, cell):
         yield error.lineno or 0, f"no plain Python: {error.msg}"
         return
     try:
-        marked = regions(cell.text)
+        marked = solution_regions(cell.text)
     except SolutionError as error:
         yield error.line, error.message
         return
@@ -115,11 +116,12 @@ def _slides(source):
             )
 
 
-def _frame(source):
+def _first_and_last_cell(source):
     """Problems of the first and the last cell."""
     if not source.cells:
         return
-    first, last = source.cells[0], source.cells[-1]
+    first = source.cells[0]
+    last = [cell for cell in source.cells if not cell.text.startswith("## Appendix")][-1]
     title = heading(first.text) if first.type == "markdown" else None
     if not re.fullmatch(rf"(Exercise )?{source.number} · .+", title or ""):
         yield first, f"the first cell begins with the heading `# {source.number} · Title`"
@@ -129,7 +131,10 @@ def _frame(source):
     if source.kind == "lesson":
         wanted = f"../exercises/{source.path.stem}.ipynb" if source.number != "00" else ".ipynb"
         if last.type != "markdown" or wanted not in last.text:
-            yield last, f"the last cell says what comes next and links to {wanted}"
+            yield (
+                last,
+                f"the last cell before any appendix says what comes next and links to {wanted}",
+            )
 
 
 def _checks(source, exercise):
@@ -151,7 +156,7 @@ def _checks(source, exercise):
     if exercise and exercise.notebook != source.path.stem:
         yield source.cells[0], f"the catalogue calls this notebook {exercise.notebook!r}"
     if not exercise:
-        yield source.cells[0], f"slamlab.checks.catalogue knows no exercise {source.number!r}"
+        yield source.cells[0], f"slamlab.exercises.catalogue knows no exercise {source.number!r}"
 
 
 def _imports(cell, exercise):
@@ -167,17 +172,32 @@ def _imports(cell, exercise):
         if isinstance(node, ast.Import):
             modules = [(alias.name,) for alias in node.names]
         elif isinstance(node, ast.ImportFrom):
-            modules = [(node.module, f"{node.module}.{alias.name}") for alias in node.names]
+            modules = [
+                (
+                    node.module,
+                    _defining_module(node.module, alias.name),
+                    f"{node.module}.{alias.name}",
+                )
+                for alias in node.names
+            ]
         else:
             continue
         for names in modules:
             if names[0].split(".")[0] == "slamlab" and not allowed.intersection(names):
-                told = ", ".join(sorted(allowed))
+                listed = ", ".join(sorted(allowed))
                 yield (
                     node.lineno,
-                    f"{names[-1]} is not there at grading (only {told}): import it "
+                    f"{names[-1]} is not there at grading (only {listed}): import it "
                     "inside the function under @attempt",
                 )
+
+
+def _defining_module(module, name):
+    """The module in which a name stands that a room offers at its door."""
+    try:
+        return getattr(getattr(importlib.import_module(module), name), "__module__", module)
+    except (ImportError, AttributeError):
+        return module
 
 
 def _top_level(node):

@@ -1,4 +1,4 @@
-"""``make student``: what students get in one file: lessons, exercises, package, no solutions."""
+"""Pack the students' zip (``make student``): lessons, exercises, package, no solutions."""
 
 import sys
 import zipfile
@@ -8,13 +8,13 @@ ROOT = Path(__file__).resolve().parents[1]
 FOLDERS = ("notebooks", "exercises", "slamlab", "docs")
 FILES = ("README.md", "LICENSE", "Makefile", "lab.py", "pyproject.toml", "environment.yml",
          "requirements.lock")  # fmt: skip
-LEFT_OUT = ("__pycache__", ".ipynb_checkpoints")
+EXCLUDED = ("__pycache__", ".ipynb_checkpoints")
 TOP = "slam-course"
-EARLIEST = (1980, 1, 1, 0, 0, 0)  # no time in a zip: the same files give the same bytes
+TIMESTAMP = (1980, 1, 1, 0, 0, 0)  # no time in a zip: the same files give the same bytes
 
 
 def contents(root=ROOT):
-    """The files that students get.
+    """List the files that students get.
 
     Parameters
     ----------
@@ -27,11 +27,11 @@ def contents(root=ROOT):
     found = [root / name for name in FILES]
     for folder in FOLDERS:
         found += [path for path in (root / folder).rglob("*") if path.is_file()]
-    return sorted(path for path in found if not set(LEFT_OUT) & set(path.parts))
+    return sorted(path for path in found if not set(EXCLUDED) & set(path.parts))
 
 
 def pack(target, root=ROOT):
-    """Write the file.
+    """Write the zip file.
 
     Parameters
     ----------
@@ -41,7 +41,7 @@ def pack(target, root=ROOT):
     with zipfile.ZipFile(target, "w", zipfile.ZIP_DEFLATED) as packed:
         for path in contents(root):
             name = f"{TOP}/{path.relative_to(root).as_posix()}"
-            info = zipfile.ZipInfo(name, EARLIEST)
+            info = zipfile.ZipInfo(name, TIMESTAMP)
             info.compress_type = zipfile.ZIP_DEFLATED
             info.external_attr = (path.stat().st_mode & 0o777) << 16
             packed.writestr(info, path.read_bytes())

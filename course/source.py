@@ -1,4 +1,4 @@
-"""The text sources of the course: percent scripts read into cells with stable, human ids."""
+"""Parse the text sources of the course: percent scripts (jupytext) to cells with stable ids."""
 
 import re
 import unicodedata
@@ -20,7 +20,7 @@ _HEADING = re.compile(r"#{1,2} +(.+)")
 
 
 class CourseError(Exception):
-    """Something in a source must be mended.
+    """A source has errors that must be fixed.
 
     Parameters
     ----------
@@ -70,7 +70,7 @@ class Cell:
 
 @dataclass(frozen=True)
 class Source:
-    """One lesson or exercise as its author wrote it.
+    """The source of one lesson or exercise.
 
     Parameters
     ----------
@@ -94,7 +94,7 @@ class Source:
 
 
 def sources(root=ROOT):
-    """Every source of the course, lessons first.
+    """List every source of the course, lessons first.
 
     Parameters
     ----------
@@ -108,7 +108,7 @@ def sources(root=ROOT):
 
 
 def read(path):
-    """Read a source; its kind is told by its folder, ``lessons`` or ``exercises``.
+    """Read and parse a source; its kind is told by its folder, ``lessons`` or ``exercises``.
 
     Parameters
     ----------

@@ -15,9 +15,9 @@ from nbclient import NotebookClient
 from nbconvert import HTMLExporter
 
 from slamlab import estimators, sources, views
+from slamlab.estimators.runner import run
 from slamlab.geometry import transform
 from slamlab.layers import Points, Poses
-from slamlab.runner import run
 
 DOCS = Path(__file__).resolve().parent
 MOST = 150_000  # of a picture [bytes]

@@ -1,6 +1,42 @@
 """Simultaneous localisation and mapping, small enough to read.
 
+A source yields readings, an estimator takes them in and believes a pose and a map. The rooms, along
+the data's way:
+
+geometry         poses in the plane: wrapping angles, composition, transforms
+readings         what every source yields: scans, landmark observations, odometry
+layers           what an estimator shows: named layers of plain arrays
+files            text files, published recordings
+models           motion and observation models, their Jacobians, noise, derivation by sympy
+worlds           walls and circles, exact ray casting, ready worlds
+simulation       range scanners, a differential-drive robot with encoders, a wall follower
+devices          RPLIDAR and eMIR: drivers, emulators, raw recordings
+sources          simulations, logs, recordings, live devices: ``sources.open``
+landmarks        walls' lines by RANSAC, corners, tentative and confirmed landmarks
+scanmatching     ICP and scan-to-map matching: ``match``
+filters          Kalman filter, EKF-SLAM (``MAK``), boxes (``BOR``), particle filters
+posegraph        pose-graph optimisation, robust kernel, marginal covariances
+gridmap          occupancy grids
+estimators       every SLAM of the course: ``estimators.make``, ``estimators.run``
+evaluation       NEES, trajectory errors, relations
+views            every drawing and widget: figures, sliders, the live view, the world editor
+
+The course's own machinery:
+
+exercises        what each task asks, and the laws its answers are judged by
+parallel         many runs on processes or a Dask cluster
+grading          judge, sandbox, gradebook, late policy, similarity report
+checks           what notebooks call: ``check``, ``attempt``, ``validate``
+studies          tables of many runs, each made by a command
+cli              the command ``slamlab``
+
+Each room imports only rooms that stand above it in this list.
+
 Metres, radians, seconds. A pose is ``[x, y, theta]`` with theta counter-clockwise from +x.
 """
 
+from slamlab import _renamed
+
 __version__ = "0.1.0"
+
+_renamed.install()

@@ -1,4 +1,4 @@
-"""Poses in the plane: wrapping, composition, transforms.
+"""Poses in the plane, SE(2): wrap angles (angle wrapping), compose poses, rigid transforms.
 
 A pose is ``[x, y, theta]`` in metres and radians; a homogeneous 3x3 matrix acts on column vectors.
 Leading dimensions broadcast: ``(..., 3)`` poses are handled at once.
@@ -8,7 +8,7 @@ import numpy as np
 
 
 def wrap(angle):
-    """Wrap angles to (-pi, pi]; the only place in the package where this is done.
+    """Wrap an angle to (-pi, pi] (normalise); the only place in the package where this is done.
 
     Parameters
     ----------
@@ -29,7 +29,7 @@ def wrap(angle):
 
 
 def compose(a, b):
-    """Pose b, given in the frame of pose a, in a's own reference frame: a ⊕ b.
+    """Pose composition a ⊕ b: pose b, given in the frame of pose a, in a's own reference frame.
 
     Parameters
     ----------
@@ -52,7 +52,7 @@ def compose(a, b):
 
 
 def inverse(a):
-    """The pose that undoes a: a ⊕ inverse(a) = 0.
+    """Inverse pose, which undoes a: a ⊕ inverse(a) = 0.
 
     Parameters
     ----------
@@ -69,7 +69,7 @@ def inverse(a):
 
 
 def between(a, b):
-    """Pose b as seen from pose a: inverse(a) ⊕ b.
+    """Relative pose (increment) from a to b: b as seen from a, inverse(a) ⊕ b.
 
     Parameters
     ----------
@@ -83,7 +83,7 @@ def between(a, b):
 
 
 def transform(pose, points):
-    """Carry points from the pose's frame into its reference frame: p = R(theta) q + t.
+    """Transform points (a point cloud) from the pose's frame to its reference: p = R(theta) q + t.
 
     Parameters
     ----------
@@ -100,7 +100,7 @@ def transform(pose, points):
 
 
 def matrix(pose):
-    """The homogeneous 3x3 matrix T of a pose.
+    """The homogeneous 3x3 transformation matrix T of a pose.
 
     Parameters
     ----------
@@ -116,7 +116,7 @@ def matrix(pose):
 
 
 def from_matrix(T):
-    """The pose of a homogeneous 3x3 matrix.
+    """The pose of a homogeneous 3x3 transformation matrix.
 
     Parameters
     ----------

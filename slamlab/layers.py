@@ -1,4 +1,4 @@
-"""What an estimator shows: named layers of plain arrays, drawn by :mod:`slamlab.views`."""
+"""Layers, what an estimator shows: named plain arrays for :mod:`slamlab.views` to draw."""
 
 from dataclasses import dataclass
 
@@ -7,7 +7,7 @@ import numpy as np
 
 @dataclass(frozen=True)
 class Points:
-    """(n, 2) points [m], such as a map or the present scan."""
+    """A point cloud, (n, 2) points [m], such as a map or the present scan."""
 
     name: str
     xy: np.ndarray
@@ -15,7 +15,7 @@ class Points:
 
 @dataclass(frozen=True)
 class Segments:
-    """(n, 4) rows x1 y1 x2 y2 [m], such as walls."""
+    """Line segments, (n, 4) rows x1 y1 x2 y2 [m], such as walls or loop closures."""
 
     name: str
     rows: np.ndarray
@@ -23,7 +23,7 @@ class Segments:
 
 @dataclass(frozen=True)
 class Poses:
-    """(n, 3) poses [m, m, rad]: a robot (one row) or its track (many)."""
+    """Poses, (n, 3) [m, m, rad]: a robot (one row) or its trajectory (many)."""
 
     name: str
     rows: np.ndarray
@@ -31,7 +31,7 @@ class Poses:
 
 @dataclass(frozen=True)
 class Ellipses:
-    """(n, 2) centres [m] and (n, 2, 2) covariances [m²]."""
+    """Covariance ellipses: (n, 2) centres [m] and (n, 2, 2) covariances [m²]."""
 
     name: str
     centres: np.ndarray
@@ -40,7 +40,7 @@ class Ellipses:
 
 @dataclass(frozen=True)
 class Boxes:
-    """(n, 4) rows x_min x_max y_min y_max [m]."""
+    """Bounding boxes, (n, 4) rows x_min x_max y_min y_max [m]."""
 
     name: str
     rows: np.ndarray
@@ -48,7 +48,7 @@ class Boxes:
 
 @dataclass(frozen=True)
 class Samples:
-    """(n, 2) or (n, 3) samples with (n,) weights that sum to one."""
+    """Particles (samples): (n, 2) or (n, 3) with (n,) weights that sum to one."""
 
     name: str
     rows: np.ndarray
@@ -56,14 +56,14 @@ class Samples:
 
 
 OCCUPIED = 0.65
-"""Probability beyond which a cell of a grid is called a wall, as by ROS' map_server."""
+"""Occupancy probability beyond which a grid cell is called occupied, as by ROS' map_server."""
 
 
 @dataclass(frozen=True)
 class Grid:
-    """(rows, columns) probabilities that cells of a side [m] are occupied; row 0 lies lowest.
+    """An occupancy grid: (rows, columns) probabilities that cells of a side [m] are occupied.
 
-    ``origin`` (2,) is the lower left corner of the cell in row 0, column 0 [m]; 0.5 is unknown.
+    0.5 is unknown. ``origin`` (2,) is the lower left corner of cell (0, 0) [m]; row 0 lies lowest.
     """
 
     name: str

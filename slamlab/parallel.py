@@ -1,4 +1,4 @@
-"""Many independent runs: on processes of this machine, or the same function on a Dask cluster."""
+"""Parallel Monte Carlo runs: on a process pool of this machine, or on a Dask cluster."""
 
 import multiprocessing
 import os
@@ -7,8 +7,8 @@ from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
 from functools import partial
 
-# one run a core: threads inside a run would only fight for it
-THREADS = (
+# environment variables of BLAS and OpenMP; one run a core: its threads would only fight for it
+THREAD_VARIABLES = (
     "OMP_NUM_THREADS",
     "OPENBLAS_NUM_THREADS",
     "MKL_NUM_THREADS",
@@ -17,11 +17,11 @@ THREADS = (
 
 
 class RunError(RuntimeError):
-    """A run failed; the text names its seed and what went wrong."""
+    """A parallel run failed; the text names its seed and what went wrong."""
 
 
 def map_runs(function, seeds, jobs=None, scheduler=None):
-    """What a function gives for each seed, in the order of the seeds.
+    """Map a function over seeds in parallel; results in the order of the seeds.
 
     Parameters
     ----------
@@ -42,7 +42,7 @@ def map_runs(function, seeds, jobs=None, scheduler=None):
     seeds = list(seeds)
     if jobs is not None and jobs < 1:
         raise ValueError(f"jobs is the number of processes, at least 1, not {jobs}")
-    named = partial(_named, function)
+    named = partial(_run_seed, function)
     if scheduler is not None:
         return _on_cluster(named, seeds, scheduler)
     jobs = min(jobs or os.cpu_count() or 1, len(seeds))
@@ -51,8 +51,8 @@ def map_runs(function, seeds, jobs=None, scheduler=None):
     return _on_processes(named, seeds, jobs)
 
 
-def _named(function, seed):
-    """Run; a failure says of which seed."""
+def _run_seed(function, seed):
+    """Run one seed; an error names it."""
     try:
         return function(seed)
     except Exception as error:
@@ -62,9 +62,9 @@ def _named(function, seed):
 def _on_processes(function, seeds, jobs):
     # spawned, not forked: the same on every system, and BLAS reads its threads at its start
     context = multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(jobs, mp_context=context, initializer=_die_quietly) as pool:
+    with ProcessPoolExecutor(jobs, mp_context=context, initializer=_default_sigint) as pool:
         try:
-            with _one_thread(), _interrupts_held():
+            with _single_threaded(), _sigint_blocked():
                 futures = [pool.submit(function, seed) for seed in seeds]
             return [future.result() for future in futures]
         except BaseException:  # an interrupt too: what has not begun is not begun
@@ -72,16 +72,16 @@ def _on_processes(function, seeds, jobs):
             raise
 
 
-def _die_quietly():
-    """Ctrl-C reaches every process: one that works for another just ends, without a traceback."""
+def _default_sigint():
+    """Worker initialiser: Ctrl-C reaches every process; a worker just ends, without a traceback."""
     signal.signal(signal.SIGINT, signal.SIG_DFL)
     if hasattr(signal, "pthread_sigmask"):
         signal.pthread_sigmask(signal.SIG_UNBLOCK, [signal.SIGINT])
 
 
 @contextmanager
-def _interrupts_held():
-    """Ctrl-C waits until the processes are on their way, and in them until they can take it.
+def _sigint_blocked():
+    """Block SIGINT (Ctrl-C) until the processes are started, and in them until they can take it.
 
     Where signals cannot be held (Windows), one in that moment shows a traceback more.
     """
@@ -96,10 +96,10 @@ def _interrupts_held():
 
 
 @contextmanager
-def _one_thread():
-    """Processes started meanwhile compute on one thread each."""
-    before = {name: os.environ.get(name) for name in THREADS}
-    os.environ.update(dict.fromkeys(THREADS, "1"))
+def _single_threaded():
+    """Single-threaded BLAS: processes started meanwhile compute on one thread each."""
+    before = {name: os.environ.get(name) for name in THREAD_VARIABLES}
+    os.environ.update(dict.fromkeys(THREAD_VARIABLES, "1"))
     try:
         yield
     finally:

@@ -1,4 +1,4 @@
-"""What a source yields: scans, landmark observations, readings; and trajectories."""
+"""Sensor data that a source yields: lidar scans, landmark observations, readings; trajectories."""
 
 from dataclasses import dataclass, field
 
@@ -7,7 +7,7 @@ import numpy as np
 
 @dataclass(frozen=True)
 class Scan:
-    """One turn of a range sensor, in the robot's frame.
+    """A range scan (lidar): one turn of a range sensor, in the robot's frame.
 
     Parameters
     ----------
@@ -24,19 +24,19 @@ class Scan:
 
     @property
     def valid(self):
-        """(n,) bool: the beams that hit something within range."""
+        """(n,) bool mask of the valid beams, that hit something within range."""
         with np.errstate(invalid="ignore"):
             return (self.ranges > self.range_min) & (self.ranges < self.range_max)
 
     def points(self):
-        """(k, 2) the points hit, in the robot's frame [m], in the order of the beams."""
+        """The scan as a point cloud: (k, 2) points hit, in the robot's frame [m], in beam order."""
         r, a = self.ranges[self.valid], self.angles[self.valid]
         return np.column_stack([r * np.cos(a), r * np.sin(a)])
 
 
 @dataclass(frozen=True)
 class Observations:
-    """Landmarks seen at one moment.
+    """Landmark observations (measurements) of one moment: range, bearing, id.
 
     Parameters
     ----------
@@ -52,12 +52,12 @@ class Observations:
 
 @dataclass(frozen=True)
 class Reading:
-    """What a robot knows at one moment.
+    """One time step of sensor data: odometry increment, scan and landmark observations.
 
     Parameters
     ----------
     time : float [s]
-    odometry : (3,) motion since the last reading, in the frame of the pose then [m, m, rad]
+    odometry : (3,) increment since the last reading, in the frame of the pose then [m, m, rad]
     scan : Scan or None
     observations : Observations or None
     control : (k,) array or None, the command that was driven (its meaning: the source's robot)
@@ -72,7 +72,7 @@ class Reading:
 
 @dataclass(frozen=True)
 class Trajectory:
-    """Poses over time.
+    """A trajectory: timestamped poses.
 
     Parameters
     ----------

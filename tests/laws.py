@@ -1,4 +1,4 @@
-"""What the laws of several test modules share: generic poses and landmarks, finite differences."""
+"""Shared by property tests: hypothesis strategies of poses and landmarks, finite differences."""
 
 import numpy as np
 from hypothesis import strategies as st
@@ -20,12 +20,13 @@ def same_angle(a, b, tolerance=1e-9):
 
 
 def assert_same_pose(a, b, tolerance=1e-9):
+    """Assert that poses are equal up to whole turns of the heading."""
     np.testing.assert_allclose(a[..., :2], b[..., :2], rtol=0, atol=tolerance)
     assert same_angle(a[..., 2], b[..., 2], tolerance)
 
 
 def finite_differences(f, at, angular, step=1e-6):
-    """Central differences of f; rows flagged in ``angular`` are taken along the shorter way."""
+    """Jacobian of f by central finite differences; rows flagged in ``angular`` are wrapped."""
     columns = []
     for unit in np.eye(len(at)):
         difference = f(at + step * unit) - f(at - step * unit)

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from slamlab import sources, worlds
-from slamlab.follower import WallFollower
 from slamlab.geometry import compose
-from slamlab.simulator import DifferentialDrive, Simulator
-from slamlab.sources import Source, arena
-from slamlab.sources.arena import LAPS, ROBOT, ArenaRun, data_set
+from slamlab.simulation.differential_drive import DifferentialDrive, Simulator
+from slamlab.simulation.wall_follower import WallFollower
+from slamlab.sources import Source, arena_runs
+from slamlab.sources.arena_runs import LAPS, ROBOT, ArenaRun, data_set
 from slamlab.studies.three import with_corners
 from tests.laws import assert_same_pose
 
@@ -56,7 +56,7 @@ class Watched(Simulator):
 
 
 def test_the_follower_never_touches_a_wall(monkeypatch):
-    monkeypatch.setattr(arena, "Simulator", Watched)
+    monkeypatch.setattr(arena_runs, "Simulator", Watched)
     for seed in range(15):
         Watched.way.clear()
         source = ArenaRun(RNG(seed), laps=1)
@@ -68,7 +68,7 @@ def test_the_follower_never_touches_a_wall(monkeypatch):
 def test_three_laps_are_closed_with_about_a_hundred_scans_each(seed):
     source = ArenaRun(RNG(seed))
     assert 90 * LAPS < len(source) < 130 * LAPS
-    x, y = (source.truth.poses[:, :2] - arena.MIDDLE).T
+    x, y = (source.truth.poses[:, :2] - arena_runs.BOX_CENTRE).T
     round_about = np.unwrap(np.arctan2(y, x))
     assert (
         2 * np.pi * LAPS <= round_about[0] - round_about[-1] < 2 * np.pi * LAPS + 0.5
@@ -85,7 +85,7 @@ def test_every_scan_is_of_ninety_readings_two_degrees_apart_and_none_is_beyond_t
         np.testing.assert_allclose(np.diff(reading.scan.angles), np.radians(2))
         assert len(reading.scan.ranges) == 90
         assert np.nanmax(reading.scan.ranges, initial=0) <= 0.28
-    assert np.all(np.diff(source.truth.times) >= arena.SCAN_SECONDS)
+    assert np.all(np.diff(source.truth.times) >= arena_runs.SCAN_SECONDS)
 
 
 def test_a_perfect_robots_odometry_is_the_truth():

@@ -1,18 +1,18 @@
-"""BOR as an estimator: bounds of so many sigmas, boxes to draw, and it says when it is lost."""
+"""Set-membership SLAM (BOR) as an estimator: bounds of so many sigmas, boxes, when it is lost."""
 
 import numpy as np
 import pytest
 
 from slamlab import estimators
-from slamlab.estimators.bor import BorSlam, bounds
-from slamlab.hardware import RobotModel
+from slamlab.estimators.bor_slam import BorSlam, bounds
+from slamlab.estimators.runner import run
 from slamlab.layers import Boxes, Points, Poses
-from slamlab.noise import C_wheels
+from slamlab.models.noise import C_wheels
+from slamlab.models.parameters import RobotModel
 from slamlab.readings import Observations, Reading
-from slamlab.runner import run
-from slamlab.simulator import arc
+from slamlab.simulation.differential_drive import arc
 from slamlab.sources import simulation
-from slamlab.sources.landmarks import LandmarkRun, Loop
+from slamlab.sources.landmark_runs import LandmarkRun, Loop
 from slamlab.studies.boxes import inside, outside
 
 CALM = Loop(steps=80, v_sigma=0.004, omega_sigma=0.002, range_sigma=0.02, bearing_sigma=0.005)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from slamlab.filters.bor import BOR
-from slamlab.studies.boxes import TABLE, Bounded, BoundedRun, counted, main, outside, study
+from slamlab.studies.boxes import TABLE, BoundedNoise, BoundedRun, main, outside, study, violations
 
 
 def test_whatever_of_the_truth_lies_outside_is_named():
@@ -24,7 +24,7 @@ def test_whatever_of_the_truth_lies_outside_is_named():
 @pytest.mark.parametrize("at_ends", [True, False])
 @pytest.mark.parametrize("drive", ["odometry", "wheels", "steered"])
 def test_noise_stays_inside_its_bounds_and_reaches_them_where_it_should(drive, at_ends):
-    world = Bounded(drive=drive, seeing=(0.2, 0.1), at_ends=at_ends, share=1)
+    world = BoundedNoise(drive=drive, seeing=(0.2, 0.1), at_ends=at_ends, share=1)
     run, off = BoundedRun(world, np.random.default_rng(0)), []
     for _, seen in run:
         d = run.objects - run.pose[:2]
@@ -41,13 +41,13 @@ def test_bounds_that_are_told_too_narrow_are_counted_as_outside_or_empty():
 
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("slamlab.studies.boxes.BoundedRun", Liar)
-        found = counted(0, Bounded(at_ends=True))
+        found = violations(0, BoundedNoise(at_ends=True))
     assert found["outside"] > 100
     assert found["empty"] > 0
 
 
 def test_the_same_seeds_give_the_same_table():
-    first, second = (study(3, Bounded(), jobs=1) for _ in range(2))
+    first, second = (study(3, BoundedNoise(), jobs=1) for _ in range(2))
     assert first == second
     assert first["counted"]["steps"] == 600
 

@@ -12,7 +12,7 @@ import pytest
 from slamlab import estimators, sources
 from slamlab.cli import main
 from slamlab.cli.run import COLUMNS
-from slamlab.runner import run
+from slamlab.estimators.runner import run
 from slamlab.sources import SourceError
 
 

@@ -1,4 +1,4 @@
-"""Trajectory errors and the relations error."""
+"""Trajectory errors (ATE, RPE) and the relations error."""
 
 import gzip
 

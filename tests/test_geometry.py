@@ -1,4 +1,4 @@
-"""The laws of wrapping and of the group of poses."""
+"""The laws of angle wrapping and of SE(2), the group of poses in the plane."""
 
 import numpy as np
 import pytest

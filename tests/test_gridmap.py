@@ -1,4 +1,4 @@
-"""Occupancy grids: what rays cross, what a map forgets, and how ROS keeps it."""
+"""Occupancy grids: ray traversal, log-odds updates and their clamp, ROS map_server files."""
 
 from math import ceil
 
@@ -10,14 +10,14 @@ from hypothesis import strategies as st
 from PIL import Image
 
 from slamlab import views
-from slamlab.gridmap import OccupancyGrid, build, mapserver
-from slamlab.gridmap.grid import CERTAIN, FREE, HIT, MISS, OCCUPIED, log_odds
-from slamlab.gridmap.rays import crossed
+from slamlab.gridmap import OccupancyGrid, build, map_server
+from slamlab.gridmap.occupancy_grid import CLAMP, FREE, HIT, MISS, OCCUPIED, log_odds
+from slamlab.gridmap.ray_traversal import crossed_cells
 from slamlab.layers import Grid
 from slamlab.readings import Scan
 from slamlab.sources import simulation
-from slamlab.world import World
 from slamlab.worlds.shapes import box
+from slamlab.worlds.world import World
 from tests.laws import points, poses
 
 RESOLUTION = 0.1
@@ -38,7 +38,7 @@ def at(grid, xy):
     return grid.states[j, i]
 
 
-def along(start, end, cell):
+def share_within(start, end, cell):
     """How much of a line, as a share of it, lies within a cell; negative where it misses."""
     low, high = 0.0, 1.0
     for axis in (0, 1):
@@ -63,7 +63,7 @@ def test_exactly_the_cells_on_the_way_are_crossed_and_the_last_is_not(start, end
     start, ends = start + OFF_EDGES, [end + OFF_EDGES for end in ends]
     for place in (start, *ends):
         assume(np.abs(place - np.round(place)).min() > 1e-6)
-    found = {tuple(cell) for cell in crossed(start, np.array(ends))}
+    found = {tuple(cell) for cell in crossed_cells(start, np.array(ends))}
     lasts = {tuple(np.floor(end).astype(int)) for end in ends}
     certain, possible = set(), set()
     for end in ends:
@@ -73,7 +73,7 @@ def test_exactly_the_cells_on_the_way_are_crossed_and_the_last_is_not(start, end
             for j in range(low[1], high[1] + 1):
                 if (i, j) == tuple(np.floor(end).astype(int)):
                     continue
-                share = along(start, end, (i, j))
+                share = share_within(start, end, (i, j))
                 if share > 1e-9:
                     certain.add((i, j))
                 if share > -1e-9:
@@ -124,13 +124,13 @@ def test_moved_furniture_vanishes_and_comes_back():
     for _ in range(200):
         grid.add(pose, with_chair)
     assert (at(grid, side) == 1).all()
-    most = ceil((log_odds(CERTAIN) - log_odds(FREE)) / -log_odds(MISS))
+    most = ceil((log_odds(CLAMP) - log_odds(FREE)) / -log_odds(MISS))
     for _ in range(most):
         grid.add(pose, without)
     assert (at(grid, side) == 0).all() and most <= 13
     for _ in range(200):
         grid.add(pose, without)
-    for _ in range(ceil((log_odds(CERTAIN) + log_odds(OCCUPIED)) / log_odds(HIT))):
+    for _ in range(ceil((log_odds(CLAMP) + log_odds(OCCUPIED)) / log_odds(HIT))):
         grid.add(pose, with_chair)
     assert (at(grid, side) == 1).all()
 
@@ -168,9 +168,9 @@ def test_a_map_far_from_the_origin_takes_no_more_room():
 @pytest.mark.parametrize(
     ("use", "says"),
     [
-        (lambda: OccupancyGrid(0), "wider than 0 m"),
-        (lambda: OccupancyGrid(np.nan), "wider than 0 m"),
-        (lambda: build([[0, np.nan, 0]], [scan_of([ROOM], np.zeros(3))]), "not finite"),
+        (lambda: OccupancyGrid(0), "above 0 m"),
+        (lambda: OccupancyGrid(np.nan), "above 0 m"),
+        (lambda: build([[0, np.nan, 0]], [scan_of([ROOM], np.zeros(3))]), "must be finite"),
         (lambda: build([[0, 0, 0], [1e7, 1e7, 0]], [scan_of([ROOM], np.zeros(3))] * 2), "be held"),
     ],
 )
@@ -187,18 +187,18 @@ def room():
 
 
 def test_save_and_load_are_inverse(room, tmp_path):
-    path = mapserver.save(room, tmp_path / "map")
-    again = mapserver.load(path)
+    path = map_server.save(room, tmp_path / "map")
+    again = map_server.load(path)
     np.testing.assert_array_equal(again.states, room.states)
     np.testing.assert_array_equal(again.origin, room.origin)
     assert again.resolution == room.resolution
     before = path.read_bytes(), path.with_suffix(".png").read_bytes()
-    mapserver.save(again, tmp_path / "map.yaml")
+    map_server.save(again, tmp_path / "map.yaml")
     assert (path.read_bytes(), path.with_suffix(".png").read_bytes()) == before
 
 
 def test_a_map_that_was_loaded_goes_on_being_updated(room, tmp_path):
-    grid = mapserver.load(mapserver.save(room, tmp_path / "map"))
+    grid = map_server.load(map_server.save(room, tmp_path / "map"))
     pose = np.array([0.5, 0.2, 0.3])
     for _ in range(15):
         grid.add(pose, scan_of([ROOM], pose))
@@ -207,7 +207,7 @@ def test_a_map_that_was_loaded_goes_on_being_updated(room, tmp_path):
 
 
 def test_the_files_are_what_map_server_expects(room, tmp_path):
-    path = mapserver.save(room, tmp_path / "a map.of ours")
+    path = map_server.save(room, tmp_path / "a map.of ours")
     told = yaml.safe_load(path.read_text())
     assert told["resolution"] == 0.07 and told["negate"] == 0 and told["mode"] == "trinary"
     with Image.open(path.parent / told["image"]) as image:
@@ -225,18 +225,18 @@ def test_the_files_are_what_map_server_expects(room, tmp_path):
     assert (p[grey == 205] > told["free_thresh"]).all()
 
 
-def test_maps_of_others_are_read(tmp_path):
+def test_map_server_files_of_others_are_loaded(tmp_path):
     grey = np.array([[0, 255, 100], [254, 0, 205]], np.uint8)
     Image.fromarray(grey).save(tmp_path / "theirs.pgm")
     head = "# made by another\nimage: theirs.pgm  # beside this\nresolution: 0.5\n"
     (tmp_path / "a.yaml").write_text(head + "origin: [-1, 2.5, 0.0]\nnegate: 0\n")
-    grid = mapserver.load(tmp_path / "a.yaml")
+    grid = map_server.load(tmp_path / "a.yaml")
     np.testing.assert_array_equal(grid.states, [[0, 1, -1], [1, 0, -1]])
     np.testing.assert_array_equal(grid.origin, [-1, 2.5])
     listed = head + "origin:\n- -1.0\n- 2.5\n- 0.0\nnegate: 1\nfree_thresh: 0.3\n"
     (tmp_path / "b.yaml").write_text(listed)
     assert yaml.safe_load(listed)["origin"] == [-1, 2.5, 0]
-    other = mapserver.load(tmp_path / "b.yaml")
+    other = map_server.load(tmp_path / "b.yaml")
     np.testing.assert_array_equal(other.states, [[1, 0, 1], [0, 1, -1]])
 
 
@@ -246,31 +246,31 @@ GOOD = "image: map.png\nresolution: 0.1\norigin: [0, 0, 0]\n"
 @pytest.mark.parametrize(
     ("text", "says"),
     [
-        ("resolution: 0.1\norigin: [0, 0, 0]\n", "says nothing of image"),
-        (GOOD.replace("map.png", "none.png"), "its picture cannot be read"),
-        (GOOD.replace("map.png", "map.yaml"), "its picture cannot be read"),
-        (GOOD.replace("0.1", "-0.1"), "wider than 0 m"),
+        ("resolution: 0.1\norigin: [0, 0, 0]\n", "key image is missing"),
+        (GOOD.replace("map.png", "none.png"), "its image cannot be read"),
+        (GOOD.replace("map.png", "map.yaml"), "its image cannot be read"),
+        (GOOD.replace("0.1", "-0.1"), "above 0 m"),
         (GOOD.replace("0.1", "wide"), "no YAML of a map"),
         (GOOD.replace("[0, 0, 0]", "[0, 0]"), "no YAML of a map"),
-        (GOOD.replace("[0, 0, 0]", "[0, 0, 1.5]"), "turned by 1.5 rad"),
+        (GOOD.replace("[0, 0, 0]", "[0, 0, 1.5]"), "rotated by 1.5 rad"),
         (GOOD + "mode: raw\n", "mode raw"),
-        ("- 1\n", "says nothing of image"),
+        ("- 1\n", "key image is missing"),
         ("origin: [0, x, 0]\n" + GOOD[:31], "no YAML of a map"),
     ],
 )
 def test_damaged_maps_are_refused_in_one_line(room, tmp_path, text, says):
-    mapserver.save(room, tmp_path / "map")
+    map_server.save(room, tmp_path / "map")
     (tmp_path / "map.yaml").write_text(text)
     with pytest.raises(ValueError, match=says) as refused:
-        mapserver.load(tmp_path / "map.yaml")
+        map_server.load(tmp_path / "map.yaml")
     assert "\n" not in str(refused.value)
 
 
 def test_what_cannot_be_written_is_refused(room, tmp_path):
     with pytest.raises(ValueError, match="no cell yet"):
-        mapserver.save(OccupancyGrid(), tmp_path / "map")
+        map_server.save(OccupancyGrid(), tmp_path / "map")
     with pytest.raises(ValueError, match="cannot be written"):
-        mapserver.save(room, tmp_path / "missing" / "map")
+        map_server.save(room, tmp_path / "missing" / "map")
 
 
 def test_a_grid_is_drawn_where_it_lies_with_walls_in_its_colour():

@@ -1,15 +1,15 @@
-"""Tuček's SLAM: one test for each erratum of its listing, and what it must reach."""
+"""ICP SLAM (Tuček's): one test for each erratum of its listing, and what it must reach."""
 
 import numpy as np
 import pytest
 
 from slamlab import estimators, sources
-from slamlab.estimators.icp import IcpSlam, stands_still
+from slamlab.estimators.icp_slam import IcpSlam, stands_still
+from slamlab.estimators.runner import run
 from slamlab.geometry import between, compose, transform
 from slamlab.readings import Reading, Scan
-from slamlab.runner import run
 from slamlab.scanmatching import point_to_point
-from slamlab.sensors import RPLIDAR_A2
+from slamlab.simulation.range_scanners import RPLIDAR_A2
 from slamlab.worlds import polygon
 
 PATH = [np.zeros(3)]

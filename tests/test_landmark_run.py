@@ -7,12 +7,10 @@ import pytest
 
 from slamlab import sources
 from slamlab.geometry import between, compose, wrap
-from slamlab.models import g, h
-from slamlab.sources.landmarks import CLEARANCE, LandmarkRun, Loop
+from slamlab.models.observation import g, h
+from slamlab.sources.landmark_runs import CLEARANCE, LandmarkRun, Loop
 
 QUIET = Loop(v_sigma=0.0, omega_sigma=0.0, range_sigma=0.0, bearing_sigma=0.0)
-
-
 DEFAULT = Loop()
 
 

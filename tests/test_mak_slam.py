@@ -1,4 +1,4 @@
-"""MAK as an estimator: it beats odometry, believes no more than it knows, draws what it has."""
+"""EKF-SLAM (MAK) as an estimator: it beats odometry, is consistent, draws what it has."""
 
 from dataclasses import replace
 
@@ -6,16 +6,16 @@ import numpy as np
 import pytest
 
 from slamlab import estimators
-from slamlab.estimators.mak import MakSlam, Q_arc
+from slamlab.estimators.mak_slam import MakSlam, Q_arc
+from slamlab.estimators.runner import run
 from slamlab.evaluation import absolute_error, band, nees
 from slamlab.geometry import compose, wrap
-from slamlab.hardware import RobotModel
 from slamlab.layers import Ellipses, Points, Poses
+from slamlab.models.parameters import RobotModel
 from slamlab.readings import Observations, Reading
-from slamlab.runner import run
-from slamlab.simulator import arc
+from slamlab.simulation.differential_drive import arc
 from slamlab.sources import Source, simulation
-from slamlab.sources.landmarks import LandmarkRun, Loop
+from slamlab.sources.landmark_runs import LandmarkRun, Loop
 
 BRIEF = Loop(steps=60, landmarks=12)
 
@@ -36,7 +36,7 @@ def pose_nees(seed, name):
 
 
 @pytest.mark.parametrize("name", ["mak", "mak-first-estimates"])
-def test_it_beats_odometry_on_a_loop_and_finds_every_landmark_it_saw(name):
+def test_it_beats_dead_reckoning_on_a_loop_and_finds_every_landmark_it_saw(name):
     source = simulation("landmarks", np.random.default_rng(2))
     result = after(source, name)
     mak, naive = (absolute_error(t, source.truth) for t in (result.trajectory, result.naive))
@@ -48,7 +48,7 @@ def test_it_beats_odometry_on_a_loop_and_finds_every_landmark_it_saw(name):
 
 
 @pytest.mark.parametrize("name", ["mak", "mak-first-estimates"])
-def test_over_a_short_way_its_nees_lies_in_its_band(name):
+def test_over_a_short_drive_it_is_consistent_its_nees_lies_in_its_band(name):
     runs = 50
     pose, landmarks = np.mean([pose_nees(seed, name) for seed in range(runs)], axis=0)
     low, high = band(3, runs, 0.9999)
@@ -95,32 +95,32 @@ def without_names(reading):
     return replace(reading, observations=Observations(seen.z, np.full(len(seen.ids), -1)))
 
 
-def test_without_names_it_pairs_by_distance_and_finds_the_same_map_where_landmarks_stand_apart():
+def test_without_names_data_association_gives_the_same_map_where_landmarks_stand_apart():
     precise = replace(BRIEF, landmarks=8, range_sigma=0.01, omega_sigma=0.002)
     source = LandmarkRun(precise, np.random.default_rng(1))
     named = after(source).estimator
     slam = MakSlam(source.robot, source.sensor)
     for reading in source:
         slam.step(without_names(reading))
-    assert slam.names.unclear == 0
+    assert slam.association.ambiguous == 0
     assert all(i < 0 for i in slam.filter.ids)
     np.testing.assert_allclose(slam.filter.x, named.filter.x, atol=1e-12)
 
 
-def test_a_sighting_between_known_and_new_is_left_out_and_counted():
+def test_an_ambiguous_observation_is_ignored_and_counted():
     slam = MakSlam(RobotModel(), replace(Loop().sensor, range_sigma=0.1, bearing_sigma=0.01))
     see = [Observations(np.array([[r, 0.5]]), np.array([-1])) for r in (2.0, 2.7, 4.0)]
     for k, observations in enumerate(see):  # 0, 5 and 14 standard deviations off
         slam.step(Reading(float(k), observations=observations))
-    assert len(slam.filter.ids) == 2 and slam.names.unclear == 1
-    assert "2 landmarks, 1 sightings unclear" in slam.status
+    assert len(slam.filter.ids) == 2 and slam.association.ambiguous == 1
+    assert "2 landmarks, 1 ambiguous observations" in slam.status
 
 
-def test_two_sightings_of_one_reading_are_never_one_landmark():
+def test_two_observations_of_one_reading_are_never_one_landmark():
     slam = MakSlam(RobotModel(), Loop().sensor)
     for k, z in enumerate(([[2.0, 0.5]], [[2.0, 0.5], [2.01, 0.5]])):
         slam.step(Reading(float(k), observations=Observations(np.array(z), np.full(len(z), -1))))
-    assert len(slam.filter.ids) == 1 and slam.names.unclear == 1
+    assert len(slam.filter.ids) == 1 and slam.association.ambiguous == 1
 
 
 def steps_apart(smoothing, seed):
@@ -145,7 +145,7 @@ def test_smoothing_makes_the_shown_pose_calmer_and_wrong_and_leaves_the_filter_a
 
 
 @pytest.mark.parametrize("smoothing", [-0.1, 1.0, np.nan])
-def test_a_smoothing_that_never_listens_is_refused(smoothing):
+def test_a_smoothing_outside_its_range_is_refused(smoothing):
     with pytest.raises(ValueError, match="smoothing is from 0"):
         MakSlam(RobotModel(), Loop().sensor, smoothing=smoothing)
 

@@ -1,4 +1,4 @@
-"""Laws of the matcher: how near, how far, how sure, and when it says no."""
+"""Laws of the matcher: accuracy, basin of convergence, covariance, and rejection."""
 
 from functools import cache
 
@@ -10,11 +10,11 @@ from hypothesis import strategies as st
 from slamlab import worlds
 from slamlab.geometry import between, compose, inverse, transform, wrap
 from slamlab.scanmatching import match, surface
-from slamlab.scanmatching.coarse import candidates
-from slamlab.scanmatching.fits import noise, ordered_fits
-from slamlab.sensors import RPLIDAR_A2, Scanner
-from slamlab.world import World
+from slamlab.scanmatching.correlative_search import candidate_poses
+from slamlab.scanmatching.local_line_fits import fit_scan_lines, range_noise
+from slamlab.simulation.range_scanners import RPLIDAR_A2, Scanner
 from slamlab.worlds import ring
+from slamlab.worlds.world import World
 
 seeds = st.integers(0, 2**32 - 1)
 poses = st.tuples(st.floats(-5, 5), st.floats(-5, 5), st.floats(-3.1, 3.1)).map(np.array)
@@ -41,25 +41,25 @@ def room_pairs(count):
     return found
 
 
-def apart(a, b):
+def pose_difference(a, b):
     """Distance [m] and turn [rad] between two poses."""
     d = between(a, b)
     return np.hypot(d[0], d[1]), abs(d[2])
 
 
-def squared(error, covariance):
+def squared_mahalanobis(error, covariance):
     """eᵀ P⁻¹ e, its turn wrapped."""
     error = np.array([*error[:2], wrap(float(error[2]))])
     return error @ np.linalg.solve(covariance, error)
 
 
-def test_true_motions_are_recovered_within_the_covariance_that_is_told():
+def test_true_motions_are_recovered_within_the_reported_covariance():
     nees = []
     for source, target, true, guess in room_pairs(120):
         found = match(source, target, guess)
         assert found.good
         assert not found.searched
-        nees.append(squared(found.pose - true, found.covariance))
+        nees.append(squared_mahalanobis(found.pose - true, found.covariance))
     # χ² of 3 degrees has the mean 3; lines bent at corners cost some of it
     assert 2.2 < np.mean(nees) < 4.5
     assert np.mean(np.array(nees) > 11.34) < 0.08  # where 1 % should be
@@ -85,7 +85,7 @@ def test_turning_both_clouds_turns_the_result(seed, turn):
     turned = match(transform(frame, source), transform(frame, target), guess)
     back = compose(compose(inverse(frame), turned.pose), frame)
     # sectors of the round are where they were: pairs differ by a beam here and there
-    assert squared(back - plain.pose, plain.covariance) < 0.5
+    assert squared_mahalanobis(back - plain.pose, plain.covariance) < 0.5
 
 
 @settings(max_examples=15)
@@ -97,15 +97,15 @@ def test_moving_both_clouds_moves_the_result_within_its_covariance(seed, frame):
     guess = compose(compose(frame, PAIR), inverse(frame))
     moved = match(transform(frame, source), transform(frame, target), guess)
     back = compose(compose(inverse(frame), moved.pose), frame)
-    assert np.linalg.norm(apart(back, PAIR)) < 0.015
-    assert squared(back - plain.pose, plain.covariance) < 40
+    assert np.linalg.norm(pose_difference(back, PAIR)) < 0.015
+    assert squared_mahalanobis(back - plain.pose, plain.covariance) < 40
 
 
 def test_exchanging_source_and_target_inverts_the_result_within_its_covariance():
     differences = []
     for source, target, _, guess in room_pairs(40):
         there, back = match(source, target, guess), match(target, source, inverse(guess))
-        differences.append(squared(inverse(back.pose) - there.pose, there.covariance))
+        differences.append(squared_mahalanobis(inverse(back.pose) - there.pose, there.covariance))
     # the same noise is in both; with noise of their own they would differ by 6
     assert np.mean(differences) < 3
 
@@ -127,7 +127,7 @@ def test_a_shuffled_cloud_is_no_scan_and_matches_as_well():
         rng = np.random.default_rng(0)
         found = match(rng.permutation(source), rng.permutation(target), guess)
         assert surface(rng.permutation(source)).bearings is None
-        assert np.linalg.norm(apart(found.pose, true)) < 0.015
+        assert np.linalg.norm(pose_difference(found.pose, true)) < 0.015
         assert found.good
 
 
@@ -146,14 +146,14 @@ def test_few_beams_and_many_narrow_fields_and_wide_small_rooms_and_halls(beams, 
             world, motion, np.random.default_rng(seed), lidar, [0.2 * scale, 0.1 * scale, 0.3]
         )
         found = match(*clouds, motion * 0.6)
-        distance, turn = apart(found.pose, motion)
+        distance, turn = pose_difference(found.pose, motion)
         assert found.good
         assert distance < 0.015 * scale
         assert turn < 0.01
 
 
 @pytest.mark.parametrize("heading", [0.0, 0.5, -1.2])
-def test_a_bare_corridor_slides_along_itself_and_the_matcher_says_so(heading):
+def test_a_bare_corridor_is_a_degenerate_direction_and_the_verdict_says_so(heading):
     walls = World([[-60, -1, 60, -1], [-60, 1.2, 60, 1.2]])
     lidar = Scanner(range_error=0.005)
     true, guess = np.array([0.3, 0.05, 0.04]), np.array([0.1, 0.0, 0.0])
@@ -168,7 +168,7 @@ def test_a_bare_corridor_slides_along_itself_and_the_matcher_says_so(heading):
     along = np.array([np.cos(heading), -np.sin(heading), 0.0])
     assert abs(seen.directions[:, 0] @ along) > 0.99
     assert f"slides along {np.degrees(-heading) % 180:.0f}°" in found.verdict or heading == 0.0
-    assert "slides along" in found.verdict
+    assert "degenerate: slides along" in found.verdict
     # across and in turn it is right, along it stays where the guess was, and it knows
     error = transform(place, [found.pose[:2]])[0] - [0.0, true[1]]
     assert abs(error[1]) < 0.01
@@ -177,12 +177,12 @@ def test_a_bare_corridor_slides_along_itself_and_the_matcher_says_so(heading):
     assert along[:2] @ found.covariance[:2, :2] @ along[:2] > 0.5
 
 
-def test_a_round_room_leaves_the_turn_open_and_a_corner_nothing():
+def test_a_round_room_is_degenerate_in_heading_and_a_corner_is_not():
     lidar = Scanner(range_error=0.004)
     silo = World(circles=[(0.0, 0.0, 3.0)])
     clouds = scans(silo, [0.2, 0.1, 0.4], np.random.default_rng(0), lidar, [0, 0, 0])
     turning = match(*clouds)
-    assert "turns freely" in turning.verdict
+    assert "degenerate: turns freely" in turning.verdict
     assert abs(turning.pose[2]) < 0.03
     # round the middle of the room, where the first scan was taken
     assert np.hypot(*turning.pose[:2]) == pytest.approx(np.hypot(0.2, 0.1), abs=0.005)
@@ -192,7 +192,7 @@ def test_a_round_room_leaves_the_turn_open_and_a_corner_nothing():
     assert cornered.observability.fixed.all()
 
 
-def test_scans_of_different_places_are_refused():
+def test_scans_of_different_places_are_rejected():
     lidar, refused = RPLIDAR_A2, 0
     names = ["room", "corridor", "situation-2", "polygon"]
     clouds = [lidar.scan(worlds.by_name(n), [0, 0, 0.2], np.random.default_rng(0)) for n in names]
@@ -206,7 +206,7 @@ def test_scans_of_different_places_are_refused():
     assert refused == 12
 
 
-def test_clouds_that_share_too_little_are_refused():
+def test_clouds_with_too_little_overlap_are_rejected():
     source, target = scans(worlds.room(), PAIR, np.random.default_rng(0))
     found = match(source + 50, target, search=0)
     assert not found.good
@@ -215,16 +215,16 @@ def test_clouds_that_share_too_little_are_refused():
 
 @settings(max_examples=30)
 @given(seeds, st.floats(-np.pi, np.pi), st.floats(-1, 1), st.floats(-1, 1))
-def test_a_poor_first_result_is_searched_for_and_found(seed, turn, x, y):
+def test_a_poor_initial_guess_is_recovered_by_correlative_search(seed, turn, x, y):
     source, target = scans(worlds.room(), PAIR, np.random.default_rng(seed))
     found = match(source, target, PAIR + np.array([x, y, turn]))
     assert found.good
-    distance, turn = apart(found.pose, PAIR)
+    distance, turn = pose_difference(found.pose, PAIR)
     assert distance < 0.015
     assert turn < 0.01
 
 
-def test_the_search_is_left_when_told_to_and_kept_within_its_angle():
+def test_the_correlative_search_is_left_out_when_asked_and_kept_within_its_angle():
     source, target = scans(worlds.room(), PAIR, np.random.default_rng(0))
     lost = match(source, target, [0, 0, 2.6], search=0)
     assert not lost.searched
@@ -236,10 +236,10 @@ def test_the_search_is_left_when_told_to_and_kept_within_its_angle():
 
 @settings(max_examples=20)
 @given(seeds, st.floats(-np.pi, np.pi))
-def test_the_coarse_search_finds_the_place_to_a_cell_whatever_the_turn(seed, turn):
+def test_the_correlative_search_finds_the_place_to_a_cell_whatever_the_turn(seed, turn):
     true = np.array([0.5, -0.4, turn])
     source, target = scans(worlds.room(), true, np.random.default_rng(seed))
-    found = candidates(surface(source), surface(target), np.zeros(3))
+    found = candidate_poses(surface(source), surface(target), np.zeros(3))
     cell = 4 * np.quantile(np.hypot(*target.T), 0.95) / 64
     off = between(true, found)
     assert ((np.hypot(off[:, 0], off[:, 1]) < 2.5 * cell) & (np.abs(off[:, 2]) < 0.15)).any()
@@ -254,14 +254,14 @@ def test_in_a_room_that_looks_the_same_from_two_sides_the_guess_decides():
 
 
 @pytest.mark.parametrize("sigma", [0.002, 0.01, 0.03])
-def test_a_scans_noise_is_read_off_the_scan_itself(sigma):
+def test_the_range_noise_is_estimated_from_the_scan_itself(sigma):
     hall = World(ring([(-3, -2), (4, -2), (4, 3), (-3, 3)]))
     lidar = Scanner(range_error=0.0, range_sigma=sigma)
-    step, told = 2 * np.pi / lidar.beams, []
+    step, estimates = 2 * np.pi / lidar.beams, []
     for seed in range(10):
         scan = lidar.scan(hall, [0, 0, 0.1], np.random.default_rng(seed))
-        told.append(noise(scan.ranges, step))
-    assert np.mean(told) == pytest.approx(sigma, rel=0.15)
+        estimates.append(range_noise(scan.ranges, step))
+    assert np.mean(estimates) == pytest.approx(sigma, rel=0.15)
 
 
 def test_lines_of_a_scan_lie_in_its_walls_and_none_spans_a_jump():
@@ -269,7 +269,7 @@ def test_lines_of_a_scan_lie_in_its_walls_and_none_spans_a_jump():
     bearings = np.radians(np.arange(-60, 60))
     depth = np.where(bearings < 0, 2.0, 4.0)
     x, y = depth, depth * np.tan(bearings)
-    fits, _ = ordered_fits(x, y, np.hypot(x, y), np.radians(1), closed=False)
+    fits, _ = fit_scan_lines(x, y, np.hypot(x, y), np.radians(1), closed=False)
     assert np.allclose(np.abs(fits.nx[fits.good]), 1)
     assert np.allclose(np.abs(fits.offset[fits.good]), depth[fits.good])
     assert fits.good.mean() > 0.9

@@ -5,8 +5,9 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from slamlab import jacobians, models
+from slamlab import models
 from slamlab.geometry import compose, inverse, matrix, transform
+from slamlab.models import jacobians
 from tests.laws import (
     assert_same_pose,
     bases,

@@ -1,17 +1,17 @@
-"""Samples as estimators: they beat odometry with names, without them and on scans."""
+"""Particle-filter SLAM beats odometry: with known data association, without it, on scans."""
 
 import numpy as np
 import pytest
 
 from slamlab import estimators
-from slamlab.estimators.montecarlo import montecarlo
+from slamlab.estimators.montecarlo_slam import montecarlo
+from slamlab.estimators.runner import run
 from slamlab.evaluation import absolute_error
 from slamlab.layers import Ellipses, Points, Poses, Samples
 from slamlab.readings import Observations, Reading
-from slamlab.runner import run
 from slamlab.sources import simulation
 from slamlab.sources.base import Source
-from slamlab.sources.landmarks import LandmarkRun, Loop
+from slamlab.sources.landmark_runs import LandmarkRun, Loop
 
 NAMES = ["montecarlo", "fastslam"]
 
@@ -41,7 +41,7 @@ def ratio(name, source):
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_it_beats_odometry_on_a_loop_and_finds_every_landmark_it_saw(name):
+def test_it_beats_dead_reckoning_on_a_loop_and_finds_every_landmark_it_saw(name):
     source = simulation("landmarks", np.random.default_rng(2))
     better, slam = ratio(name, source)
     assert better > 2
@@ -50,7 +50,7 @@ def test_it_beats_odometry_on_a_loop_and_finds_every_landmark_it_saw(name):
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_without_names_it_finds_the_landmarks_by_its_own_spread(name):
+def test_without_names_data_association_is_by_its_own_spread(name):
     source = Nameless(LandmarkRun(Loop(steps=150, landmarks=8), np.random.default_rng(1)))
     better, slam = ratio(name, source)
     assert better > 1.5
@@ -73,7 +73,7 @@ def test_the_same_seed_gives_the_same_run_and_another_one_another():
     assert not np.array_equal(poses[0], poses[2])
 
 
-def test_it_draws_samples_with_weights_that_sum_to_one():
+def test_it_draws_particles_with_weights_that_sum_to_one():
     source = LandmarkRun(Loop(steps=30), np.random.default_rng(1))
     slam = run(source, montecarlo(source, samples=100, object_samples=30, close=0.3)).estimator
     loose, frozen, track, robot = slam.layers()
@@ -94,7 +94,7 @@ def test_fastslam_draws_an_ellipse_for_each_landmark():
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_before_anything_is_seen_there_are_samples_of_the_robot_only(name):
+def test_before_any_observation_there_are_particles_of_the_robot_only(name):
     source = LandmarkRun(Loop(steps=2), np.random.default_rng(1))
     slam = estimators.make(name, source)
     slam.step(Reading(0.0, np.array([0.1, 0.0, 0.0])))
@@ -111,7 +111,7 @@ def test_a_name_seen_twice_in_a_reading_counts_once(name):
         twice = Observations(np.array([[2.0, 0.1], [2.1, 0.1]]), np.array([4, 4]))
         slam.step(Reading(0.0, np.zeros(3), observations=twice))
     assert slam.filter.ids == [4]
-    assert slam.unclear == 2
+    assert slam.ambiguous == 2
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -1,13 +1,14 @@
-"""Covariances are covariances, and first-order propagation is what sampling shows."""
+"""Noise covariances are covariances; first-order propagation is what sampling shows."""
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from slamlab import jacobians, models, noise
-from slamlab.estimators.seen import R_of
-from slamlab.hardware import SensorModel
+from slamlab import models
+from slamlab.estimators.landmark_observations import measurement_noise
+from slamlab.models import jacobians, noise
+from slamlab.models.parameters import SensorModel
 from tests.laws import odometry_controls, poses
 
 shares = st.floats(0, 0.5)
@@ -37,7 +38,7 @@ def test_the_covariances_of_a_sensor_are_R_of_each_range(ranges, k, beta, consta
     sensor = SensorModel(
         range_error=k, range_sigma=constant, bearing_sigma=beta, range_curvature=curvature
     )
-    R = R_of(sensor, ranges)
+    R = measurement_noise(sensor, ranges)
     assert R.shape == (len(ranges), 2, 2)
     for r, R_r in zip(ranges, R, strict=True):
         np.testing.assert_allclose(R_r, np.diag([sensor.sigma(r) ** 2, beta**2]), rtol=1e-12)

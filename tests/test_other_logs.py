@@ -5,12 +5,12 @@ import pytest
 
 from slamlab import sources
 from slamlab.estimators import make
+from slamlab.estimators.runner import run
+from slamlab.files.published_recordings import RECORDINGS
 from slamlab.geometry import compose
 from slamlab.layers import Points
-from slamlab.runner import run
 from slamlab.sources import SourceError
-from slamlab.sources.breezyslam import AXLE, TICKS_PER_TURN, WHEEL_RADIUS
-from slamlab.sources.recordings import RECORDINGS
+from slamlab.sources.breezyslam import TICKS_PER_TURN, WHEEL_BASE, WHEEL_RADIUS
 
 
 def grabber_text(turns=3, points=400):
@@ -79,7 +79,7 @@ def test_breezyslam_wheels_that_go_alike_drive_straight(tmp_path):
 
 def test_breezyslam_wheels_that_go_apart_bring_the_lidar_round_in_a_circle(tmp_path):
     # once round on the spot, in 40 steps
-    once = np.pi * AXLE / (2 * np.pi * WHEEL_RADIUS) * TICKS_PER_TURN
+    once = np.pi * WHEEL_BASE / (2 * np.pi * WHEEL_RADIUS) * TICKS_PER_TURN
     ticks = [(round(-k * once / 40), round(k * once / 40)) for k in range(41)]
     pose, ways = np.zeros(3), []
     for reading in opened(tmp_path, breezy_lines(ticks)):

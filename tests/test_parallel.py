@@ -1,4 +1,4 @@
-"""Many runs: the same results in the same order wherever they run, failures named by their seed."""
+"""Parallel runs: the same results in the same order everywhere, failures named by their seed."""
 
 import os
 import signal
@@ -10,7 +10,7 @@ import time
 import numpy as np
 import pytest
 
-from slamlab.parallel import THREADS, RunError, map_runs
+from slamlab.parallel import THREAD_VARIABLES, RunError, map_runs
 
 SEEDS = [5, 3, 8, 1]
 
@@ -26,7 +26,7 @@ def fails_at_three(seed):
 
 
 def surroundings(seed):
-    return os.getpid(), {name: os.environ.get(name) for name in THREADS}
+    return os.getpid(), {name: os.environ.get(name) for name in THREAD_VARIABLES}
 
 
 @pytest.mark.parametrize("jobs", [1, 2])
@@ -42,13 +42,13 @@ def test_a_failure_names_its_seed_and_what_went_wrong(jobs):
 
 
 def test_runs_are_in_processes_of_their_own_with_one_thread_each(monkeypatch):
-    monkeypatch.setenv(THREADS[0], "7")
-    monkeypatch.delenv(THREADS[1], raising=False)
+    monkeypatch.setenv(THREAD_VARIABLES[0], "7")
+    monkeypatch.delenv(THREAD_VARIABLES[1], raising=False)
     for process, threads in map_runs(surroundings, SEEDS, jobs=2):
         assert process != os.getpid()
         assert set(threads.values()) == {"1"}
-    assert os.environ[THREADS[0]] == "7"
-    assert THREADS[1] not in os.environ
+    assert os.environ[THREAD_VARIABLES[0]] == "7"
+    assert THREAD_VARIABLES[1] not in os.environ
 
 
 @pytest.fixture(scope="module")

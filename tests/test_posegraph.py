@@ -1,4 +1,4 @@
-"""Pose graphs: the derivation, the optimum, robust edges, files."""
+"""Pose graphs: Jacobians, optimisation, robust kernel, marginal covariances, g2o files."""
 
 import numpy as np
 import pytest
@@ -8,8 +8,15 @@ from scipy.optimize import least_squares
 from scipy.stats import chi2
 
 from slamlab.geometry import between, compose, wrap
-from slamlab.posegraph import PoseGraph, edges, g2o, jacobians, scaling, symbolic
-from slamlab.symbolic import numeric
+from slamlab.models.symbolic import numeric
+from slamlab.posegraph import (
+    PoseGraph,
+    edge_error,
+    edge_jacobians,
+    edge_symbolic,
+    g2o,
+    robust_kernel,
+)
 from tests.laws import assert_same_pose, finite_differences, poses, same_angle
 
 SIGMA = np.array([0.05, 0.03, 0.02])  # of a measured motion, in its own frame
@@ -17,7 +24,7 @@ INFORMATION = np.diag(SIGMA**-2)
 SIDE = 6
 
 
-def tour(rng, rounds=2, noise=1.0, drift=1.0, robust=False):
+def square_tour(rng, rounds=2, noise=1.0, drift=1.0, robust=False):
     """A graph of a robot that goes round a square, and the true poses.
 
     Each pose is tied to the one before, and by a loop's closure to the one a round ago; the guesses
@@ -56,11 +63,11 @@ def whitened(graph, free):
     """What least_squares takes: residuals of all edges over the poses but the first."""
     at = np.concatenate([graph.poses[:1], free.reshape(-1, 3)])
     i, j, measured, information, _ = map(np.array, zip(*graph.edges, strict=True))
-    e = edges.error(at[i], at[j], measured)
+    e = edge_error.error(at[i], at[j], measured)
     return np.einsum("mba,mb->ma", np.linalg.cholesky(information), e).ravel()
 
 
-def spread(graph, a, b):
+def largest_deviation(graph, a, b):
     """The largest difference between two sets of poses, in standard deviations of the graph."""
     difference = a - b
     difference[:, 2] = wrap(difference[:, 2])
@@ -70,51 +77,51 @@ def spread(graph, a, b):
 
 @given(poses, poses, poses)
 def test_error_and_jacobians_equal_their_derivation(x_i, x_j, z):
-    arguments = symbolic.x_i, symbolic.x_j, symbolic.z
-    derived = numeric(symbolic.error, *arguments)(x_i, x_j, z)
-    coded = edges.error(x_i, x_j, z)
+    arguments = edge_symbolic.x_i, edge_symbolic.x_j, edge_symbolic.z
+    derived = numeric(edge_symbolic.error, *arguments)(x_i, x_j, z)
+    coded = edge_error.error(x_i, x_j, z)
     np.testing.assert_allclose(derived[:2], coded[:2], atol=1e-9)
     assert same_angle(derived[2], coded[2])
     for name in ("J_i", "J_j"):
-        derived = numeric(getattr(symbolic, name), *arguments)(x_i, x_j, z)
-        np.testing.assert_allclose(derived, getattr(jacobians, name)(x_i, x_j, z), atol=1e-9)
+        derived = numeric(getattr(edge_symbolic, name), *arguments)(x_i, x_j, z)
+        np.testing.assert_allclose(derived, getattr(edge_jacobians, name)(x_i, x_j, z), atol=1e-9)
 
 
 @given(poses, poses, poses)
 def test_jacobians_equal_finite_differences(x_i, x_j, z):
     angular = np.array([False, False, True])
-    slope = finite_differences(lambda x: edges.error(x, x_j, z), x_i, angular)
-    np.testing.assert_allclose(jacobians.J_i(x_i, x_j, z), slope, atol=1e-6)
-    slope = finite_differences(lambda x: edges.error(x_i, x, z), x_j, angular)
-    np.testing.assert_allclose(jacobians.J_j(x_i, x_j, z), slope, atol=1e-6)
+    slope = finite_differences(lambda x: edge_error.error(x, x_j, z), x_i, angular)
+    np.testing.assert_allclose(edge_jacobians.J_i(x_i, x_j, z), slope, atol=1e-6)
+    slope = finite_differences(lambda x: edge_error.error(x_i, x, z), x_j, angular)
+    np.testing.assert_allclose(edge_jacobians.J_j(x_i, x_j, z), slope, atol=1e-6)
 
 
 def test_many_edges_at_once_are_the_same_as_one_by_one():
     rng = np.random.default_rng(1)
     many = rng.normal(size=(3, 7, 3))
-    for function in (edges.error, jacobians.J_i, jacobians.J_j):
+    for function in (edge_error.error, edge_jacobians.J_i, edge_jacobians.J_j):
         rows = [function(*one) for one in many.transpose(1, 0, 2)]
         np.testing.assert_allclose(function(*many), rows)
 
 
 @given(st.floats(0, 1e6), st.floats(0.1, 100))
-def test_the_weight_of_scaling_is_the_slope_of_its_cost(value, phi):
+def test_the_weight_of_the_robust_kernel_is_the_slope_of_its_cost(value, phi):
     step = 1e-4 * max(1.0, value)
-    slope = (scaling.cost(value + step, phi) - scaling.cost(value, phi)) / step
-    low, high = scaling.weight(value + step, phi), scaling.weight(value, phi)
+    slope = (robust_kernel.cost(value + step, phi) - robust_kernel.cost(value, phi)) / step
+    low, high = robust_kernel.weight(value + step, phi), robust_kernel.weight(value, phi)
     assert low - 1e-6 <= slope <= high + 1e-6
-    assert scaling.cost(value, phi) <= 3 * phi
-    assert scaling.cost(phi, phi) == pytest.approx(phi)
-    assert scaling.cost(phi * (1 + 1e-9), phi) == pytest.approx(phi)
+    assert robust_kernel.cost(value, phi) <= 3 * phi
+    assert robust_kernel.cost(phi, phi) == pytest.approx(phi)
+    assert robust_kernel.cost(phi * (1 + 1e-9), phi) == pytest.approx(phi)
 
 
 def test_the_usual_phi_keeps_99_percent_of_true_edges_whole():
-    assert chi2(3).cdf(scaling.PHI) == pytest.approx(0.99, abs=1e-5)
+    assert chi2(3).cdf(robust_kernel.PHI) == pytest.approx(0.99, abs=1e-5)
 
 
 @given(st.integers(0, 10**6))
 def test_exact_measurements_bring_back_the_truth_and_cost_nothing(seed):
-    graph, true = tour(np.random.default_rng(seed), noise=0)
+    graph, true = square_tour(np.random.default_rng(seed), noise=0)
     optimum = graph.optimise()
     assert optimum.converged and optimum.chi2 < 1e-9
     assert_same_pose(graph.poses, true, 1e-6)
@@ -122,7 +129,7 @@ def test_exact_measurements_bring_back_the_truth_and_cost_nothing(seed):
 
 @given(st.integers(0, 10**6))
 def test_at_the_optimum_the_gradient_is_zero(seed):
-    graph, _ = tour(np.random.default_rng(seed))
+    graph, _ = square_tour(np.random.default_rng(seed))
     assert graph.optimise().converged
 
     def cost(free):
@@ -139,20 +146,20 @@ def test_at_the_optimum_the_gradient_is_zero(seed):
 
 @pytest.mark.parametrize("seed", range(3))
 def test_the_optimum_is_that_of_scipys_dense_least_squares(seed):
-    graph, _ = tour(np.random.default_rng(seed))
+    graph, _ = square_tour(np.random.default_rng(seed))
     reference = least_squares(
         lambda free: whitened(graph, free), graph.poses[1:].ravel(), method="lm", xtol=1e-12
     )
     optimum = graph.optimise()
     assert optimum.chi2 == pytest.approx(2 * reference.cost, rel=1e-9)
     found = np.concatenate([graph.poses[:1], reference.x.reshape(-1, 3)])
-    assert spread(graph, graph.poses, found) < 1e-3
+    assert largest_deviation(graph, graph.poses, found) < 1e-3
 
 
 @pytest.mark.parametrize("seed", range(3))
 def test_the_optimum_is_that_of_gtsam(seed):
     gtsam = pytest.importorskip("gtsam", reason="GTSAM, the reference, is not installed")
-    graph, _ = tour(np.random.default_rng(seed))
+    graph, _ = square_tour(np.random.default_rng(seed))
     factors, guesses = gtsam.NonlinearFactorGraph(), gtsam.Values()
     factors.add(gtsam.NonlinearEqualityPose2(0, gtsam.Pose2(*graph.poses[0])))
     for k, pose in enumerate(graph.poses):
@@ -167,24 +174,24 @@ def test_the_optimum_is_that_of_gtsam(seed):
     graph.optimise()
     found = np.array([[pose.x(), pose.y(), pose.theta()] for pose in reached])
     # GTSAM may measure an error along the group's geodesic: the same to first order
-    assert spread(graph, graph.poses, found) < 0.05
+    assert largest_deviation(graph, graph.poses, found) < 0.05
 
 
 @given(st.integers(0, 10**6), poses)
 def test_a_common_motion_of_all_guesses_moves_the_optimum_and_nothing_else(seed, moved):
-    graph, _ = tour(np.random.default_rng(seed), robust=True)
+    graph, _ = square_tour(np.random.default_rng(seed), robust=True)
     other = copied(graph)
     other.poses = compose(moved, other.poses)
     first, second = graph.optimise(), other.optimise()
     assert second.chi2 == pytest.approx(first.chi2, rel=1e-6)
     graph.poses = compose(moved, graph.poses)
     graph.fixed = other.fixed
-    assert spread(graph, graph.poses, other.poses) < 0.01
+    assert largest_deviation(graph, graph.poses, other.poses) < 0.01
 
 
 def test_the_order_and_direction_of_edges_and_poses_do_not_matter():
     rng = np.random.default_rng(3)
-    graph, _ = tour(rng)
+    graph, _ = square_tour(rng)
     order = np.concatenate([[0], 1 + rng.permutation(len(graph) - 1)])
     shuffled, place = PoseGraph(), np.argsort(order)
     for k in order:
@@ -193,23 +200,23 @@ def test_the_order_and_direction_of_edges_and_poses_do_not_matter():
         edge = graph.edges[k]
         shuffled.add_edge(place[edge.i], place[edge.j], edge.measured, edge.information)
     assert shuffled.optimise().chi2 == pytest.approx(graph.optimise().chi2, rel=1e-9)
-    assert spread(graph, graph.poses, shuffled.poses[place]) < 1e-3
+    assert largest_deviation(graph, graph.poses, shuffled.poses[place]) < 1e-3
 
 
 @pytest.mark.parametrize("seed", range(10))
 def test_true_robust_edges_are_kept_however_far_the_guesses_drifted(seed):
-    graph, _ = tour(np.random.default_rng(seed), noise=0.5, drift=8.0, robust=True)
-    trusting, _ = tour(np.random.default_rng(seed), noise=0.5, drift=8.0)
+    graph, _ = square_tour(np.random.default_rng(seed), noise=0.5, drift=8.0, robust=True)
+    trusting, _ = square_tour(np.random.default_rng(seed), noise=0.5, drift=8.0)
     optimum = graph.optimise()
     trusting.optimise()
     assert optimum.converged and optimum.weights.min() == 1
-    assert spread(graph, graph.poses, trusting.poses) < 0.01
+    assert largest_deviation(graph, graph.poses, trusting.poses) < 0.01
 
 
 @pytest.mark.parametrize("seed", range(10))
 def test_a_loop_that_drift_alone_makes_look_false_is_closed(seed):
     rng = np.random.default_rng(seed)
-    graph, true = tour(rng, rounds=1)
+    graph, true = square_tour(rng, rounds=1)
     del graph.edges[4 * SIDE - 1 :]
     last = between(true[-2], true[-1])
     graph.add_edge(4 * SIDE - 1, 4 * SIDE, last, INFORMATION)
@@ -217,19 +224,19 @@ def test_a_loop_that_drift_alone_makes_look_false_is_closed(seed):
         graph.poses[edge.j] = compose(graph.poses[edge.i], edge.measured)
     seen = between(true[-1], true[0]) + 0.05 * SIGMA * rng.standard_normal(3)
     sharp = 400 * INFORMATION
-    error = edges.error(graph.poses[-1], graph.poses[0], seen)
-    assert error @ sharp @ error > 100 * scaling.PHI
+    error = edge_error.error(graph.poses[-1], graph.poses[0], seen)
+    assert error @ sharp @ error > 100 * robust_kernel.PHI
     graph.add_edge(4 * SIDE, 0, seen, sharp, robust=True)
     assert graph.optimise().weights[-1] == 1
-    error = edges.error(graph.poses[-1], graph.poses[0], seen)
-    assert error @ sharp @ error < scaling.PHI
+    error = edge_error.error(graph.poses[-1], graph.poses[0], seen)
+    assert error @ sharp @ error < robust_kernel.PHI
 
 
 @pytest.mark.parametrize("seed", range(20))
 @pytest.mark.parametrize("false", [1, 8])
-def test_false_edges_lose_their_say(seed, false):
+def test_the_robust_kernel_rejects_outlier_edges(seed, false):
     rng = np.random.default_rng(seed)
-    graph, true = tour(rng, robust=True)
+    graph, true = square_tour(rng, robust=True)
     without = copied(graph)
     for _ in range(false):
         i = int(rng.integers(0, 4 * SIDE))
@@ -239,24 +246,24 @@ def test_false_edges_lose_their_say(seed, false):
     weights = graph.optimise().weights
     without.optimise()
     assert weights[-false:].max() < 1e-3
-    assert spread(without, graph.poses, without.poses) < 0.2
+    assert largest_deviation(without, graph.poses, without.poses) < 0.2
 
 
 def test_a_trusted_false_edge_bends_the_graph():
-    graph, true = tour(np.random.default_rng(0))
+    graph, true = square_tour(np.random.default_rng(0))
     without = copied(graph)
     without.optimise()
     graph.add_edge(3, 20, compose(between(true[3], true[20]), [2, 2, 0.5]), INFORMATION)
     graph.optimise()
-    assert spread(without, graph.poses, without.poses) > 5
+    assert largest_deviation(without, graph.poses, without.poses) > 5
 
 
 def test_the_covariances_are_those_of_many_runs():
-    exact, true = tour(np.random.default_rng(0), noise=0, drift=0)
+    exact, true = square_tour(np.random.default_rng(0), noise=0, drift=0)
     inverse = np.linalg.inv(exact.covariances()[1:])
     seen, runs = [], 150
     for seed in range(runs):
-        graph, _ = tour(np.random.default_rng([7, seed]))
+        graph, _ = square_tour(np.random.default_rng([7, seed]))
         graph.optimise()
         error = (graph.poses - true)[1:]
         error[:, 2] = wrap(error[:, 2])
@@ -266,7 +273,7 @@ def test_the_covariances_are_those_of_many_runs():
 
 
 def test_the_covariances_are_blocks_of_the_dense_inverse():
-    graph, _ = tour(np.random.default_rng(5))
+    graph, _ = square_tour(np.random.default_rng(5))
     graph.optimise()
     free = graph.poses[1:].ravel()
     step = 1e-6 * np.eye(free.size)
@@ -280,27 +287,27 @@ def test_the_covariances_are_blocks_of_the_dense_inverse():
 
     i, j, z = 7, 30, np.array([1.0, -0.5, 0.3])
     J = np.zeros((3, len(P)))
-    J[:, 3 * i - 3 : 3 * i] = jacobians.J_i(graph.poses[i], graph.poses[j], z)
-    J[:, 3 * j - 3 : 3 * j] = jacobians.J_j(graph.poses[i], graph.poses[j], z)
-    v = edges.error(graph.poses[i], graph.poses[j], z)
+    J[:, 3 * i - 3 : 3 * i] = edge_jacobians.J_i(graph.poses[i], graph.poses[j], z)
+    J[:, 3 * j - 3 : 3 * j] = edge_jacobians.J_j(graph.poses[i], graph.poses[j], z)
+    v = edge_error.error(graph.poses[i], graph.poses[j], z)
     expected = v @ np.linalg.inv(J @ P @ J.T + np.linalg.inv(INFORMATION)) @ v
-    assert graph.surprise(i, j, z, INFORMATION) == pytest.approx(expected, rel=1e-4)
+    assert graph.squared_mahalanobis(i, j, z, INFORMATION) == pytest.approx(expected, rel=1e-4)
 
 
-def test_what_drift_explains_is_no_surprise_and_what_it_does_not_is():
-    surprises, wrong = [], []
+def test_the_mahalanobis_distance_accepts_what_drift_explains_and_rejects_a_false_loop():
+    true_distances, wrong = [], []
     for seed in range(100):
         rng = np.random.default_rng([8, seed])
-        graph, true = tour(rng, rounds=1)
+        graph, true = square_tour(rng, rounds=1)
         del graph.edges[4 * SIDE :]  # the loop is not closed yet
         graph.optimise()
         seen = between(true[0], true[-1]) + SIGMA * rng.standard_normal(3)
         both = np.array([seen, compose(seen, [2.0, 2.0, 0.5])])
-        a, b = graph.surprise([0, 0], [4 * SIDE] * 2, both, INFORMATION)
-        assert a == pytest.approx(graph.surprise(0, 4 * SIDE, seen, INFORMATION))
-        surprises.append(a)
+        a, b = graph.squared_mahalanobis([0, 0], [4 * SIDE] * 2, both, INFORMATION)
+        assert a == pytest.approx(graph.squared_mahalanobis(0, 4 * SIDE, seen, INFORMATION))
+        true_distances.append(a)
         wrong.append(b)
-    assert np.mean(surprises) == pytest.approx(3, abs=6 * np.sqrt(6 / 100))
+    assert np.mean(true_distances) == pytest.approx(3, abs=6 * np.sqrt(6 / 100))
     assert np.median(wrong) > 2 * chi2(3).ppf(0.99)
 
 
@@ -323,8 +330,8 @@ def test_a_lone_pose_is_its_own_optimum():
     assert optimum.converged and optimum.chi2 == 0
 
 
-def test_too_few_rounds_are_owned_up_to():
-    graph, _ = tour(np.random.default_rng(0))
+def test_too_few_iterations_are_reported_as_not_converged():
+    graph, _ = square_tour(np.random.default_rng(0))
     optimum = graph.optimise(max_rounds=1)
     assert not optimum.converged and optimum.rounds == 1
 
@@ -336,25 +343,25 @@ def test_too_few_rounds_are_owned_up_to():
         (lambda g: g.add_pose([0, 0]), "a pose is x, y and theta"),
         (lambda g: g.add_edge(0, 99, np.zeros(3), np.eye(3)), "add the poses first"),
         (lambda g: g.add_edge(1, 1, np.zeros(3), np.eye(3)), "two poses"),
-        (lambda g: g.add_edge(0, 1, [0, 0, np.inf], np.eye(3)), "edge 0 to 1: a motion"),
+        (lambda g: g.add_edge(0, 1, [0, 0, np.inf], np.eye(3)), "edge 0 to 1: a relative pose"),
         (lambda g: g.add_edge(0, 1, np.zeros(3), np.diag([1, 1, 0])), "singular"),
         (lambda g: g.add_edge(0, 1, np.zeros(3), -np.eye(3)), "negative"),
         (lambda g: g.add_edge(0, 1, np.zeros(3), np.triu(np.ones((3, 3)))), "symmetric"),
         (lambda g: g.add_edge(0, 1, np.zeros(3), np.eye(2)), "3 rows of 3"),
-        (lambda g: (g.add_pose(np.zeros(3)), g.optimise()), "pose 49 first, hang on no chain"),
+        (lambda g: (g.add_pose(np.zeros(3)), g.optimise()), "pose 49 first, are not connected"),
         (lambda g: (g.poses.__setitem__((5, 0), np.nan), g.optimise()), "pose 5 is not finite"),
         (lambda g: (g.fixed.clear(), g.optimise()), "49 of 49 poses"),
         (lambda g: setattr(g, "poses", np.zeros((2, 3))), "49 poses are needed"),
     ],
 )
 def test_wrong_use_is_refused_in_words(spoil, says):
-    graph, _ = tour(np.random.default_rng(0))
+    graph, _ = square_tour(np.random.default_rng(0))
     with pytest.raises(ValueError, match=says):
         spoil(graph)
 
 
 def test_a_g2o_file_brings_back_the_same_graph(tmp_path):
-    graph, _ = tour(np.random.default_rng(4))
+    graph, _ = square_tour(np.random.default_rng(4))
     graph.fixed = {0, 7}
     g2o.save(graph, tmp_path / "graph.g2o")
     again = g2o.load(tmp_path / "graph.g2o")
@@ -389,11 +396,11 @@ def test_a_g2o_file_is_read_as_the_format_says(tmp_path):
     [
         ("VERTEX_SE3:QUAT 1 0 0 0 0 0 0 1", "line 7: VERTEX_SE3:QUAT is none of"),
         ("VERTEX_SE2 40 1 2", "line 7: VERTEX_SE2 has 4 numbers, not 3"),
-        ("VERTEX_SE2 20 1 2 3", "line 7: vertex 20 was there before"),
+        ("VERTEX_SE2 20 1 2 3", "line 7: duplicate vertex 20"),
         ("EDGE_SE2 10 50 1 0 0 1 0 0 1 0 1", "line 7: there is no vertex 50"),
         ("EDGE_SE2 10 20 1 0 0 1 0 0 1 0 0", "line 7: edge 0 to 1: the information is singular"),
         ("EDGE_SE2 10 20 1 0 nan 1 0 0 1 0 1", "line 7: its numbers are not all finite"),
-        ("FIX first", "line 7: a word where a number belongs"),
+        ("FIX first", "line 7: a word instead of a number"),
         ("FIX 50", "line 7: there is no vertex 50"),
     ],
 )

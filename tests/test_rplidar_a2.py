@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 
 from slamlab import sources
-from slamlab.sensors import RPLIDAR_A2
-from slamlab.world import World
+from slamlab.simulation.range_scanners import RPLIDAR_A2
 from slamlab.worlds import box
+from slamlab.worlds.world import World
 
 TURNS = 20
 RANGES = [(2.0, 2.5), (2.5, 3.0), (3.0, 4.0), (6.0, 8.0), (10.0, 11.5), (11.5, 13.0)]  # m

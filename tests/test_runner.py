@@ -3,7 +3,7 @@
 import numpy as np
 
 from slamlab import estimators, sources
-from slamlab.runner import run
+from slamlab.estimators.runner import run
 
 
 def test_a_run_keeps_the_naive_trajectory_beside_the_estimate():

@@ -1,4 +1,4 @@
-"""Laws of scan matching."""
+"""Laws of ICP scan matching: rigid fit, point to point, point to line, normals."""
 
 from itertools import pairwise
 
@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from slamlab.geometry import between, compose, inverse, transform, wrap
 from slamlab.scanmatching import normals, point_to_line, point_to_point, rigid_fit
-from slamlab.scanmatching.nearest import Nearest
+from slamlab.scanmatching.nearest_neighbours import NearestNeighbours
 
 MATCHERS = [point_to_point, point_to_line]
 poses = st.tuples(st.floats(-5, 5), st.floats(-5, 5), st.floats(-3.1, 3.1)).map(np.array)
@@ -26,7 +26,7 @@ def outline(count=60):
     ) - [1.9, 1.4]
 
 
-def apart(a, b):
+def pose_difference(a, b):
     """Distance [m] and turn [rad] between two poses."""
     d = between(a, b)
     return np.hypot(d[0], d[1]), abs(d[2])
@@ -35,7 +35,7 @@ def apart(a, b):
 @given(poses, seeds)
 def test_rigid_fit_recovers_any_motion_of_paired_points(pose, seed):
     cloud = np.random.default_rng(seed).normal(size=(20, 2))
-    distance, turn = apart(rigid_fit(cloud, transform(pose, cloud)), pose)
+    distance, turn = pose_difference(rigid_fit(cloud, transform(pose, cloud)), pose)
     assert distance < 1e-10
     assert turn < 1e-10
 
@@ -80,7 +80,7 @@ def test_plain_icp_recovers_a_motion_exactly_where_each_point_is_nearest_to_its_
     grid = np.stack(np.meshgrid(np.arange(-2, 3), np.arange(-2, 3)), axis=-1).reshape(-1, 2)
     target = grid + np.random.default_rng(seed).uniform(-0.1, 0.1, grid.shape)
     found = point_to_point(transform(inverse(true), target), target, compose(true, error))
-    distance, turn = apart(found.pose, true)
+    distance, turn = pose_difference(found.pose, true)
     assert found.converged
     assert distance < 1e-9
     assert turn < 1e-9
@@ -91,7 +91,7 @@ def test_plain_icp_recovers_a_motion_exactly_where_each_point_is_nearest_to_its_
 def test_point_to_line_recovers_a_motion_on_clean_walls(error, true):
     target = outline()
     found = point_to_line(transform(inverse(true), target), target, compose(true, error))
-    distance, turn = apart(found.pose, true)
+    distance, turn = pose_difference(found.pose, true)
     assert found.converged
     assert distance < 2e-4
     assert turn < 2e-4
@@ -102,7 +102,7 @@ def test_clouds_of_unequal_size_match(match):
     target, source = outline(83), outline(40)
     true = np.array([0.1, -0.06, 0.05])
     found = match(transform(inverse(true), source), target)
-    distance, turn = apart(found.pose, true)
+    distance, turn = pose_difference(found.pose, true)
     assert distance < 0.01
     assert turn < 0.005
 
@@ -157,7 +157,7 @@ def test_the_tolerance_is_in_metres():
     assert point_to_point(source, target, guess, tolerance=1e-9).rounds > small.rounds
 
 
-def test_rounds_are_limited_and_giving_up_is_said():
+def test_iterations_are_limited_and_not_converging_is_reported():
     found = point_to_point(outline(), outline(), [0.4, 0.3, 0.5], max_rounds=2)
     assert found.rounds == 2
     assert not found.converged
@@ -181,7 +181,8 @@ def test_trimming_forgives_what_only_one_cloud_saw():
     box = np.random.default_rng(2).uniform(0, 0.8, (70, 2)) - [1.2, 0.2]
     true = np.array([0.15, -0.1, 0.1])
     source = transform(inverse(true), np.concatenate([target, box]))
-    errors = [apart(point_to_point(source, target, keep=k).pose, true)[0] for k in (1.0, 0.8)]
+    found = [point_to_point(source, target, keep=k).pose for k in (1.0, 0.8)]
+    errors = [pose_difference(pose, true)[0] for pose in found]
     assert errors[1] < 1e-3 < errors[0]
 
 
@@ -192,8 +193,8 @@ def test_point_to_line_is_nearer_the_truth_than_plain_icp_on_noisy_scans():
         target = outline() + rng.normal(0, 0.01, outline().shape)
         source = outline(57)
         source = transform(inverse(true), source + rng.normal(0, 0.01, source.shape))
-        plain.append(apart(point_to_point(source, target).pose, true)[0])
-        lines.append(apart(point_to_line(source, target).pose, true)[0])
+        plain.append(pose_difference(point_to_point(source, target).pose, true)[0])
+        lines.append(pose_difference(point_to_line(source, target).pose, true)[0])
     assert np.median(lines) < np.median(plain)
 
 
@@ -220,7 +221,7 @@ def test_whatever_the_clouds_the_pose_is_finite_and_the_verdict_is_said(match, s
     assert 0 <= found.share <= 1
 
 
-def test_clouds_that_share_nothing_are_not_called_matched():
+def test_clouds_without_overlap_do_not_converge():
     found = point_to_line(outline() + 50, outline())
     assert not found.converged
     assert "too few pairs" in found.verdict
@@ -271,10 +272,10 @@ def test_matching_leaves_its_inputs_alone():
 
 @settings(max_examples=30)
 @given(seeds)
-def test_remembered_neighbours_are_the_nearest_ones_whatever_the_moves(seed):
+def test_cached_neighbours_are_the_nearest_ones_whatever_the_moves(seed):
     rng = np.random.default_rng(seed)
     target, source = rng.normal(size=(40, 2)), rng.normal(size=(30, 2))
-    nearest = Nearest(target)
+    nearest = NearestNeighbours(target)
     for scale in (1.0, 0.3, 0.1, 0.01, 0.5, 0.001):
         source = source + scale * rng.normal(size=source.shape)
         distances, _ = nearest(source)

@@ -9,12 +9,12 @@ import pytest
 from slamlab.evaluation import band
 from slamlab.filters.mak import MAK
 from slamlab.geometry import compose
-from slamlab.simulator import DifferentialDrive
+from slamlab.simulation.differential_drive import DifferentialDrive
 from slamlab.sources import simulation
-from slamlab.sources.landmarks import LandmarkRun, Loop
+from slamlab.sources.landmark_runs import LandmarkRun, Loop
 from slamlab.studies import walls
 from slamlab.studies.consistency import FILTERS, TABLE, main, study
-from slamlab.studies.ideal import IdealFilter
+from slamlab.studies.ideal_filter import IdealFilter
 
 SHORT = Loop(steps=25, landmarks=8)
 STORED = sorted(TABLE.parent.glob("consistency*.json"))
@@ -29,7 +29,7 @@ def test_where_the_estimate_is_the_truth_the_ideal_filter_is_mak():
         ideal.predict(compose(ideal.x[:3], reading.odometry), Q, true)
         mak.predict(compose(mak.pose, reading.odometry), Q)
         ids, z = reading.observations.ids, reading.observations.z
-        ideal.see(ids, z, np.broadcast_to(R, (len(ids), 2, 2)))
+        ideal.observe(ids, z, np.broadcast_to(R, (len(ids), 2, 2)))
         new = ~np.isin(ids, mak.ids)
         if not new.all():
             mak.update(ids[~new].tolist(), z[~new], R)

@@ -9,8 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from slamlab import estimators, sources
-from slamlab.sources import arena
-from slamlab.sources.arena import SETS, ArenaRun
+from slamlab.sources import arena_runs
+from slamlab.sources.arena_runs import SETS, ArenaRun
 from slamlab.studies import arena_logs, three, three_costs
 from slamlab.studies.three import LOST, TABLE, row, summary
 
@@ -84,12 +84,13 @@ def test_the_interval_of_a_share_holds_the_true_one_in_about_95_percent_of_all_s
 def brief(monkeypatch):
     """One lap, two filters, two data sets, small maps."""
     short = partial(ArenaRun, laps=1)
-    for module in (three, arena):
+    for module in (three, arena_runs):
         monkeypatch.setattr(module, "ArenaRun", short)
     makers = {name: three.FILTERS[name] for name in ("odometry", "Monte Carlo")}
     monkeypatch.setattr(three, "FILTERS", makers)
     monkeypatch.setattr(three, "SETS", SETS[-2:])
-    monkeypatch.setattr(three, "costs", partial(three_costs.costs, ("bor", "mak"), (3, 5)))
+    few = partial(three_costs.scan_costs, ("bor", "mak"), (3, 5))
+    monkeypatch.setattr(three, "scan_costs", few)
 
 
 def test_the_command_writes_a_line_for_every_filter_and_kind(tmp_path, capsys, brief):
@@ -130,7 +131,7 @@ def test_too_few_runs_are_refused_in_one_line(capsys, tmp_path):
 
 
 def test_in_the_field_of_costs_every_landmark_is_in_the_map_and_one_is_seen():
-    field = three_costs.Field(40, scans=4)
+    field = three_costs.LandmarkField(40, scans=4)
     for name in three_costs.NAMES:
         slam = estimators.make(name, field)
         for reading in field:
@@ -140,7 +141,7 @@ def test_in_the_field_of_costs_every_landmark_is_in_the_map_and_one_is_seen():
 
 
 def test_the_six_logs_are_written_and_read_again(tmp_path, monkeypatch, capsys):
-    monkeypatch.setattr(arena, "ArenaRun", partial(ArenaRun, laps=1))
+    monkeypatch.setattr(arena_runs, "ArenaRun", partial(ArenaRun, laps=1))
     assert arena_logs.main([str(tmp_path / "new")]) == 0
     names = [f"arena-{k}.log.gz" for k in range(1, 6)] + ["arena-6-snagged.log.gz"]
     assert sorted(path.name for path in (tmp_path / "new").iterdir()) == names

@@ -1,4 +1,4 @@
-"""EKF-SLAM with walls drives through Smolec's situations; its parts on their own."""
+"""EKF-SLAM with walls (line landmarks) in Smolec's situations; its parts on their own."""
 
 import numpy as np
 import pytest
@@ -7,20 +7,20 @@ from hypothesis import strategies as st
 from scipy.spatial.distance import pdist
 
 from slamlab import estimators, worlds
-from slamlab.estimators.walls import WallSlam
+from slamlab.estimators.runner import run
+from slamlab.estimators.wall_slam import WallSlam
 from slamlab.evaluation import absolute_error, nees
 from slamlab.geometry import wrap
-from slamlab.hardware import RobotModel, SensorModel
-from slamlab.landmarks.candidates import Candidates, overlap, stretch
 from slamlab.landmarks.corners import corners
-from slamlab.landmarks.pieces import pieces, union
+from slamlab.landmarks.downsampling import DownsampledPoints
 from slamlab.landmarks.ransac import lines
 from slamlab.landmarks.spikes import spikes
-from slamlab.landmarks.thinned import Thinned
-from slamlab.models import g
+from slamlab.landmarks.tentative_walls import TentativeWalls, extent, overlap
+from slamlab.landmarks.wall_segments import split_at_gaps, union
+from slamlab.models.observation import g
+from slamlab.models.parameters import RobotModel, SensorModel
 from slamlab.readings import Reading, Scan
-from slamlab.runner import run
-from slamlab.sensors import Scanner
+from slamlab.simulation.range_scanners import Scanner
 from slamlab.sources import simulation
 
 LIDAR = Scanner(range_error=0.005)
@@ -44,7 +44,7 @@ def test_it_ends_much_nearer_to_the_truth_than_odometry(driven):
     assert off < 0.05
 
 
-def test_it_believes_no_more_than_it_knows(driven):
+def test_it_is_consistent_by_its_nees(driven):
     source, result, P = driven
     errors = result.trajectory.poses - source.truth.poses
     errors[:, 2] = wrap(errors[:, 2])
@@ -132,19 +132,19 @@ def wall(rho, alpha, low, high):
     return np.array([rho, alpha]), foot + np.outer([low, high], way)
 
 
-def test_a_wall_is_due_at_its_third_sighting_and_forgotten_when_unseen_for_long():
-    trial = Candidates(sightings=3, lives=2)
+def test_a_tentative_wall_is_confirmed_at_its_third_sighting_and_forgotten_when_unseen():
+    trial = TentativeWalls(sightings=3, lives=2)
     one, other = wall(2.0, 0.5, -1, 1), wall(2.0, 0.5, 4, 5)
     assert [trial.sight([one]) for _ in range(3)] == [[False], [False], [True]]
-    assert trial.waiting == []
+    assert trial.tentative == []
     trial.sight([one])
     trial.sight([])
-    assert trial.sight([one]) == [False] and trial.waiting[0].sightings == 2
+    assert trial.sight([one]) == [False] and trial.tentative[0].sightings == 2
     for _ in range(2):
         trial.sight([])
-    assert trial.waiting == []
+    assert trial.tentative == []
     trial.sight([one, other])
-    assert len(trial.waiting) == 2  # collinear, but far apart: two walls
+    assert len(trial.tentative) == 2  # collinear, but far apart: two walls
 
 
 def test_through_a_door_no_wall_is_drawn():
@@ -157,8 +157,8 @@ def test_through_a_door_no_wall_is_drawn():
 
 
 @given(st.lists(st.floats(-3, 3), max_size=30), st.lists(st.floats(-3, 3), max_size=30))
-def test_pieces_hold_what_stands_close_and_their_union_holds_both(first, second):
-    first, second = pieces(np.array(first)), pieces(np.array(second))
+def test_segments_hold_what_stands_close_and_their_union_holds_both(first, second):
+    first, second = split_at_gaps(np.array(first)), split_at_gaps(np.array(second))
     for parts in (first, second, union(first, second)):
         assert np.all(parts[:, 0] <= parts[:, 1]) and np.all(parts[1:, 0] > parts[:-1, 1])
     both = union(first, second)
@@ -167,26 +167,26 @@ def test_pieces_hold_what_stands_close_and_their_union_holds_both(first, second)
     assert np.sum(np.diff(both)) <= np.sum(np.diff(first)) + np.sum(np.diff(second)) + 1e-9
 
 
-def test_a_hole_parts_two_pieces_and_a_lone_hit_is_none():
+def test_a_gap_splits_two_segments_and_a_lone_hit_is_none():
     np.testing.assert_allclose(
-        pieces(np.array([1.0, 0.8, 0.9, 2.0, 2.1, 3.0])), [[0.8, 1], [2, 2.1]]
+        split_at_gaps(np.array([1.0, 0.8, 0.9, 2.0, 2.1, 3.0])), [[0.8, 1], [2, 2.1]]
     )
 
 
-def test_a_stretch_lies_along_its_line_and_stretches_that_nearly_touch_overlap():
+def test_an_extent_lies_along_its_line_and_extents_that_nearly_touch_overlap():
     line, ends = wall(3.0, 1.0, -0.7, 1.2)
-    np.testing.assert_allclose(stretch(line, ends), [-0.7, 1.2], atol=1e-12)
+    np.testing.assert_allclose(extent(line, ends), [-0.7, 1.2], atol=1e-12)
     assert overlap((0, 1), (1.4, 2)) and not overlap((0, 1), (1.6, 2))
 
 
 @given(st.lists(st.tuples(st.floats(-1, 1), st.floats(-1, 1)), max_size=60))
 def test_kept_points_keep_their_distance_and_every_other_one_is_near_a_kept_one(points):
     points = np.array(points).reshape(-1, 2)
-    thinned = Thinned(0.1)
-    kept = sum(thinned.add(part) for part in np.array_split(points, 3))
-    assert kept == len(thinned.xy)
+    downsampled = DownsampledPoints(0.1)
+    kept = sum(downsampled.add(part) for part in np.array_split(points, 3))
+    assert kept == len(downsampled.xy)
     if kept > 1:
-        assert pdist(thinned.xy).min() > 0.1
+        assert pdist(downsampled.xy).min() > 0.1
     if len(points):
-        off = np.hypot(*(points[:, None] - thinned.xy[None]).transpose(2, 0, 1))
+        off = np.hypot(*(points[:, None] - downsampled.xy[None]).transpose(2, 0, 1))
         assert off.min(axis=1).max() <= 0.1 + 1e-9

@@ -7,8 +7,8 @@ import pytest
 
 from slamlab import worlds
 from slamlab.geometry import compose
-from slamlab.sources.simulation import POLYGON_TRUE_STEPS, TOURS, turn_then_drive
-from slamlab.world import World
+from slamlab.sources.simulated_robot import POLYGON_TRUE_STEPS, TOURS, turn_then_drive
+from slamlab.worlds.world import World
 
 ALL_ROUND = np.linspace(-np.pi, np.pi, 720, endpoint=False)
 

@@ -6,8 +6,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from slamlab import worlds
-from slamlab.world import World
 from slamlab.worlds.files import WorldFileError, load, save
+from slamlab.worlds.world import World
 
 finite = st.floats(-1e6, 1e6)
 walls = st.lists(

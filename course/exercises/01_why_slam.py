@@ -19,7 +19,7 @@ import numpy as np
 from slamlab import views, worlds
 from slamlab.checks import attempt, check
 from slamlab.layers import Points, Poses, Segments
-from slamlab.sensors import RPLIDAR_A2
+from slamlab.simulation import RPLIDAR_A2
 
 # %% [markdown]
 # ## 1 · One step

@@ -19,7 +19,7 @@ import numpy as np
 from slamlab import views
 from slamlab.checks import attempt, check
 from slamlab.geometry import wrap
-from slamlab.jacobians import A_odometry, H_landmark, H_robot, J_xr, J_z, W_odometry
+from slamlab.models import A_odometry, H_landmark, H_robot, J_xr, J_z, W_odometry
 from slamlab.layers import Ellipses, Points, Poses
 from slamlab.models import f_odometry, g, h
 

@@ -18,7 +18,7 @@ import numpy as np
 from slamlab import views
 from slamlab.checks import attempt, check
 from slamlab.geometry import compose
-from slamlab.jacobians import H_landmark, H_robot
+from slamlab.models import H_landmark, H_robot
 
 # %% [markdown]
 # ## 1 · What is shared, without units
@@ -60,8 +60,8 @@ check("07-correlation")
 # %%
 @attempt
 def _():
-    from slamlab.estimators.mak import MakSlam
-    from slamlab.sources.landmarks import LandmarkRun, Loop
+    from slamlab.estimators import MakSlam
+    from slamlab.sources.landmark_runs import LandmarkRun, Loop
 
     source = LandmarkRun(Loop(landmarks=8, steps=50), np.random.default_rng(7))
     slam = MakSlam(source.robot, source.sensor)
@@ -174,8 +174,8 @@ check("07-relative")
 # %%
 @attempt
 def _():
-    from slamlab.estimators.mak import MakSlam
-    from slamlab.sources.landmarks import LandmarkRun, Loop
+    from slamlab.estimators import MakSlam
+    from slamlab.sources.landmark_runs import LandmarkRun, Loop
 
     source, spreads = LandmarkRun(Loop(steps=170), np.random.default_rng(7)), []
     slam = MakSlam(source.robot, source.sensor)
@@ -373,8 +373,8 @@ check("07-first-estimates")
 # %%
 @attempt
 def _():
-    from slamlab.estimators.mak import MakSlam
-    from slamlab.sources.landmarks import LandmarkRun, Loop
+    from slamlab.estimators import MakSlam
+    from slamlab.sources.landmark_runs import LandmarkRun, Loop
 
     source = LandmarkRun(Loop(landmarks=6, steps=80, range_max=12), np.random.default_rng(7))
     slam, poses, ends, places = MakSlam(source.robot, source.sensor), [], [], []

@@ -21,7 +21,7 @@ from scipy.spatial import cKDTree
 from slamlab import views, worlds
 from slamlab.checks import attempt, check
 from slamlab.layers import Points, Poses, Segments
-from slamlab.sensors import RPLIDAR_A2
+from slamlab.simulation import RPLIDAR_A2
 
 # %% [markdown]
 # Two helpers to use as you like: one carries a cloud by a motion, one finds for every source point

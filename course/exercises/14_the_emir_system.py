@@ -67,9 +67,9 @@ check("14-nodes")
 # %% name="one-turn"
 def heard(world, seconds):
     """What an emulated lidar at a world's origin sends after SCAN, without the answer's head."""
-    from slamlab.devices.emulator.body import Body
-    from slamlab.devices.emulator.rplidar import RplidarMachine
-    from slamlab.devices.emulator.sight import Sight
+    from slamlab.devices.emulator.robot_body import Body
+    from slamlab.devices.emulator.rplidar_emulator import RplidarMachine
+    from slamlab.devices.emulator.motion_distortion import Sight
     from slamlab.devices.rplidar.requests import Command, request
 
     rng = np.random.default_rng(1)
@@ -240,8 +240,8 @@ check("14-unwrap")
 @attempt
 def _():
     from slamlab.devices.emir.commands import info
-    from slamlab.devices.emulator.body import Body
-    from slamlab.devices.emulator.emir import EmirMachine
+    from slamlab.devices.emulator.robot_body import Body
+    from slamlab.devices.emulator.emir_emulator import EmirMachine
 
     emir = EmirMachine(Body(worlds.corridor(), np.random.default_rng(1)))
     emir.feed(info(True), 0.0)

@@ -19,7 +19,7 @@
 # right.
 
 # %% name="setup-check"
-from slamlab import setup_check
+from slamlab.checks import setup_check
 
 setup_check.report()
 
@@ -46,7 +46,7 @@ import numpy as np
 from slamlab import views, worlds
 from slamlab.geometry import transform
 from slamlab.layers import Points, Poses, Segments
-from slamlab.sensors import RPLIDAR_A2
+from slamlab.simulation import RPLIDAR_A2
 
 rng = np.random.default_rng(7)
 room, pose = worlds.room(), np.array([1.0, 0.0, 0.5])
@@ -277,3 +277,12 @@ for theta in (25, 115):
 #
 # **What comes next:** [01 · Why SLAM](01_why_slam.ipynb). A robot drives round a corridor and comes
 # home, but its map does not.
+
+# %% [markdown] slideshow={"slide_type": "skip"}
+# ## Appendix: the field's words
+#
+# The course speaks as the literature does. Each term stands with one sentence, the file of the package
+# that does it, the lesson that teaches it and, where the sources of the course (or its first edition)
+# have a word of their own, that word.
+#
+# {{glossary}}

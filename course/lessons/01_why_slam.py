@@ -19,7 +19,7 @@ import numpy as np
 from slamlab import estimators, sources, views
 from slamlab.geometry import between, compose, transform
 from slamlab.layers import Points, Poses, Segments
-from slamlab.runner import run
+from slamlab.estimators import run
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## A robot that counts the turns of its wheels

@@ -32,9 +32,9 @@ from slamlab import sources, views, worlds
 from slamlab.geometry import between, compose, transform
 from slamlab.layers import Points, Poses, Segments
 from slamlab.readings import Scan
-from slamlab.sensors import GP2D120, RPLIDAR_A2, ULTRASONIC, Scanner
-from slamlab.simulator import DifferentialDrive, Simulator
-from slamlab.world import World
+from slamlab.simulation import GP2D120, RPLIDAR_A2, ULTRASONIC, Scanner
+from slamlab.simulation import DifferentialDrive, Simulator
+from slamlab.worlds import World
 from slamlab.views.editor import edit_world
 from slamlab.worlds.files import WorldFileError
 

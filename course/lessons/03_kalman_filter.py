@@ -776,12 +776,12 @@ print("P apart by less than 1e-12:", bool(abs(Ps[-1] - P_batch).max() < 1e-12))
 # ## The tools of the trade
 #
 # Two ready-made filters on the same drive: `filterpy`, which many robots use, and the course's own
-# `slamlab.filters.linear`. **Predict** in how many digits they agree with ours.
+# `slamlab.filters.linear_kalman`. **Predict** in how many digits they agree with ours.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 from filterpy.kalman import KalmanFilter
 
-from slamlab.filters import linear
+from slamlab.filters import linear_kalman as linear
 
 theirs, ours = KalmanFilter(dim_x=2, dim_z=1), linear.belief(x_start, P_start)
 theirs.x, theirs.P, theirs.F, theirs.B = x_start, P_start, F, G

@@ -22,7 +22,8 @@ import numpy as np
 import sympy as sp
 from IPython.display import Markdown
 
-from slamlab import jacobians, models, noise, symbolic, views
+from slamlab import models, views
+from slamlab.models import jacobians, noise, symbolic
 from slamlab.geometry import wrap
 from slamlab.layers import Poses
 
@@ -208,8 +209,8 @@ H_robot.applyfunc(in_r)
 #
 # A derivation can be mistyped, code can be mistyped, a step size can be bad; all three alike,
 # hardly. At one point with nothing special about it we compare the derivation with
-# `slamlab.symbolic`, with the fast code in `slamlab.jacobians`, and with differences of the model
-# itself.
+# `slamlab.models.symbolic`, with the fast code in `slamlab.models.jacobians`, and with differences of
+# the model itself.
 
 # %% slideshow={"slide_type": "fragment"}
 POINT = {x: 1.2, y: -0.7, theta: 0.9, p_x: -1.5, p_y: 2.2, d: 1.3, turn: 0.4, r: 3.1, beta: 1.1}

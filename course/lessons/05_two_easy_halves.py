@@ -22,12 +22,17 @@ import filterpy.kalman
 import numpy as np
 import sympy as sp
 
-from slamlab import jacobians, models, views
+from slamlab import models, views
+from slamlab.models import jacobians
 from slamlab.evaluation import band, nees
-from slamlab.filters import linear, localisation, mapping
+from slamlab.filters import (
+    linear_kalman as linear,
+    ekf_localisation as localisation,
+    known_pose_mapping as mapping,
+)
 from slamlab.geometry import compose, wrap
 from slamlab.layers import Ellipses, Points, Poses
-from slamlab.sources.landmarks import LandmarkRun, Loop
+from slamlab.sources.landmark_runs import LandmarkRun, Loop
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## A lap, and two things nobody knows
@@ -476,7 +481,7 @@ views.show(
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## The tools of the trade agree
 #
-# filterpy's extended Kalman filter and `slamlab.filters.localisation`, step for step:
+# filterpy's extended Kalman filter and `slamlab.filters.ekf_localisation`, step for step:
 
 
 # %% slideshow={"slide_type": "fragment"}

@@ -22,14 +22,15 @@
 import numpy as np
 import sympy as sp
 
-from slamlab import evaluation, jacobians, models, views
-from slamlab.estimators.base import Estimator
-from slamlab.estimators.mak import MakSlam, Q_arc
-from slamlab.filters.mak import MAK
+from slamlab import evaluation, models, views
+from slamlab.models import jacobians
+from slamlab.estimators import Estimator
+from slamlab.estimators.mak_slam import MakSlam, Q_arc
+from slamlab.filters import MAK
 from slamlab.geometry import compose, wrap
 from slamlab.layers import Ellipses, Points, Poses, Segments
-from slamlab.runner import run
-from slamlab.sources.landmarks import LandmarkRun, Loop
+from slamlab.estimators import run
+from slamlab.sources.landmark_runs import LandmarkRun, Loop
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Two errors in one innovation

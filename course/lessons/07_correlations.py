@@ -28,15 +28,15 @@ import sympy as sp
 from IPython.display import Markdown
 
 from slamlab import models, views
-from slamlab.estimators.mak import MakSlam, Q_arc
+from slamlab.estimators.mak_slam import MakSlam, Q_arc
 from slamlab.evaluation import band, correlation, nees
-from slamlab.filters.compressed import CompressedMAK
-from slamlab.filters.groups import Joined
-from slamlab.filters.mak import MAK
-from slamlab.filters.relative import relative_vector
+from slamlab.filters import CompressedMAK
+from slamlab.filters import JoinedMap
+from slamlab.filters import MAK
+from slamlab.filters.relative_map import relative_vector
 from slamlab.geometry import compose, wrap
 from slamlab.layers import Points, Poses
-from slamlab.sources.landmarks import LandmarkRun, Loop
+from slamlab.sources.landmark_runs import LandmarkRun, Loop
 from slamlab.studies.consistency import errors_of
 
 # %% [markdown] slideshow={"slide_type": "slide"}
@@ -777,7 +777,7 @@ print(f"largest difference of any number in x and P: {off:.9f}")
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 trip = LandmarkRun(round_trip, np.random.default_rng(7))
-readings, one, joined = list(trip), MakSlam(trip.robot, trip.sensor), Joined()
+readings, one, joined = list(trip), MakSlam(trip.robot, trip.sensor), JoinedMap()
 for start in range(0, len(readings), 23):
     local = MakSlam(trip.robot, trip.sensor)
     for reading in readings[start : start + 23]:

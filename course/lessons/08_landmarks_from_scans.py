@@ -22,21 +22,22 @@ from dataclasses import replace
 import numpy as np
 import sympy as sp
 
-from slamlab import jacobians, models, symbolic, views, worlds
+from slamlab import models, views, worlds
+from slamlab.models import jacobians, symbolic
 from slamlab.evaluation import nees
-from slamlab.filters.association import nearest, squared_distances
-from slamlab.filters.kinds import LINES
-from slamlab.filters.mak import MAK
+from slamlab.filters.data_association import nearest_neighbours, squared_distances
+from slamlab.filters.landmark_models import LINES
+from slamlab.filters import MAK
 from slamlab.geometry import transform, wrap
-from slamlab.landmarks.candidates import Candidate, Candidates, stretch
+from slamlab.landmarks.tentative_walls import TentativeWall, TentativeWalls, extent
 from slamlab.landmarks.corners import corners
-from slamlab.landmarks.fit import cloud, fit, total_least_squares
+from slamlab.landmarks.line_fitting import cloud, fit, total_least_squares
 from slamlab.landmarks.ransac import THESIS, lines
 from slamlab.landmarks.spikes import spikes
 from slamlab.layers import Ellipses, Points, Poses, Segments
 from slamlab.readings import Scan
-from slamlab.sources.simulation import THESIS_LIDAR as LIDAR  # 1 % noise
-from slamlab.world import World
+from slamlab.sources.simulated_robot import THESIS_LIDAR as LIDAR  # 1 % noise
+from slamlab.worlds import World
 
 HOME = np.zeros(3)
 
@@ -940,7 +941,7 @@ d2 = squared_distances(mak, seen, R)[0]
 euclid = np.hypot(*(seen - walls_in_map).T)
 for name, near, far in zip(mak.ids, euclid, np.sqrt(d2), strict=True):
     print(f"wall {name}: {near:.2f} by Pythagoras, {far:.1f} standard deviations")
-print("nearest within the 95 % gate:", nearest(mak, seen, R, 0.95))
+print("nearest within the 95 % gate:", nearest_neighbours(mak, seen, R, 0.95))
 
 # %% slideshow={"slide_type": "fragment"}
 H_r, H_p = LINES.H(HOME, walls_in_map)
@@ -1031,14 +1032,14 @@ def drive_round(world, ransac, n=40):
 
 def entered(world, ransac, sightings=1, lives=3, within_scan=True):
     """The walls that enter a map; each waits until it was seen often enough."""
-    trial, in_map = Candidates(sightings, lives), []
+    trial, in_map = TentativeWalls(sightings, lives), []
     for seen in drive_round(world, ransac):
         known = list(in_map)
         new = [sight for sight in seen if not any(wall.fits(*sight) for wall in known)]
         for sight, due in zip(new, trial.sight(new), strict=True):
             if due and not (within_scan and any(wall.fits(*sight) for wall in in_map)):
                 line, ends = sight
-                in_map.append(Candidate(line, stretch(line, ends), 1, 1))
+                in_map.append(TentativeWall(line, extent(line, ends), 1, 1))
     return in_map
 
 
@@ -1046,7 +1047,7 @@ def entered(world, ransac, sightings=1, lives=3, within_scan=True):
 def ends_of(wall):
     rho, alpha = wall.line
     c, s = np.cos(alpha), np.sin(alpha)
-    return np.array([rho * c, rho * s]) + np.outer(wall.stretch, [-s, c])
+    return np.array([rho * c, rho * s]) + np.outer(wall.extent, [-s, c])
 
 
 def told(world, ransac, **rule):

@@ -26,24 +26,25 @@ import numpy as np
 import sympy as sp
 from IPython.display import Markdown
 
-from slamlab import estimators, models, symbolic, views
-from slamlab.estimators.mak import Q_arc
-from slamlab.estimators.walls import DOUBT, GATE, WallSlam
+from slamlab import estimators, models, views
+from slamlab.models import symbolic
+from slamlab.estimators.mak_slam import Q_arc
+from slamlab.estimators.wall_slam import AMBIGUITY_GATE, GATE, WallSlam
 from slamlab.evaluation import band, nees
-from slamlab.filters.association import squared_distances
-from slamlab.filters.kinds import LINES, POINTS, Kind
-from slamlab.filters.mak import MAK
+from slamlab.filters.data_association import squared_distances
+from slamlab.filters.landmark_models import LINES, POINTS, LandmarkModel
+from slamlab.filters import MAK
 from slamlab.geometry import compose, transform, wrap
-from slamlab.jacobians import W_odometry
-from slamlab.landmarks.candidates import Candidates, overlap, stretch
-from slamlab.landmarks.fit import cloud
+from slamlab.models import W_odometry
+from slamlab.landmarks.tentative_walls import TentativeWalls, extent, overlap
+from slamlab.landmarks.line_fitting import cloud
 from slamlab.landmarks.ransac import THESIS, lines
-from slamlab.landmarks.thinned import Thinned
+from slamlab.landmarks.downsampling import DownsampledPoints
 from slamlab.layers import Points, Poses, Segments
-from slamlab.runner import run
+from slamlab.estimators import run
 from slamlab.sources import simulation
-from slamlab.sources.simulation import THESIS_LIDAR
-from slamlab.world import World
+from slamlab.sources.simulated_robot import THESIS_LIDAR
+from slamlab.worlds import World
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Two situations
@@ -131,8 +132,8 @@ class Front:
     def near(self, line, d2):
         """Walls of the map that a line may be: their squared distances and ids."""
         ends, walls = transform(self.mak.pose, line.ends), self.mak.landmarks()
-        touching = [overlap(self.seen[i], stretch(walls[i], ends)) for i in self.mak.ids]
-        return [(d, i) for i, d in enumerate(d2) if touching[i] and d < DOUBT]
+        touching = [overlap(self.seen[i], extent(walls[i], ends)) for i in self.mak.ids]
+        return [(d, i) for i, d in enumerate(d2) if touching[i] and d < AMBIGUITY_GATE]
 
     def pair(self, found):
         known, new = {}, []
@@ -179,7 +180,7 @@ class Back:
                 self.seen[i], known[i] = np.array([np.inf, -np.inf]), line
         self.first = False
         for i, line in known.items():  # how far along each wall has been seen
-            low, high = stretch(self.mak.landmarks()[i], transform(pose, line.ends))
+            low, high = extent(self.mak.landmarks()[i], transform(pose, line.ends))
             self.seen[i] = np.array([min(self.seen[i][0], low), max(self.seen[i][1], high)])
 
 
@@ -195,7 +196,7 @@ class Walls(Front, Back):
         self.robot, self.sensor = source.robot, source.sensor
         self.rng = np.random.default_rng(0)  # RANSAC guesses
         self.mak = MAK(np.zeros(3), np.zeros((3, 3)), kind=kind, first_estimates=True)
-        self.trial, self.seen, self.first = Candidates(sightings, lives=3), {}, True
+        self.trial, self.seen, self.first = TentativeWalls(sightings, lives=3), {}, True
 
     def step(self, reading):
         self.predict(reading.odometry)
@@ -236,7 +237,7 @@ print("largest difference of P:", abs(ours.mak.P - packaged.filter.P).max().roun
 # next: nine cells. Each holds few points, since they keep their distance themselves.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-thinned, offered = Thinned(0.06), 0
+thinned, offered = DownsampledPoints(0.06), 0
 for reading, pose in zip(room, room.truth.poses, strict=True):
     thinned.add(transform(pose, reading.scan.points()))
     offered += reading.scan.valid.sum()
@@ -258,7 +259,7 @@ print(f"his loop compares up to {len(thinned.xy)} times a point, the grid {9 * c
 # %% slideshow={"slide_type": "fragment"}
 def driven(source, slam):
     """Drive a loop through a source: what it believed at each step, and its points."""
-    poses, P, drawn = [], [], Thinned()
+    poses, P, drawn = [], [], DownsampledPoints()
     for reading in source:
         slam.step(reading)
         poses.append(slam.mak.pose)
@@ -282,7 +283,7 @@ good = {name: driven(source, Walls(source)) for name, source in sources.items()}
 
 # %% slideshow={"slide_type": "fragment"}
 def pictured(name):
-    smeared = Thinned()
+    smeared = DownsampledPoints()
     for reading, pose in zip(sources[name], naive[name], strict=True):
         smeared.add(transform(pose, reading.scan.points()))
     truth = Poses("truth", sources[name].truth.poses)
@@ -481,7 +482,7 @@ def times_57(*matrices):
     return tuple(spoilt)
 
 
-IN_DEGREES = Kind(
+IN_DEGREES = LandmarkModel(
     LINES.h,
     LINES.g,
     lambda x, line: times_57(*LINES.H(x, line)),
@@ -572,7 +573,7 @@ class Endless(Walls):
     """A wall is its infinite line."""
 
     def near(self, line, d2):
-        return [(d, i) for i, d in enumerate(d2) if d < DOUBT]
+        return [(d, i) for i, d in enumerate(d2) if d < AMBIGUITY_GATE]
 
 
 compared({"infinite lines": Endless}, names=["situation-1"])

@@ -27,20 +27,26 @@ import numpy as np
 import sympy as sp
 
 from slamlab import views
-from slamlab.estimators.bor import BorSlam
-from slamlab.estimators.mak import MakSlam
-from slamlab.filters.bor import BOR, EmptyIntersection, sharpen
-from slamlab.filters.bor import edges as bor_edges
-from slamlab.filters.bor.angles import angles, bearings, holds, intersection, middle
-from slamlab.filters.bor.clip import clip as bor_clip
+from slamlab.estimators import BorSlam
+from slamlab.estimators import MakSlam
+from slamlab.filters.bor import BOR, EmptyIntersection, contraction as sharpen
+from slamlab.filters.bor import half_planes as bor_edges
+from slamlab.filters.bor.angle_intervals import (
+    angle_interval,
+    bearing_interval,
+    contains,
+    intersection,
+    midpoint,
+)
+from slamlab.filters.bor.clipping import clip as bor_clip
 from slamlab.filters.bor.intervals import around, cosine, product, width
-from slamlab.filters.bor.predict import moved, wheels
+from slamlab.filters.bor.prediction import predict_box, wheels
 from slamlab.geometry import compose, wrap
 from slamlab.layers import Boxes, Points
 from slamlab.models import h
-from slamlab.simulator import arc
-from slamlab.sources.landmarks import LandmarkRun, Loop
-from slamlab.studies.boxes import TABLE, Bounded, BoundedRun, counted, inside, outside
+from slamlab.simulation import arc
+from slamlab.sources.landmark_runs import LandmarkRun, Loop
+from slamlab.studies.boxes import TABLE, BoundedNoise, BoundedRun, inside, outside, violations
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## A bound is a promise
@@ -114,7 +120,7 @@ ends = sorted([wrap(right), wrap(left)])
 for degrees in (180, 0):
     by_size = ends[0] <= wrap(np.radians(degrees)) <= ends[1]
     print(
-        f"{degrees:3}°: min to max {by_size!s:5}, right to left {holds((right, left), np.radians(degrees))}"
+        f"{degrees:3}°: min to max {by_size!s:5}, right to left {contains((right, left), np.radians(degrees))}"
     )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
@@ -135,7 +141,7 @@ def within(interval, angle):
 # **Predict** how many pieces the overlap has of "−150° to 150°" and "120° to 240°".
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-wide, behind = angles(*np.radians([-150, 150])), angles(*np.radians([120, 240]))
+wide, behind = angle_interval(*np.radians([-150, 150])), angle_interval(*np.radians([120, 240]))
 pieces = intersection(wide, behind)
 print([tuple(int(angle) for angle in np.degrees(piece).round()) for piece in pieces])
 
@@ -217,7 +223,7 @@ print([w * c for w in (-1, 2) for c in (-3, 1)], "→", product((-1, 2), (-3, 1)
 
 # %% slideshow={"slide_type": "fragment"}
 start, heading, way = (0.0, 0.0, 0.0, 0.0), (-0.5, 0.5), (0.9, 1.1)
-box, _ = moved(start, heading, way, (0.0, 0.0), (0.0, 0.0))
+box, _ = predict_box(start, heading, way, (0.0, 0.0), (0.0, 0.0))
 drives = np.random.default_rng(1).uniform(*zip(way, heading, strict=True), (800, 2))
 ends = drives[:, :1] * np.column_stack([np.cos(drives[:, 1]), np.sin(drives[:, 1])])
 corner = np.outer(way, np.cos(heading)), np.outer(way, np.sin(heading))
@@ -263,7 +269,7 @@ print("d − d by intervals:", (d[0] - d[1], d[1] - d[0]), "  in truth: 0")
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 left_way, right_way = (0.28, 0.32), (0.33, 0.37)
-box, _ = moved(start, (0.0, 0.0), *wheels(left_way, right_way, 0.3))
+box, _ = predict_box(start, (0.0, 0.0), *wheels(left_way, right_way, 0.3))
 rolled = np.random.default_rng(2).uniform(*zip(left_way, right_way, strict=True), (20_000, 2))
 ends = np.array([arc(*ways, 0.3) for ways in rolled])
 for name, k in (("x", 0), ("y", 1)):
@@ -285,7 +291,7 @@ truth, object_at = np.array([0.12, -0.08, -0.05]), np.array([2.6, 0.55])
 robot, heading = (-0.4, 0.4, -0.25, 0.25), (-0.4, 0.25)
 believed = (0.6, 4.2, -1.6, 3.8)
 z, bounds = h(truth, object_at) + np.array([0.1, 0.04]), (0.15, 0.06)
-direction, d_abs = middle(heading) + z[1], bounds[1] + (heading[1] - heading[0]) / 2
+direction, d_abs = midpoint(heading) + z[1], bounds[1] + (heading[1] - heading[0]) / 2
 print(f"r = {z[0]:.2f} m, direction {direction:.2f} rad, d_abs = {d_abs:.2f} rad")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
@@ -529,9 +535,9 @@ print("before:", robot, "  after:", np.round(robot_known, 2), "  truth:", truth[
 # **Question.** What are the extremes when the boxes overlap?
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-seen = bearings(robot_known, known)
+seen = bearing_interval(robot_known, known)
 told = seen[0] - z[1] - bounds[1], seen[1] - z[1] + bounds[1]
-(after,) = intersection(heading, angles(*told))
+(after,) = intersection(heading, angle_interval(*told))
 for name, interval in (
     ("bearings", seen),
     ("told", told),
@@ -539,7 +545,7 @@ for name, interval in (
     ("after", after),
 ):
     print(f"{name:14} {interval[0]:.2f} to {interval[1]:.2f}")
-print("the true heading", truth[2], "is held:", holds(after, truth[2]))
+print("the true heading", truth[2], "is held:", contains(after, truth[2]))
 
 # %% slideshow={"slide_type": "subslide"}
 fig, ax = views.axes("All bearings from box to box", size=(6, 4.5))
@@ -568,7 +574,7 @@ for k in range(5):
     robot_k, heading_k, object_k = state
     area = width(robot_k[:2]) * width(robot_k[2:])
     print(f"round {k}: robot {area:.3f} m², heading {width(heading_k):.3f} rad")
-    state = sharpen.once(*state, (2.7, 0.2), (0.05, 0.02))
+    state = sharpen.contract_once(*state, (2.7, 0.2), (0.05, 0.02))
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # The first round sharpens the heading most; the second, with it, takes the robot's box to an eighth;
@@ -587,7 +593,7 @@ for k in range(5):
 # truth outside in 12 000 steps.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-runs = [counted(seed, steps=60) for seed in range(200)]
+runs = [violations(seed, steps=60) for seed in range(200)]
 for name in ("steps", "outside", "empty"):
     print(f"{name:8}", sum(run[name] for run in runs))
 
@@ -658,7 +664,7 @@ views.show(
 # %% slideshow={"slide_type": "fragment"}
 def one_bad_range(seed, times):
     """How many steps later a contradiction is reported, and whether the truth was ever outside."""
-    run = BoundedRun(Bounded(share=0.5), np.random.default_rng(seed), 40)
+    run = BoundedRun(BoundedNoise(share=0.5), np.random.default_rng(seed), 40)
     start, (d_r, d_beta) = run.filter(), run.world.seeing
     known = {i: (x, x, y, y) for i, (x, y) in enumerate(run.objects)}
     bor, reported, ever_out = BOR(start.robot, start.heading, known), [], False

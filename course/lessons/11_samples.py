@@ -27,21 +27,21 @@ import numpy as np
 import sympy as sp
 
 from slamlab import models, views
-from slamlab.estimators.mak import MakSlam
-from slamlab.estimators.montecarlo import fastslam, montecarlo
+from slamlab.estimators import MakSlam
+from slamlab.estimators.montecarlo_slam import fastslam, montecarlo
 from slamlab.evaluation import absolute_error, nees
-from slamlab.filters import linear
+from slamlab.filters import linear_kalman as linear
 from slamlab.filters.montecarlo import likelihood
-from slamlab.filters.montecarlo.cloud import uniform
-from slamlab.filters.montecarlo.localisation import MCL
-from slamlab.filters.montecarlo.motion import moved
+from slamlab.filters.montecarlo.particles import uniform
+from slamlab.filters import MCL
+from slamlab.filters.montecarlo.motion_sampling import sample_motion
 from slamlab.filters.montecarlo.resampling import multinomial, systematic
-from slamlab.filters.montecarlo.weights import effective_size, normalise
+from slamlab.filters.montecarlo.weights import effective_sample_size, normalise
 from slamlab.geometry import compose, wrap
-from slamlab.hardware import RobotModel
+from slamlab.models import RobotModel
 from slamlab.layers import Ellipses, Points, Poses, Samples, Segments
-from slamlab.simulator import arc
-from slamlab.sources.landmarks import LandmarkRun, Loop
+from slamlab.simulation import arc
+from slamlab.sources.landmark_runs import LandmarkRun, Loop
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Which corner is that?
@@ -83,7 +83,7 @@ def watch(steps, n, seed, strangers=0, carried=None, reach=1.2):
     for k in range(steps):
         if k == carried:
             truth = np.array([-1.5, 1.2, -2.0])
-        truth = moved(truth[None], STEP, WHEELS, rng)[0]
+        truth = sample_motion(truth[None], STEP, WHEELS, rng)[0]
         mcl.predict(STEP, WHEELS)
         mcl.update(look(truth, rng, reach), R)
         if strangers:
@@ -157,7 +157,7 @@ for step in (0, 3, 9, 36):
 # %% slideshow={"slide_type": "fragment"}
 rng = np.random.default_rng(11)
 start = rng.normal(0, [0.05, 0.05, 0.5], (1500, 3))
-ends = moved(start, [3.0, 0, 0], RobotModel(distance_error=0.02), rng)
+ends = sample_motion(start, [3.0, 0, 0], RobotModel(distance_error=0.02), rng)
 A = np.array([[1, 0, 0], [0, 1, 3.0], [0, 0, 1]])
 P = A @ np.diag([0.05, 0.05, 0.5]) ** 2 @ A.T + np.diag([0.06, 0, 0]) ** 2
 title = "3 m with a heading in doubt"
@@ -366,7 +366,7 @@ def weighed(sensor):
     mark, noise = np.array([[3.0, 1.0]]), np.diag([sensor, 0.05]) ** 2
     logs = likelihood.of_scan(rows, mark, models.h(np.zeros(3), mark), noise[None])
     weights, _ = normalise(logs)
-    worth = f"range to {100 * sensor:.0f} cm: worth {effective_size(weights):.0f} of 500"
+    worth = f"range to {100 * sensor:.0f} cm: worth {effective_sample_size(weights):.0f} of 500"
     fig, ax = views.axes(worth, size=(5.6, 3.8))
     views.draw(ax, Samples("sample", rows, weights))
     views.draw(ax, Points("landmark", mark), markersize=10)
@@ -429,7 +429,7 @@ print(f"by hand:  n w (1 − w) = {8 * 0.28 * 0.72:.2f};  2 or 3 copies: {0.24 *
 # %% slideshow={"slide_type": "fragment"}
 def localise(rows, weights, odometry, p, z, R, rng):
     """One step in a known map, landmark p[j] being seen at z[j]."""
-    rows = moved(rows, odometry, WHEELS, rng)
+    rows = sample_motion(rows, odometry, WHEELS, rng)
     logs = np.log(weights)
     for place, one in zip(p, z, strict=True):
         v = one - models.h(rows, place)
@@ -437,7 +437,7 @@ def localise(rows, weights, odometry, p, z, R, rng):
         logs -= 0.5 * np.sum(v @ np.linalg.inv(R) * v, axis=1)
     weights = np.exp(logs - logs.max())
     weights /= weights.sum()
-    if effective_size(weights) < len(rows) / 2:
+    if effective_sample_size(weights) < len(rows) / 2:
         rows = rows[systematic(weights, len(rows), rng)]
         weights = np.full(len(rows), 1 / len(rows))
     return rows, weights

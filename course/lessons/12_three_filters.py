@@ -26,18 +26,18 @@ from IPython.display import Markdown
 from scipy.stats import binomtest
 
 from slamlab import views
-from slamlab.estimators.bor import bounds
-from slamlab.estimators.seen import CLOSE, seen
-from slamlab.follower import WallFollower
+from slamlab.estimators.bor_slam import bounds
+from slamlab.estimators.landmark_observations import SHORT_RANGE_RANSAC, observed_landmarks
+from slamlab.simulation import WallFollower
 from slamlab.geometry import compose, transform, wrap
-from slamlab.landmarks.ransac import lines
+from slamlab.landmarks import lines
 from slamlab.layers import Ellipses, Points, Poses, Segments
 from slamlab.models import g
-from slamlab.noise import C_wheels
-from slamlab.sensors import GP2D120
-from slamlab.sources.arena import SETS, data_set
+from slamlab.models import C_wheels
+from slamlab.simulation import GP2D120
+from slamlab.sources.arena_runs import SETS, data_set
 from slamlab.studies.three import FILTERS, LOST, TABLE, errors_of, summary, with_corners
-from slamlab.world import World
+from slamlab.worlds import World
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## A robot for pocket money
@@ -185,7 +185,7 @@ print("and the target too", last_loop(speed=0.1, target=0.5))
 # origin: one reading, one centimetre. With both it drives 4 cm. And the comment in print says
 # "drive *more* than 4 cm", where the loop drives 4 cm at most.
 #
-# All of it mended is `slamlab.follower.WallFollower`:
+# All of it mended is `slamlab.simulation.wall_follower.WallFollower`:
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 rules = WallFollower()
@@ -264,7 +264,7 @@ assert laps[0][2] < laps[1][1] and laps[1][2] < laps[2][1]  # the intervals do n
 
 # %% slideshow={"slide_type": "fragment"}
 rng = np.random.default_rng(0)
-found = [seen(reading, drive.sensor, rng) for reading in readings]
+found = [observed_landmarks(reading, drive.sensor, rng) for reading in readings]
 corners = np.unique(drive.world.walls.reshape(-1, 2).round(9), axis=0)
 off = [
     np.hypot(*(corners - g(pose, z)).T).min()
@@ -279,7 +279,7 @@ print(f"95 % within {1000 * np.quantile(off, 0.95):.0f} mm")
 # %% slideshow={"slide_type": "fragment"}
 k = next(i for i, one in enumerate(found) if len(one.z) and i > 20)
 scan, z, R = readings[k].scan, found[k].z[0], found[k].R[0]
-pieces = lines(scan, drive.sensor, np.random.default_rng(0), CLOSE)
+pieces = lines(scan, drive.sensor, np.random.default_rng(0), SHORT_RANGE_RANSAC)
 J = np.array([[np.cos(z[1]), -z[0] * np.sin(z[1])], [np.sin(z[1]), z[0] * np.cos(z[1])]])
 corner = Ellipses("landmark", g(np.zeros(3), z)[None], 9 * (J @ R @ J.T)[None])
 ends = [np.ravel(1.3 * line.ends - 0.3 * line.ends[::-1]) for line in pieces]

@@ -27,14 +27,15 @@ import numpy as np
 import sympy as sp
 from scipy.spatial import cKDTree
 
-from slamlab import estimators, runner, sources, views
-from slamlab.evaluation.relations import load_relations, relations_error
+from slamlab import estimators, sources, views
+from slamlab.estimators import runner
+from slamlab.evaluation import load_relations, relations_error
 from slamlab.geometry import between, compose, transform
 from slamlab.layers import Points, Poses, Segments
 from slamlab.scanmatching import match, normals, point_to_line, point_to_point
-from slamlab.sensors import RPLIDAR_A2
-from slamlab.sources.simulation import simulation
-from slamlab.world import World
+from slamlab.simulation import RPLIDAR_A2
+from slamlab.sources import simulation
+from slamlab.worlds import World
 from slamlab.worlds import box, ring
 
 # %% [markdown] slideshow={"slide_type": "slide"}

@@ -33,21 +33,21 @@ from scipy.spatial import cKDTree
 from slamlab import estimators, sources, views, worlds
 from slamlab.devices.emir import Calibration, commands
 from slamlab.devices.emir.frames import COMMAND, Framer, checksum, frame
-from slamlab.devices.emir.odometry import Odometry
+from slamlab.devices.emir.wheel_odometry import Odometry
 from slamlab.devices.emir.status import Status
-from slamlab.devices.emulator.body import Body
-from slamlab.devices.emulator.emir import EmirMachine
-from slamlab.devices.emulator.rehearsal import rehearse
-from slamlab.devices.emulator.rplidar import RplidarMachine
-from slamlab.devices.emulator.sight import Sight
-from slamlab.devices.emulator.source import Emulated
-from slamlab.devices.recording.decoded import statuses, turns
-from slamlab.devices.recording.records import RX, parse
+from slamlab.devices.emulator.robot_body import Body
+from slamlab.devices.emulator.emir_emulator import EmirMachine
+from slamlab.devices.emulator.synthetic_recording import rehearse
+from slamlab.devices.emulator.rplidar_emulator import RplidarMachine
+from slamlab.devices.emulator.motion_distortion import Sight
+from slamlab.sources.emulated_devices import Emulated
+from slamlab.devices.recording.decoding import statuses, turns
+from slamlab.devices.recording.recording_file import RX, parse
 from slamlab.devices.rplidar.capsules import ExpressDecoder
-from slamlab.devices.rplidar.nodes import ScanDecoder
+from slamlab.devices.rplidar.measurement_nodes import ScanDecoder
 from slamlab.devices.rplidar.requests import Command, express, request
-from slamlab.devices.rplidar.turns import robot_frame
-from slamlab.devices.source import devices
+from slamlab.devices.rplidar.revolutions import robot_frame
+from slamlab.sources.live_devices import devices
 from slamlab.geometry import between, matrix, transform
 from slamlab.layers import Points, Poses, Segments
 

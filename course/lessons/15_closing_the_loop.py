@@ -28,19 +28,25 @@ from unittest import mock
 import numpy as np
 import sympy as sp
 
-from slamlab import estimators, runner, sources, views
-from slamlab.estimators import loops
-from slamlab.estimators.mak import Q_arc
+from slamlab import estimators, sources, views
+from slamlab.estimators import runner
+from slamlab.estimators import loop_closure as loops
+from slamlab.estimators.mak_slam import Q_arc
 from slamlab.evaluation import load_relations, relations_error
 from slamlab.geometry import between, compose, transform, wrap
-from slamlab.gridmap import OccupancyGrid, mapserver
-from slamlab.gridmap.grid import CERTAIN, FREE, HIT, MISS, log_odds
+from slamlab.gridmap import OccupancyGrid, map_server as mapserver
+from slamlab.gridmap.occupancy_grid import CERTAIN, FREE, HIT, MISS, log_odds
 from slamlab.layers import Ellipses, Points, Poses, Segments
-from slamlab.posegraph import PoseGraph, edges, scaling, symbolic
-from slamlab.posegraph import jacobians as graph_jacobians
+from slamlab.posegraph import (
+    PoseGraph,
+    edge_error as edges,
+    robust_kernel as scaling,
+    edge_symbolic as symbolic,
+)
+from slamlab.posegraph import edge_jacobians as graph_jacobians
 from slamlab.scanmatching import match, surface
-from slamlab.sensors import RPLIDAR_A2
-from slamlab.world import World
+from slamlab.simulation import RPLIDAR_A2
+from slamlab.worlds import World
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## A promise
@@ -390,7 +396,7 @@ for z in steps:
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 last = len(keys) - 1
 closing = match(surfaces[last], surfaces[0], between(chain.poses[0], chain.poses[last]))
-certain = loops.certainty(closing, surfaces[last], surfaces[0])
+certain = loops.match_information(closing, surfaces[last], surfaces[0])
 closed = deepcopy(chain)
 closed.add_edge(0, last, closing.pose, certain)
 optimum = closed.optimise()
@@ -457,7 +463,7 @@ for name, m in found.items():
     print(f"{name}: {m.verdict}")
     print(f"   on old walls {m.fit.overlap:.0%}, agreeing {m.fit.agreement:.0%},", end=" ")
     print(
-        f"fixed {m.observability.fixed.sum()} of 3, believable {loops.believable(m, *pairs[name])}"
+        f"fixed {m.observability.fixed.sum()} of 3, believable {loops.is_verified(m, *pairs[name])}"
     )
 
 # %% slideshow={"slide_type": "subslide"}
@@ -506,7 +512,7 @@ slam = runs["graph"].estimator
 K, graph = slam.keyframes, slam.graph
 true_keys = truth[np.flatnonzero(np.diff(slam.anchors, prepend=-1) > 0)]
 asked = [(j, i) for i in range(0, len(K), 6) for j in range(0, i - loops.APART, 6)]
-answers = [match(K[i].surface, loops.map_round(K, graph.poses, j)) for j, i in asked]
+answers = [match(K[i].surface, loops.submap_around(K, graph.poses, j)) for j, i in asked]
 
 
 # %% slideshow={"slide_type": "fragment"}
@@ -519,8 +525,10 @@ def is_false(j, i, pose, true_poses):
 gates = {"asked": [], "it fits": [], "all is fixed, nothing contradicts": [], "no surprise": []}
 for (j, i), m in zip(asked, answers, strict=True):
     seen, old = K[i].surface, K[j].surface
-    passed = [True, m.good, loops.believable(m, seen, old)]
-    passed += [passed[2] and graph.surprise(j, i, m.pose, loops.certainty(m, seen, old)) < 60]
+    passed = [True, m.good, loops.is_verified(m, seen, old)]
+    passed += [
+        passed[2] and graph.surprise(j, i, m.pose, loops.match_information(m, seen, old)) < 60
+    ]
     for gate, through in zip(gates, passed, strict=True):
         gates[gate] += [is_false(j, i, m.pose, true_keys)] * int(through)
 
@@ -588,7 +596,7 @@ views.show(fig, "Two rooms off a corridor, sharp; and one room, both drawn into 
 false = false_loops(broken.graph)
 edge = false[len(false) // 2]
 seen, old = (good.keyframes[k].surface for k in (edge.j, edge.i))
-m = match(seen, loops.map_round(good.keyframes, good.graph.poses, edge.i), edge.measured)
+m = match(seen, loops.submap_around(good.keyframes, good.graph.poses, edge.i), edge.measured)
 d2 = good.graph.surprise(edge.i, edge.j, edge.measured, edge.information)
 print(f"{m.verdict}: on old walls {m.fit.overlap:.0%}, agreeing {m.fit.agreement:.0%}")
 print(f"surprise: {d2:,.0f}, where right loops stay below 60")
@@ -833,8 +841,8 @@ def close(graph, i):
     near = np.flatnonzero(away < 1.5 + drift)
     for j in near[np.argsort(away[near])][:3]:
         m = match(surfaces[i], surfaces[j], between(graph.poses[j], graph.poses[i]))
-        if loops.believable(m, surfaces[i], surfaces[j]):
-            Lam = loops.certainty(m, surfaces[i], surfaces[j])
+        if loops.is_verified(m, surfaces[i], surfaces[j]):
+            Lam = loops.match_information(m, surfaces[i], surfaces[j])
             if graph.surprise(j, i, m.pose, Lam) < loops.SURPRISE:
                 graph.add_edge(j, i, m.pose, Lam, robust=True)
                 graph.optimise()

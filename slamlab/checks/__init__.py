@@ -1,16 +1,23 @@
-"""Checks of the exercises, for notebooks: ``check("04-h-robot")``, ``attempt`` and ``validate``."""
+"""Checks of the exercises, for notebooks: ``check("04-h-robot")``, ``attempt`` and ``validate``.
+
+Read in this order:
+
+- here: check, attempt, validate; ``time_limit``: their timeout
+- ``validation``: a whole notebook judged as grading judges it
+- ``setup_check``: whether this machine has what the course needs
+"""
 
 import os
 import sys
 
-from slamlab.checks.drives import describe
+from slamlab.exercises.drives import describe
 
 OPEN_SEED = b"open"
-"""Inputs in a notebook are the same at every check; grading draws its own."""
+"""The open seed: inputs in a notebook are the same at every check; grading has a secret seed."""
 
 
 def check(task_id):
-    """Run a task on the functions defined in the notebook and print the verdict.
+    """Check a task on the functions defined in the notebook and print the verdict.
 
     Parameters
     ----------
@@ -27,16 +34,16 @@ def check(task_id):
 
 
 def validate():
-    """Run this notebook, as it stands in its file, as grading will, and print what it earns."""
+    """Validate this notebook: run its saved file as grading will, and print what it earns."""
     if "NBGRADER_EXECUTION" in os.environ:  # nbgrader is at it already
         return
     from slamlab.checks import validation
 
-    validation.validate_running(sys._getframe(1).f_globals)
+    validation.validate_current_notebook(sys._getframe(1).f_globals)
 
 
 def attempt(function):
-    """Call a function at once; where it rests on something unsolved, say so and go on.
+    """Attempt to call a function at once; where something it needs is unsolved, say so and go on.
 
     Also a decorator: the cell then shows what the function displays.
 
@@ -59,7 +66,7 @@ def attempt(function):
 
 def _check(task_id, namespace):
     # imported late: a notebook that only attempts needs no laws
-    from slamlab.checks import catalogue, report
+    from slamlab.exercises import catalogue, report
 
     try:
         exercise = catalogue.exercise(str(task_id)[:2])
@@ -76,22 +83,22 @@ def _check(task_id, namespace):
     verdict = exercise.verdicts(judge_one, only=[task.id])[task.id]
     if printed.get(task.id):
         print(f"your code printed:\n{printed[task.id]}\n")
-    print(report.say(task, verdict))
+    print(report.format_verdict(task, verdict))
     return float(min(verdict.points, task.points))
 
 
 def _run(task, namespace):
-    from slamlab.checks import limits
+    from slamlab.checks import time_limit
 
-    if not limits.can_limit_time():
+    if not time_limit.can_limit_time():
         print("no time limit can be set here: should the check hang, interrupt the kernel")
-    with limits.printing_kept() as printed:
+    with time_limit.capture_output() as printed:
         try:
-            with limits.time_limit(task.drive.seconds):
+            with time_limit.time_limit(task.drive.seconds):
                 verdict = task.run(namespace, task.draw(OPEN_SEED))
             if verdict.kind == "missing":
                 verdict = task.failed("missing", f"{verdict.problem} yet: run the cell above")
-        except limits.OutOfTime:
+        except time_limit.TimeLimitExceeded:
             verdict = task.failed("time", f"still running after {task.drive.seconds:g} s")
         except KeyboardInterrupt:
             verdict = task.failed("stopped", "stopped before it was done")

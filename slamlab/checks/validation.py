@@ -1,4 +1,4 @@
-"""A notebook as it stands in its file, run in a fresh process and judged as grading judges it."""
+"""Validate a notebook: run its file in a fresh process and judge it as grading will."""
 
 import os
 import textwrap
@@ -6,18 +6,18 @@ from datetime import datetime
 from pathlib import Path
 
 from slamlab.checks import OPEN_SEED
-from slamlab.checks.report import WIDTH, number, points, say
-from slamlab.grading import form, judge, submissions
-from slamlab.grading.submissions import Submission, Unreadable
-from slamlab.grading.workers import CannotStart, Workers
+from slamlab.exercises.report import WIDTH, format_verdict, number, points
+from slamlab.grading import judge, preflight, submissions
+from slamlab.grading.submissions import Submission, SubmissionError
+from slamlab.grading.worker_pool import WorkerPool, WorkerStartError
 
 
-class NotValidated(Exception):
-    """A notebook cannot be judged at all; the text says why."""
+class ValidationError(Exception):
+    """A notebook cannot be validated at all; the text says why."""
 
 
 def validate(path, default=None) -> bool:
-    """Print what grading would say of a notebook, with the inputs that ``check`` uses.
+    """Validate a notebook and print its verdicts, with the inputs (open seed) that ``check`` uses.
 
     Parameters
     ----------
@@ -30,30 +30,32 @@ def validate(path, default=None) -> bool:
 
     Raises
     ------
-    NotValidated
+    ValidationError
     """
     submission = Submission(path.name, path.stem, path)
     try:
-        notebook = submissions.read(submission)
-        exercise = submissions.exercise_of(submission, notebook, default)
-        with Workers(warm=False) as workers:
-            result = judge.judge(exercise, notebook.cells, OPEN_SEED, workers, tell=True)
-    except (Unreadable, CannotStart, KeyError) as error:
-        raise NotValidated(f"{path}: {error.args[0]}") from None
+        notebook = submissions.read_notebook(submission)
+        exercise = submissions.identify_exercise(submission, notebook, default)
+        with WorkerPool(warm=False) as workers:
+            result = judge.judge_notebook(
+                exercise, notebook.cells, OPEN_SEED, workers, unredacted=True
+            )
+    except (SubmissionError, WorkerStartError, KeyError) as error:
+        raise ValidationError(f"{path}: {error.args[0]}") from None
     for note in notebook.notes:
         print(f"note: {note}")
     wall = result["seconds"]["wall"]
-    for remark in form.remarks(notebook.cells, result["cells"], exercise, wall):
+    for remark in preflight.form_warnings(notebook.cells, result["cells"], exercise, wall):
         print(textwrap.fill(remark, WIDTH, subsequent_indent="    "))
     for task, verdict in zip(exercise.tasks, result["verdicts"], strict=True):
-        print(say(task, verdict))
+        print(format_verdict(task, verdict))
     earned = sum(verdict.points for verdict in result["verdicts"])
     print(f"{number(earned)} of {points(exercise.points)}")
     return all(verdict.full for verdict in result["verdicts"])
 
 
-def validate_running(names):
-    """Print the same of the notebook whose kernel this is.
+def validate_current_notebook(names):
+    """Validate the notebook whose kernel this is.
 
     Parameters
     ----------
@@ -70,7 +72,7 @@ def validate_running(names):
     print(f"{path.name} as saved at {saved:%H:%M:%S}, in a fresh process from top to bottom:")
     try:
         validate(path)
-    except NotValidated as error:
+    except ValidationError as error:
         print(f"✗ {error}")
     except KeyboardInterrupt:
         print("✗ stopped before it was done")

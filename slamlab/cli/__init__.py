@@ -1,4 +1,11 @@
-"""The command line: ``slamlab COMMAND``; each command is a module with ``add_parser``.
+"""Command-line interface: ``slamlab COMMAND``; each subcommand is a module with ``add_parser``.
+
+Read in this order:
+
+- ``run``, ``convert``: estimators over sources, sources into reading logs
+- ``emulate``, ``record``, ``replay``: devices
+- ``check``, ``grade``, ``gradebook_verbs`` (merge, adjust, export): exercises
+- ``common``: what several share
 
 Exit codes: 0 done, 1 a task that is not passed, 2 wrong use or unreadable input, 130 interrupted.
 """
@@ -9,13 +16,13 @@ from importlib import import_module
 
 from slamlab import __version__
 
-COMMANDS = ("run", "convert", "emulate", "record", "replay", "check", "grade", "marks")
-SECOND_WORDS = {"grade": ("merge", "adjust", "export")}
-"""Words that make a command of two; a folder of such a name is given as ./merge."""
+COMMANDS = ("run", "convert", "emulate", "record", "replay", "check", "grade", "gradebook_verbs")
+SUBCOMMANDS = {"grade": ("merge", "adjust", "export")}
+"""Subcommands, written as two words; a folder of such a name is given as ./merge."""
 
 
 def main(argv=None):
-    """Run a command.
+    """Parse the command line and run a command (entry point).
 
     Parameters
     ----------
@@ -35,7 +42,7 @@ def main(argv=None):
     for command in COMMANDS:
         import_module(f"slamlab.cli.{command}").add_parser(subparsers)
     words = list(sys.argv[1:] if argv is None else argv)
-    if words[1:2] and words[1] in SECOND_WORDS.get(words[0], ()):
+    if words[1:2] and words[1] in SUBCOMMANDS.get(words[0], ()):
         words[:2] = [" ".join(words[:2])]
     arguments = parser.parse_args(words)
     try:

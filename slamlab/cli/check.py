@@ -1,4 +1,4 @@
-"""``slamlab check NOTEBOOK``: what the checks say of a notebook as it stands in its file."""
+"""``slamlab check NOTEBOOK``: validate an exercise notebook as grading does, without grading."""
 
 import sys
 from pathlib import Path
@@ -29,12 +29,13 @@ def add_parser(subparsers):
 
 def run(arguments) -> int:
     """Check; 0 when all tasks are passed, 1 when one is not, 2 when it cannot be checked."""
-    from slamlab.checks import catalogue, validation
+    from slamlab.checks import validation
+    from slamlab.exercises import catalogue
 
     try:
         if arguments.exercise is not None:
             catalogue.exercise(arguments.exercise)
         return 0 if validation.validate(arguments.notebook, arguments.exercise) else 1
-    except (validation.NotValidated, KeyError) as error:
+    except (validation.ValidationError, KeyError) as error:
         print(f"slamlab check: {error.args[0]}", file=sys.stderr)
         return 2

@@ -1,4 +1,4 @@
-"""What several commands share."""
+"""Helpers shared by the commands: random generator, source that ends at Ctrl-C, damage report."""
 
 import signal
 import threading
@@ -11,7 +11,7 @@ INTERRUPTED = 130  # the exit code after Ctrl-C, as of shells
 
 
 def generator(seed):
-    """A random generator from what a user typed; ValueError where that is negative."""
+    """The random generator of ``--seed``; ValueError where the seed is negative."""
     import numpy as np  # late: a help text should come at once
 
     if seed < 0:
@@ -20,13 +20,13 @@ def generator(seed):
 
 
 def damage_line(source):
-    """What of a source could not be used, as the end of a line; empty where all was well."""
+    """Count a source's corrupt data (damage), as the end of a line; empty where there is none."""
     kinds = ", ".join(f"{kind}: {count}" for kind, count in source.damage.items())
     return f"; damage: {kinds}" if kinds else ""
 
 
 class Interruptible:
-    """A source that ends, and not the program, where its devices are lost or Ctrl-C is pressed.
+    """Wrapper of a source that ends it, not the program, at Ctrl-C or when devices are lost.
 
     At Ctrl-C a live one is closed at once, so that its robot stops; pressed again it ends the
     program, too. In all else it is the source. ``ended`` says why it ended early, empty if it did

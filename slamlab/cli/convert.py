@@ -1,4 +1,4 @@
-"""``slamlab convert SOURCE FILE``: write any source as a reading log."""
+"""``slamlab convert SOURCE FILE``: convert any source (log, bag, recording) to a reading log."""
 
 import sys
 

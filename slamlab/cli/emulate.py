@@ -1,4 +1,4 @@
-"""``slamlab emulate``: an RPLIDAR on an eMIR, in a simulated world, behind two ports."""
+"""``slamlab emulate``: emulate an RPLIDAR on an eMIR, behind pseudo-terminals or TCP ports."""
 
 import contextlib
 import sys
@@ -44,8 +44,8 @@ def run(arguments) -> int:
     """Emulate; 0 when ended, 2 when something is wrong with the words or the ports."""
     # imported late: what a help text needs should come at once
     from slamlab.cli.common import generator
-    from slamlab.devices.emulator.bench import bench
-    from slamlab.devices.emulator.switches import switch
+    from slamlab.devices.emulator.emulator_runner import run_emulators
+    from slamlab.devices.emulator.fault_injection import inject_fault
     from slamlab.devices.errors import SlamlabError
 
     try:
@@ -54,7 +54,7 @@ def run(arguments) -> int:
         if not 0 <= arguments.typical <= 2:
             raise ValueError(f"--typical is 0, 1 or 2, not {arguments.typical}")
         robot = {"saturates": arguments.saturates, "watchdog": arguments.watchdog}
-        running = bench(
+        running = run_emulators(
             _world(arguments.world),
             rng,
             tcp_of(arguments),
@@ -67,16 +67,16 @@ def run(arguments) -> int:
     with running:
         try:
             for text in arguments.fault:
-                switch(running, text, rng)
+                inject_fault(running, text, rng)
         except ValueError as error:
             print(f"slamlab emulate: {error}", file=sys.stderr)
             return 2
         announce(running)
-        return listen(running, lambda text: switch(running, text, rng))
+        return listen(running, lambda text: inject_fault(running, text, rng))
 
 
 def add_ports(parser):
-    """Add the words that say what the ports are to be."""
+    """Add the command-line options of the emulated ports."""
     parser.add_argument(
         "--tcp", action="store_true", help="TCP instead of pseudo-terminals (Windows, remote use)"
     )
@@ -94,16 +94,16 @@ def add_ports(parser):
 
 
 def tcp_of(arguments):
-    """Where to listen, as a bench takes it."""
+    """The TCP address to listen on, None for pseudo-terminals."""
     return (arguments.host, *arguments.ports) if arguments.tcp else None
 
 
 def announce(running):
-    """Say which ports there are.
+    """Print the emulated ports.
 
     Parameters
     ----------
-    running : Bench
+    running : EmulatorRunner
     """
     for name, port in running.ports.items():
         print(f"{name:5}  {port}")
@@ -112,11 +112,11 @@ def announce(running):
 
 
 def listen(running, act=None):
-    """Do what is typed, until Ctrl-C.
+    """Handle typed commands until Ctrl-C.
 
     Parameters
     ----------
-    running : Bench
+    running : EmulatorRunner
     act : callable(text) that raises ValueError, or None where typing does nothing
 
     Returns

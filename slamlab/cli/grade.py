@@ -12,10 +12,10 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 from rich.table import Table
 from rich.text import Text
 
-from slamlab.checks import catalogue
-from slamlab.checks.report import number
+from slamlab.exercises import catalogue
+from slamlab.exercises.report import number
 
-MOST_ROWS = 60
+MAX_TABLE_ROWS = 60  # submissions shown; of larger classes only those that failed
 
 
 def add_parser(subparsers):
@@ -55,9 +55,9 @@ def add_parser(subparsers):
         "--isolation",
         choices=("strict", "basic", "none"),
         default="strict",
-        help="walls round student code. strict: bubblewrap, Landlock, seccomp; basic: the last two "
-        "(Linux, as an ordinary user); none: only limits of time and memory, for notebooks you "
-        "trust. Nothing is graded where the walls asked for cannot be had",
+        help="sandbox of student code. strict: bubblewrap, Landlock, seccomp; basic: the last two "
+        "(Linux, as an ordinary user); none: only resource limits, for notebooks you "
+        "trust. Nothing is graded where the level asked for is not available",
     )
     parser.add_argument(
         "--db",
@@ -73,13 +73,13 @@ def add_parser(subparsers):
         "--scheduler",
         metavar="URL",
         help="a Dask cluster to grade on, such as tls://host:8786; its machines run student code "
-        "within their own walls and see the secret: use TLS and machines you trust",
+        "in their own sandbox and see the secret: use TLS and machines you trust",
     )
     parser.add_argument(
         "--policy",
         metavar="FILE",
         type=Path,
-        help='what lateness costs: per_day = 0.1, at_most = 0.5, [due], "04" = 2026-12-01T23:59Z',
+        help='late policy: per_day = 0.1, at_most = 0.5, [due], "04" = 2026-12-01T23:59Z',
     )
     parser.add_argument(
         "--regrade",
@@ -90,34 +90,41 @@ def add_parser(subparsers):
 
 
 def run(arguments) -> int:
-    """Grade; 0 when every submission was graded or listed, 2 for wrong use or no isolation."""
+    """Grade; 0 when every submission was graded or listed, 2 for wrong use or no sandbox."""
     # imported late: what a help text needs should come at once
-    from slamlab.grading import folder, isolation, late
-    from slamlab.grading.gradebook import Gradebook, NoGradebook, url_of
-    from slamlab.grading.submissions import Unreadable
-    from slamlab.grading.workers import Workers
+    from slamlab.grading import batch, isolation, late_policy
+    from slamlab.grading.gradebook import Gradebook, GradebookError, default_url
+    from slamlab.grading.submissions import SubmissionError
+    from slamlab.grading.worker_pool import WorkerPool
     from slamlab.parallel import RunError
 
-    foreseen = Unreadable, NoGradebook, isolation.Refused, late.WrongPolicy, RunError, KeyError
+    foreseen = (
+        SubmissionError,
+        GradebookError,
+        isolation.IsolationError,
+        late_policy.LatePolicyError,
+        RunError,
+        KeyError,
+    )
     try:
         if arguments.jobs < 1:
-            raise Unreadable("--jobs must be at least 1")
+            raise SubmissionError("--jobs must be at least 1")
         if arguments.exercise is not None:
             catalogue.exercise(arguments.exercise)
-        found, secret = folder.prepare(arguments.folder, arguments.out, arguments.secret)
-        found = folder.shard(found, arguments.shard) if arguments.shard else found
-        policy = late.load(arguments.policy) if arguments.policy else late.NONE
+        found, secret = batch.prepare_grading(arguments.folder, arguments.out, arguments.secret)
+        found = batch.select_shard(found, arguments.shard) if arguments.shard else found
+        policy = late_policy.load(arguments.policy) if arguments.policy else late_policy.NO_PENALTY
         if not arguments.scheduler:
-            isolation.ensure(arguments.isolation)
+            isolation.ensure_level(arguments.isolation)
         with (
-            Gradebook(arguments.db or url_of(arguments.out)) as book,
-            Workers(arguments.isolation) as workers,
-            _asked_to_end_as_by_a_key(),
+            Gradebook(arguments.db or default_url(arguments.out)) as book,
+            WorkerPool(arguments.isolation) as workers,
+            _signals_as_interrupt(),
         ):
             if arguments.regrade:
-                book.forget([submission.name for submission in found])
-            graded = _graded(arguments, found, secret, workers, book.known())
-            written = folder.write_down(graded, arguments.out, book, arguments.exercise, policy)
+                book.delete_attempts([submission.name for submission in found])
+            graded = _graded(arguments, found, secret, workers, book.attempts())
+            written = batch.store_records(graded, arguments.out, book, arguments.exercise, policy)
             records = _with_progress(written, len(found))
     except foreseen as error:
         print(f"slamlab grade: {error.args[0]}", file=sys.stderr)
@@ -126,25 +133,27 @@ def run(arguments) -> int:
         print(f"slamlab grade: {error.filename}: {error.strerror}", file=sys.stderr)
         return 2
     Console().print(_table(records))
-    print(_closing(records, arguments.out))
+    print(_summary_line(records, arguments.out))
     return 0
 
 
 def _graded(arguments, found, secret, workers, known):
     """Records as they are done, on this machine or a cluster."""
-    from slamlab.grading import cluster, folder
+    from slamlab.grading import batch, dask_cluster
 
     exercise = arguments.exercise
     if arguments.scheduler:
         level = arguments.isolation
-        return cluster.grade_on(arguments.scheduler, found, secret, level, exercise, known)
+        return dask_cluster.grade_on_cluster(
+            arguments.scheduler, found, secret, level, exercise, known
+        )
     jobs = min(arguments.jobs, len(found))
-    return folder.grade_here(found, secret, workers, exercise, known, jobs)
+    return batch.grade_locally(found, secret, workers, exercise, known, jobs)
 
 
 @contextlib.contextmanager
-def _asked_to_end_as_by_a_key():
-    """Take ``kill`` and a closed terminal as Ctrl+C, which leaves no worker behind."""
+def _signals_as_interrupt():
+    """Handle SIGTERM and SIGHUP as Ctrl+C, which leaves no worker behind."""
     names = [name for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
     in_main = threading.current_thread() is threading.main_thread()
     old = {n: signal.signal(getattr(signal, n), _interrupt) for n in names if in_main}
@@ -167,25 +176,25 @@ def _with_progress(graded, count):
         bar = progress.add_task("starting", total=count)
         for record in graded:
             records.append(record)
-            progress.update(bar, advance=1, description=_line(record.submission))
+            progress.update(bar, advance=1, description=_printable(record.submission))
     return sorted(records, key=lambda record: record.submission)
 
 
 def _table(records):
-    shown = records if len(records) <= MOST_ROWS else [r for r in records if not r.graded]
+    shown = records if len(records) <= MAX_TABLE_ROWS else [r for r in records if not r.graded]
     table = Table("submission", "score", "of", "note")
     for record in shown:
         scores = (number(record.score), number(record.max_score)) if record.graded else ("–", "–")
         # as Text, so that a name or a note cannot style the table
-        table.add_row(Text(_line(record.submission)), *scores, Text(_line(record.note)))
+        table.add_row(Text(_printable(record.submission)), *scores, Text(_printable(record.note)))
     return table
 
 
-def _closing(records, out):
+def _summary_line(records, out):
     missing = sum(not record.graded for record in records)
     lost = f", {missing} could not be graded" if missing else ""
     return f"{len(records) - missing} graded{lost}: {out / 'grades.csv'}, class.html, feedback/"
 
 
-def _line(text):
+def _printable(text):
     return "".join(c if c.isprintable() else " " for c in text)

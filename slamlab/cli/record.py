@@ -1,4 +1,4 @@
-"""``slamlab record devices:LIDAR,EMIR --out FILE``: every byte of the devices, with its time."""
+"""``slamlab record devices:LIDAR,EMIR --out FILE``: record all device bytes, timestamped."""
 
 import contextlib
 import sys
@@ -75,7 +75,7 @@ def _keep(recorder):
 def _record(recorder, ports, mode, seconds):
     """Let the devices run until the time is over or Ctrl-C; the lidar's counts."""
     from slamlab.devices.emir import Emir
-    from slamlab.devices.rplidar import Lidar
+    from slamlab.devices.rplidar import RPLidar
 
     with contextlib.ExitStack() as devices:
         emir = None
@@ -83,7 +83,7 @@ def _record(recorder, ports, mode, seconds):
             emir = Emir(ports["emir"]["port"], opener=recorder.opener("emir"))
             devices.enter_context(emir)
         lidar = devices.enter_context(
-            Lidar(ports["lidar"]["port"], opener=recorder.opener("lidar"))
+            RPLidar(ports["lidar"]["port"], opener=recorder.opener("lidar"))
         )
         lidar.start(int(mode) if mode and mode.isdigit() else mode)
         print(f"{lidar} in mode {lidar.mode.name}; Ctrl-C ends the recording", flush=True)

@@ -31,7 +31,7 @@ def run(arguments) -> int:
     """Replay; 0 when ended, 2 when the file or a port cannot be used."""
     # imported late: what a help text needs should come at once
     from slamlab.cli.emulate import announce, listen, tcp_of
-    from slamlab.devices.emulator.bench import Bench, wired
+    from slamlab.devices.emulator.emulator_runner import EmulatorRunner, attach_ports
     from slamlab.devices.errors import SlamlabError
     from slamlab.devices.recording import load
     from slamlab.devices.recording.playback import playback
@@ -45,7 +45,7 @@ def run(arguments) -> int:
         devices = playback(recording, arguments.speed)
         if not devices:
             raise ValueError(f"{arguments.file} holds no bytes of any device")
-        running = Bench(wired(devices, tcp_of(arguments)))
+        running = EmulatorRunner(attach_ports(devices, tcp_of(arguments)))
     except (SlamlabError, ValueError) as error:
         print(f"slamlab replay: {error}", file=sys.stderr)
         return 2
@@ -55,7 +55,7 @@ def run(arguments) -> int:
 
 
 def held(recording):
-    """What a recording holds.
+    """Summarise a recording: length, bytes and messages of each device.
 
     Parameters
     ----------
@@ -67,11 +67,11 @@ def held(recording):
     """
     from hashlib import sha256
 
-    from slamlab.devices.recording.decoded import statuses, turns
-    from slamlab.devices.recording.records import CHANNELS, EVENT
+    from slamlab.devices.recording.decoding import statuses, turns
+    from slamlab.devices.recording.recording_file import CHANNELS, EVENT
 
-    if recording.torn:
-        yield f"{recording.torn}: read up to there"
+    if recording.truncated:
+        yield f"{recording.truncated}: read up to there"
     yield f"{recording.seconds:.1f} s, recorded {recording.header.get('created', 'some time')}"
     decoded = {"lidar": (turns, "turns"), "emir": (statuses, "statuses")}
     for channel in CHANNELS:

@@ -1,4 +1,4 @@
-"""``slamlab run SOURCE --estimator NAME``: a SLAM over a source, with table, map and files."""
+"""``slamlab run SOURCE --estimator NAME``: run SLAM over a source; summary, map, trajectory."""
 
 import csv
 import json
@@ -93,7 +93,7 @@ def run(arguments) -> int:
 
 
 def summarise(result, estimator, relations=None):
-    """What a run came to, as plain numbers for summary.json.
+    """Summarise a run (trajectory errors, counts) as plain numbers for summary.json.
 
     Parameters
     ----------
@@ -164,7 +164,7 @@ def write(result, summary, folder):
 
 
 def picture(result):
-    """The naive map beside the corrected one, one scale, with tracks.
+    """Draw the odometry-only (naive) map beside the corrected one, with trajectories.
 
     Parameters
     ----------
@@ -200,7 +200,7 @@ def _with_progress(source, estimator):
     from rich.console import Console
     from rich.progress import Progress
 
-    from slamlab.runner import run as feed
+    from slamlab.estimators.runner import run as feed
 
     # in a notebook, too, a command's progress goes where its errors go
     console = Console(stderr=True, force_jupyter=False)

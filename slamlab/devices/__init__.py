@@ -1,1 +1,26 @@
-"""RPLIDAR and eMIR: ports, protocols, drivers, and a source of readings made of both."""
+"""Device drivers for RPLIDAR and eMIR: ports, protocols, emulators, recordings of every byte.
+
+Read in this order:
+
+- ``transport``: serial port, TCP connection; ``serial_ports``, ``memory_port``; ``errors``,
+  ``port_open_errors``: what can go wrong, and what to do
+- ``reader_thread``, ``latest_value``, ``receive_timeout``, ``clock``, ``shutdown``: thread, queue,
+  timeouts and safe end of both drivers
+- ``rplidar``: the lidar's protocol and driver ``RPLidar``; ``emir``: the robot's, ``Emir``
+- ``deskewing``: motion compensation of a scan taken on the move
+- ``emulator``: both devices emulated; ``recording``: raw bytes recorded and replayed
+
+As a source of readings they are in :mod:`slamlab.sources`.
+"""
+
+from slamlab._lazy import exports
+
+__getattr__, __dir__, __all__ = exports(
+    __name__,
+    {
+        ".rplidar": ["RPLidar", "Lidar"],
+        ".emir": ["Calibration", "Emir"],
+        ".recording": ["Recorder", "Recording"],
+        ".errors": ["SlamlabError"],
+    },
+)

@@ -1,23 +1,23 @@
-"""Time as devices and their drivers see it; a simulated one makes hours pass in a moment."""
+"""Clocks of drivers and emulators: the monotonic system clock, or simulated time for tests."""
 
 import threading
 import time
 
 
 class Clock:
-    """The machine's own monotonic time."""
+    """Monotonic system clock."""
 
     def now(self):
-        """float [s], from an arbitrary start, never backwards."""
+        """Monotonic time [s], float, from an arbitrary start, never backwards."""
         return time.monotonic()
 
     def sleep(self, seconds):
-        """Let so much time pass [s]."""
+        """Sleep for so long [s]."""
         time.sleep(seconds)
 
 
 class SimulatedClock:
-    """Time that passes only when somebody sleeps.
+    """Simulated clock, whose time passes only when somebody sleeps: tests do not wait.
 
     Parameters
     ----------
@@ -28,10 +28,10 @@ class SimulatedClock:
         self._now, self._lock = start, threading.Lock()
 
     def now(self):
-        """float [s]"""
+        """Simulated time [s], float."""
         return self._now
 
     def sleep(self, seconds):
-        """Let so much time pass [s], at once."""
+        """Advance the simulated time by so much [s], without waiting."""
         with self._lock:
             self._now += max(seconds, 0.0)

@@ -1,11 +1,11 @@
-"""What can go wrong between a program and a device: each with what, the likely cause, what to do.
+"""Exceptions of the device drivers: each says what is wrong, the likely cause, what to do.
 
-Where Python has a kind of its own for it, an error is of that kind, too.
+Where Python has an exception of its own for it, an error is of that kind, too.
 """
 
 
 class SlamlabError(Exception):
-    """Something foreseeable went wrong.
+    """Base class of slamlab's device errors: a foreseeable failure.
 
     Parameters
     ----------
@@ -23,54 +23,54 @@ class SlamlabError(Exception):
 
 
 class PortError(SlamlabError, OSError):
-    """A port cannot be opened."""
+    """Port cannot be opened."""
 
 
 class PortNotFound(PortError, FileNotFoundError):
-    """There is no such port."""
+    """Port does not exist: no such device or address."""
 
 
 class PortPermission(PortError, PermissionError):
-    """The port may not be opened by this user."""
+    """Permission denied: this user may not open the port."""
 
 
 class PortBusy(PortError):
-    """Another program has the port."""
+    """Port in use: another program has it open."""
 
 
 class DeviceNotResponding(SlamlabError, TimeoutError):
-    """The port is open, but what hangs on it does not answer as the device should."""
+    """Response timeout in the handshake: the port is open, but no such device answers on it."""
 
 
 class ProtocolError(SlamlabError):
-    """What the device sends is not what the protocol says."""
+    """Protocol violation: what the device sends is not what the protocol says."""
 
 
 class UnexpectedDescriptor(ProtocolError):
-    """Another answer came than the request asked for."""
+    """Response descriptor of another type than the request asked for."""
 
 
 class ChecksumError(ProtocolError):
-    """Bytes arrive, but most of them damaged."""
+    """Corrupted data: bytes arrive, but most fail their checksum or make no sense."""
 
 
 class DeviceFault(SlamlabError):
-    """The device says that it is broken; ``health`` is what it said."""
+    """Device reports a hardware fault; ``health`` is what it said."""
 
     health = None
 
 
 class ConnectionLost(SlamlabError, ConnectionError):
-    """The device was there and is no more."""
+    """Connection lost: the device was there and is no more (unplugged)."""
 
 
 class DataTimeout(SlamlabError, TimeoutError):
-    """Data should have come by now."""
+    """Receive timeout: data should have come by now."""
 
 
 class DeviceSilent(ConnectionLost, DataTimeout):
-    """A stream ceased though the port still is open: unplugged behind the adapter, or stalled."""
+    """Receive timeout in mid-stream, the port open: unplugged behind the adapter, or stalled."""
 
 
 class UnsupportedMode(SlamlabError, ValueError):
-    """The device has no such scan mode."""
+    """Scan mode that the device does not support."""

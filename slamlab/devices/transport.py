@@ -1,4 +1,4 @@
-"""Ways for bytes to and from a device: a serial port, a TCP connection."""
+"""Transport layer: bytes to and from a device over a serial port (UART) or a TCP socket."""
 
 import contextlib
 import select
@@ -7,20 +7,20 @@ import socket
 import serial
 
 from slamlab.devices.errors import ConnectionLost
-from slamlab.devices.refusals import why_not_open, why_not_reached
+from slamlab.devices.port_open_errors import serial_open_error, tcp_connect_error
 
-WRITE_TIMEOUT = 1.0  # [s]
-CONNECT_TIMEOUT = 5.0  # [s]
-TCP = "socket://"
+WRITE_TIMEOUT = 1.0  # until a blocked write is a lost connection [s]
+CONNECT_TIMEOUT = 5.0  # of a TCP connection [s]
+TCP_PREFIX = "socket://"  # of port names that are TCP addresses
 
 
 class Transport:
-    """Bytes to and from one device; ``name`` is what people call it, ``baud`` its speed [bit/s]."""
+    """Transport of bytes to and from one device: ``name`` of the port, baud rate [bit/s]."""
 
     name, baud = "transport", 115200
 
     def read(self, n, timeout):
-        """The next bytes, as soon as there are any.
+        """Read the next bytes, as soon as there are any, or none at the timeout.
 
         Parameters
         ----------
@@ -38,7 +38,7 @@ class Transport:
         raise NotImplementedError
 
     def write(self, data):
-        """Send bytes.
+        """Write bytes to the device.
 
         Raises
         ------
@@ -47,15 +47,15 @@ class Transport:
         raise NotImplementedError
 
     def set_dtr(self, on):
-        """Set the modem line DTR where there is one; bool, whether there is."""
+        """Set the modem control line DTR where there is one; bool, whether there is."""
         return False
 
     def close(self):
-        """Let go; may be called again."""
+        """Close the port; may be called again."""
 
 
 class SerialPort(Transport):
-    """A serial port, ours alone; DTR is off before it opens, for with DTR an A1's motor stops.
+    """Serial port, opened exclusively; DTR is off before, for with DTR an A1's motor stops.
 
     Parameters
     ----------
@@ -77,7 +77,7 @@ class SerialPort(Transport):
             port.exclusive = True
             port.open()
         except (OSError, ValueError) as error:
-            raise why_not_open(name, error) from error
+            raise serial_open_error(name, error) from error
         self._port = port
 
     def read(self, n, timeout):
@@ -89,14 +89,14 @@ class SerialPort(Transport):
             first = port.read(1)
             return first + port.read(min(n - 1, port.in_waiting)) if first and n > 1 else first
         except (OSError, TypeError, ValueError) as error:  # pyserial's own when closed meanwhile
-            raise lost(self.name, error) from error
+            raise connection_lost(self.name, error) from error
 
     def write(self, data):
         """See :meth:`Transport.write`."""
         try:
             self._open().write(data)
         except (OSError, TypeError, ValueError) as error:
-            raise lost(self.name, error) from error
+            raise connection_lost(self.name, error) from error
 
     def set_dtr(self, on):
         """See :meth:`Transport.set_dtr`; a pseudo-terminal has none."""
@@ -115,12 +115,12 @@ class SerialPort(Transport):
 
     def _open(self):
         if self._port is None:
-            raise lost(self.name, "it was closed")
+            raise connection_lost(self.name, "it was closed")
         return self._port
 
 
 class SocketPort(Transport):
-    """A TCP connection, as to an emulator: ``socket://HOST:PORT``.
+    """TCP socket as a transport, as to an emulator: ``socket://HOST:PORT``.
 
     Parameters
     ----------
@@ -134,13 +134,13 @@ class SocketPort(Transport):
 
     def __init__(self, name, baud=115200):
         self.name, self.baud = name, baud
-        host, colon, port = name.removeprefix(TCP).rpartition(":")
+        host, colon, port = name.removeprefix(TCP_PREFIX).rpartition(":")
         try:
             if not colon:
                 raise ValueError("no port number: it should read socket://HOST:PORT")
             self._socket = socket.create_connection((host, int(port)), CONNECT_TIMEOUT)
         except (OSError, ValueError, OverflowError) as error:
-            raise why_not_reached(name, error) from error
+            raise tcp_connect_error(name, error) from error
         self._socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
         self._socket.settimeout(WRITE_TIMEOUT)
 
@@ -151,9 +151,9 @@ class SocketPort(Transport):
                 return b""
             data = self._socket.recv(n)
         except (OSError, ValueError) as error:
-            raise lost(self.name, error) from error
+            raise connection_lost(self.name, error) from error
         if not data:
-            raise lost(self.name, "the other end closed the connection")
+            raise connection_lost(self.name, "the other end closed the connection")
         return data
 
     def write(self, data):
@@ -161,7 +161,7 @@ class SocketPort(Transport):
         try:
             self._socket.sendall(data)
         except OSError as error:
-            raise lost(self.name, error) from error
+            raise connection_lost(self.name, error) from error
 
     def close(self):
         """See :meth:`Transport.close`."""
@@ -169,7 +169,7 @@ class SocketPort(Transport):
 
 
 def open_port(name, baud=115200):
-    """Open a port by its name.
+    """Open a serial port or a TCP connection by its name.
 
     Parameters
     ----------
@@ -184,13 +184,13 @@ def open_port(name, baud=115200):
     ------
     PortNotFound, PortPermission, PortBusy, PortError
     """
-    return (SocketPort if name.startswith(TCP) else SerialPort)(name, baud)
+    return (SocketPort if name.startswith(TCP_PREFIX) else SerialPort)(name, baud)
 
 
-def lost(name, why):
-    """The error of a port that was open and works no more."""
+def connection_lost(name, why):
+    """ConnectionLost for a port that was open and works no more."""
     return ConnectionLost(
-        f"the connection {name} broke ({why})",
+        f"the connection to {name} was lost ({why})",
         "the plug was pulled, or another program reads the same port",
         "plug it in again, close other programs that use it, and open it anew",
     )

@@ -1,61 +1,31 @@
-"""Estimators: every SLAM of the course, made by its name."""
+"""Estimators, every SLAM of the course: readings go in one at a time, pose and map come out.
 
-from slamlab.estimators.base import Estimator
-from slamlab.estimators.bor import BorSlam, bor
-from slamlab.estimators.feet import FootSlam
-from slamlab.estimators.graph import GraphSlam
-from slamlab.estimators.icp import IcpSlam
-from slamlab.estimators.mak import MakSlam, mak
-from slamlab.estimators.montecarlo import CloudSlam, fastslam, montecarlo
-from slamlab.estimators.odometry import Odometry
-from slamlab.estimators.walls import WallSlam, of_scans
+Read in this order:
 
-__all__ = [
-    "NAMES",
-    "BorSlam",
-    "CloudSlam",
-    "Estimator",
-    "FootSlam",
-    "GraphSlam",
-    "IcpSlam",
-    "MakSlam",
-    "Odometry",
-    "WallSlam",
-    "make",
-]
+- ``base``: Estimator, what all offer; ``by_name``: make; ``runner``: run, over a whole source
+- ``dead_reckoning``: odometry alone
+- ``mak_slam``: EKF-SLAM, on ``landmark_observations``; ``wall_slam``, ``foot_slam``: with walls
+- ``bor_slam``: boxes (set membership); ``montecarlo_slam``: particles, FastSLAM
+- ``icp_slam``: scan matching; ``graph_slam``: with keyframes, submaps and a pose graph,
+  ``odometry_drift``, ``loop_closure`` and ``relocalisation``
+- ``timestamps``: anomalies of a log's clock
+"""
 
-MAKERS = {
-    "odometry": lambda source: Odometry(),
-    "icp": lambda source: IcpSlam(),
-    "icp-plain": lambda source: IcpSlam(plain=True),
-    "graph": lambda source: GraphSlam(source.robot),
-    "mak": mak,
-    "mak-first-estimates": lambda source: mak(source, first_estimates=True),
-    "bor": bor,
-    "montecarlo": montecarlo,
-    "fastslam": fastslam,
-    "walls": lambda source: of_scans(WallSlam, source),
-    "walls-foot": lambda source: of_scans(FootSlam, source),
-}
-NAMES = tuple(MAKERS)
+from slamlab._lazy import exports
 
-
-def make(name, source):
-    """An estimator by its name, for a source's robot and sensor.
-
-    Parameters
-    ----------
-    name : str, one of NAMES
-    source : Source
-
-    Returns
-    -------
-    Estimator
-
-    Raises
-    ------
-    ValueError : there is no such estimator; the text lists those there are
-    """
-    if name not in MAKERS:
-        raise ValueError(f"no estimator {name!r}; there are: {', '.join(NAMES)}")
-    return MAKERS[name](source)
+__getattr__, __dir__, __all__ = exports(
+    __name__,
+    {
+        ".base": ["Estimator"],
+        ".by_name": ["NAMES", "make"],
+        ".runner": ["Run", "run"],
+        ".bor_slam": ["BorSlam"],
+        ".dead_reckoning": ["DeadReckoning", "Odometry"],
+        ".foot_slam": ["FootSlam"],
+        ".graph_slam": ["GraphSlam"],
+        ".icp_slam": ["IcpSlam"],
+        ".mak_slam": ["MakSlam"],
+        ".montecarlo_slam": ["ParticleSlam"],
+        ".wall_slam": ["WallSlam"],
+    },
+)

@@ -1,20 +1,20 @@
-"""The protocol every SLAM of the course follows: it takes readings in, one at a time."""
+"""Base class of all estimators (SLAM algorithms): one reading a step, pose and map out."""
 
 from collections import Counter
 
 import numpy as np
 
-from slamlab.estimators.stamps import odd_stamp
+from slamlab.estimators.timestamps import timestamp_anomaly
 from slamlab.layers import Layer
 from slamlab.readings import Reading, Trajectory
 
 
 class Estimator:
-    """Takes readings in and says where the robot is and what the map looks like.
+    """A SLAM algorithm: estimates the robot's pose and the map from readings, one at a time.
 
     Subclasses implement ``step`` and ``layers`` and keep ``pose`` up to date. ``trajectory`` is the
-    past as believed now: a graph revises it, a filter does not. ``status`` is one line for people,
-    ``skipped`` counts readings with nothing usable in them, ``counts`` whatever else was odd.
+    past as believed now: a graph revises it, a filter does not. ``status`` is the status line,
+    ``skipped`` counts readings with nothing usable in them, ``counts`` events and anomalies.
     """
 
     status: str = ""
@@ -27,7 +27,7 @@ class Estimator:
         self._poses: list[np.ndarray] = []
 
     def step(self, reading: Reading) -> None:
-        """Take one reading in.
+        """Process one reading: predict by its odometry, correct by what it shows.
 
         Parameters
         ----------
@@ -36,19 +36,19 @@ class Estimator:
         raise NotImplementedError
 
     def record(self, time):
-        """Keep the present pose as that of ``time`` [s]; called at the end of ``step``."""
-        odd = odd_stamp(self._times, time)
-        if odd:
-            self.counts[odd] += 1
+        """Append the present pose to the trajectory, at ``time`` [s]; the last call in ``step``."""
+        anomaly = timestamp_anomaly(self._times, time)
+        if anomaly:
+            self.counts[anomaly] += 1
         self._times.append(time)
         self._poses.append(np.array(self.pose, dtype=float))
 
-    def told(self, *parts):
-        """A status: what the estimator has to say, then what it counted."""
+    def status_line(self, *parts):
+        """The status line: the given parts, then the counted events."""
         return ", ".join([*parts, *(f"{n} {what}" for what, n in sorted(self.counts.items()))])
 
     def trajectory(self) -> Trajectory:
-        """Every pose so far, as believed now.
+        """The estimated trajectory: every pose so far, as believed now.
 
         Returns
         -------
@@ -57,7 +57,7 @@ class Estimator:
         return Trajectory(np.array(self._times), np.array(self._poses).reshape(-1, 3))
 
     def layers(self) -> list[Layer]:
-        """What there is to draw.
+        """The map and poses to draw, as layers.
 
         Returns
         -------

@@ -1,11 +1,18 @@
-"""How good an estimate is: against the truth, against published relations, against its own P."""
+"""Evaluation: trajectory errors (ATE, RPE, relations), consistency (NEES, NIS), wall extraction.
+
+Read in this order:
+
+- ``trajectory_error``: ATE and RPE; ``relations``: where no full ground truth is known
+- ``consistency``: NEES, NIS, χ² band; ``correlation_matrix``: a covariance free of units
+- ``wall_extraction``: recall and precision; ``tum_files``: trajectories as files
+"""
 
 from slamlab.evaluation.consistency import Consistency, band, consistency, nees, nis
-from slamlab.evaluation.correlation import correlation
+from slamlab.evaluation.correlation_matrix import correlation
 from slamlab.evaluation.relations import Relations, RelationsError, load_relations, relations_error
-from slamlab.evaluation.trajectory import TrajectoryError, absolute_error, relative_error
-from slamlab.evaluation.tum import load_tum, save_tum
-from slamlab.evaluation.walls import precision_metres, recall_metres
+from slamlab.evaluation.trajectory_error import TrajectoryError, absolute_error, relative_error
+from slamlab.evaluation.tum_files import load_tum, save_tum
+from slamlab.evaluation.wall_extraction import precision_metres, recall_metres
 
 __all__ = [
     "Consistency",

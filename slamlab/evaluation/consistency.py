@@ -1,6 +1,7 @@
-"""Whether a filter's covariance tells the truth about its errors: NEES, NIS, and the definition.
+"""Filter consistency: NEES, NIS, their chi-squared (χ²) bands, and the test of the definition.
 
-One run says little: the laws below are about averages over independent runs, all at the same step.
+Is a filter overconfident? One run says little: the laws below are about averages over independent
+runs, all at the same step.
 """
 
 from dataclasses import dataclass
@@ -12,7 +13,7 @@ TRACY_WIDOM = 46.446, 0.186054, 9.84801
 
 
 def nees(error, P):
-    """Normalised estimation error squared, x̃ᵀ P⁻¹ x̃ (Bar-Shalom, Li, Kirubarajan 2001, 5.4).
+    """NEES, normalised estimation error squared, x̃ᵀ P⁻¹ x̃ (Bar-Shalom, Li, Kirubarajan 2001, 5.4).
 
     χ² with n degrees of freedom, so n on average, where P is the covariance of the error.
 
@@ -29,12 +30,12 @@ def nees(error, P):
     ------
     ValueError : shapes that do not fit, or a P that is not positive definite
     """
-    white = _whitened(error, P)
+    white = _whiten(error, P)
     return np.sum(white**2, axis=-1)
 
 
 def nis(innovation, S):
-    """Normalised innovation squared, vᵀ S⁻¹ v: what :func:`nees` is where no truth is known.
+    """NIS, normalised innovation squared, vᵀ S⁻¹ v: what :func:`nees` is where no truth is known.
 
     Parameters
     ----------
@@ -52,17 +53,17 @@ def nis(innovation, S):
     return nees(innovation, S)
 
 
-def band(size, runs, share=0.95):
-    """Where the average of NEES or NIS over runs lies when the filter is consistent.
+def band(size, runs, probability=0.95):
+    """Chi-squared band (acceptance interval) of the average NEES or NIS over Monte Carlo runs.
 
-    runs · average ~ χ² with runs · size degrees of freedom, at one step: the steps of a run hang
-    together, so an average over steps has no such law.
+    For a consistent filter runs · average ~ χ² with runs · size degrees of freedom, at one step:
+    the steps of a run hang together, so an average over steps has no such law.
 
     Parameters
     ----------
     size : int, of the error or the innovation
     runs : int, independent ones
-    share : float, how often a consistent filter lies inside [1]
+    probability : float, how often a consistent filter lies inside [1]
 
     Returns
     -------
@@ -76,20 +77,20 @@ def band(size, runs, share=0.95):
 
     if size < 1 or runs < 1:
         raise ValueError(f"a band needs a size and runs of at least 1, not {size} and {runs}")
-    _check_share(share)
-    low, high = chi2.ppf([(1 - share) / 2, (1 + share) / 2], runs * size) / runs
+    _check_probability(probability)
+    low, high = chi2.ppf([(1 - probability) / 2, (1 + probability) / 2], runs * size) / runs
     return float(low), float(high)
 
 
 @dataclass(frozen=True)
 class Consistency:
-    """What runs say of P − E[x̃ x̃ᵀ] ⪰ 0.
+    """Result of the consistency test of P − E[x̃ x̃ᵀ] ⪰ 0.
 
     Parameters
     ----------
     largest : float, largest mean square of an error in units of its variance, over all directions;
         the definition asks for at most 1 in expectation [1]
-    limit : float, what a filter with P = E[x̃ x̃ᵀ] stays below in the share asked for [1]
+    limit : float, what a filter with P = E[x̃ x̃ᵀ] stays below with the probability asked for [1]
     direction : (n,) where the worst error points, by whitened components
     """
 
@@ -99,15 +100,15 @@ class Consistency:
 
     @property
     def refuted(self):
-        """Whether the runs show that the filter is too sure of itself.
+        """Whether the runs show the filter to be inconsistent, too sure of itself (overconfident).
 
         False is no proof: it says that so many runs hold nothing against the filter.
         """
         return self.largest > self.limit
 
 
-def consistency(errors, P, share=0.95):
-    """The definition of consistency, P − E[x̃ x̃ᵀ] ⪰ 0, put to the test (MAK thesis, chapter 2).
+def consistency(errors, P, probability=0.95):
+    """Test consistency by its definition, P − E[x̃ x̃ᵀ] ⪰ 0 (MAK thesis, chapter 2).
 
     With P = L Lᵀ it says that no eigenvalue of E[w wᵀ], w = L⁻¹ x̃, is above 1. The mean over n
     runs always has one above 1 by chance; how far, its law tells: n times the mean is Wishart
@@ -117,7 +118,7 @@ def consistency(errors, P, share=0.95):
     ----------
     errors : (runs, n) estimate minus truth at one step, angles wrapped
     P : (runs, n, n) what the filter believed in each run
-    share : float, how often a filter with P = E[x̃ x̃ᵀ] is not refuted [1]
+    probability : float, how often a filter with P = E[x̃ x̃ᵀ] is not refuted [1]
 
     Returns
     -------
@@ -127,16 +128,16 @@ def consistency(errors, P, share=0.95):
     ------
     ValueError : fewer runs than components of the error, or what :func:`nees` refuses
     """
-    white = np.atleast_2d(_whitened(errors, P))
+    white = np.atleast_2d(_whiten(errors, P))
     runs, n = white.shape
     if runs < n:
         raise ValueError(f"{runs} runs say nothing of a {n} × {n} covariance: make at least {n}")
     values, vectors = np.linalg.eigh(white.T @ white / runs)
-    return Consistency(float(values[-1]), largest_eigenvalue(n, runs, share), vectors[:, -1])
+    return Consistency(float(values[-1]), largest_eigenvalue(n, runs, probability), vectors[:, -1])
 
 
-def largest_eigenvalue(size, runs, share=0.95):
-    """Quantile of the largest eigenvalue of a mean of w wᵀ, w standard normal.
+def largest_eigenvalue(size, runs, probability=0.95):
+    """Quantile of the largest eigenvalue of a mean of w wᵀ, w standard normal (Wishart).
 
     Johnstone's centre and spread, Tracy–Widom's law; the probability is met within 1 %.
 
@@ -144,7 +145,7 @@ def largest_eigenvalue(size, runs, share=0.95):
     ----------
     size : int, of w
     runs : int
-    share : float [1]
+    probability : float [1]
 
     Returns
     -------
@@ -152,14 +153,15 @@ def largest_eigenvalue(size, runs, share=0.95):
     """
     from scipy.stats import gamma
 
-    _check_share(share)
+    _check_probability(probability)
     shape, scale, shift = TRACY_WIDOM
     a, b = np.sqrt(runs - 0.5), np.sqrt(size - 0.5)
     spread = (a + b) * (1 / a + 1 / b) ** (1 / 3)
-    return float(((a + b) ** 2 + spread * (gamma.ppf(share, shape, scale=scale) - shift)) / runs)
+    quantile = gamma.ppf(probability, shape, scale=scale) - shift
+    return float(((a + b) ** 2 + spread * quantile) / runs)
 
 
-def _whitened(error, P):
+def _whiten(error, P):
     error, P = np.asarray(error, dtype=float), np.asarray(P, dtype=float)
     if error.ndim < 1 or P.shape[-2:] != 2 * error.shape[-1:]:
         raise ValueError(f"an error of shape {error.shape} has no covariance of shape {P.shape}")
@@ -170,6 +172,6 @@ def _whitened(error, P):
     return np.linalg.solve(root, error[..., None])[..., 0]
 
 
-def _check_share(share):
-    if not 0 < share < 1:
-        raise ValueError(f"share is between 0 and 1, such as 0.95, not {share}")
+def _check_probability(probability):
+    if not 0 < probability < 1:
+        raise ValueError(f"probability is between 0 and 1, such as 0.95, not {probability}")

@@ -1,4 +1,4 @@
-"""The relations error of Kümmerle et al. 2009: how well relative poses fit trusted ones.
+"""Relations error (Kümmerle et al. 2009), a relative pose error against ground-truth relations.
 
 A file of relations has one a line: ``t1 t2 x y z roll pitch yaw``, the pose at t2 seen from that at
 t1 [s, s, m, m, m, rad, rad, rad]. No frame has to be aligned and no old error is counted twice.
@@ -9,17 +9,17 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from slamlab.files.errors import SourceError
+from slamlab.files.published_recordings import resolve
+from slamlab.files.text_files import lines, read_bytes
 from slamlab.geometry import between, wrap
-from slamlab.sources.base import SourceError
-from slamlab.sources.recordings import located
-from slamlab.sources.text import lines, read_bytes
 
-NEAR = 0.002  # a relation's stamps and a pose's differ by no more than this [s]
+TIME_TOLERANCE = 0.002  # most that a relation's stamp and a pose's differ [s]
 
 
 @dataclass(frozen=True)
 class Relations:
-    """Trusted relative poses.
+    """Ground-truth relations: trusted relative poses between two timestamps.
 
     Parameters
     ----------
@@ -35,7 +35,7 @@ class Relations:
 
 @dataclass(frozen=True)
 class RelationsError:
-    """Mean errors of a trajectory over relations.
+    """Relations error of a trajectory: mean and standard deviation over relations.
 
     Parameters
     ----------
@@ -52,7 +52,7 @@ class RelationsError:
 
 
 def load_relations(path):
-    """Relations from a file, plain or gzip.
+    """Load relations from a file, plain or gzip.
 
     Parameters
     ----------
@@ -66,8 +66,8 @@ def load_relations(path):
     ------
     SourceError : the file cannot be read or holds no relation
     """
-    content, torn = read_bytes(located(path))
-    damage, rows = Counter({"file torn": 1} if torn else {}), []
+    content, truncated = read_bytes(resolve(path))
+    damage, rows = Counter({"file torn": 1} if truncated else {}), []
     for line, ended in lines(content):
         if not line.strip() or line.lstrip().startswith(b"#"):
             continue
@@ -75,7 +75,7 @@ def load_relations(path):
             row = [float(word) for word in line.split()]
         except ValueError:
             row = []
-        if len(row) != 8 or not np.isfinite(row).all() or (torn and not ended):
+        if len(row) != 8 or not np.isfinite(row).all() or (truncated and not ended):
             damage["lines that are no relation"] += 1
         else:
             rows.append(row)
@@ -85,8 +85,8 @@ def load_relations(path):
     return Relations(table[:, :2], table[:, [2, 3, 7]], damage)
 
 
-def relations_error(trajectory, relations, near=NEAR):
-    """Mean translational and rotational error over the relations that a trajectory covers.
+def relations_error(trajectory, relations, tolerance=TIME_TOLERANCE):
+    """Relations error (Kümmerle): mean translational and rotational relative pose error.
 
     e = δ* ⊖ (x_2 ⊖ x_1) for each relation δ*, its length [m] and its turn [rad]
     (Kümmerle et al. 2009, "On measuring the accuracy of SLAM algorithms", equation 3).
@@ -95,7 +95,7 @@ def relations_error(trajectory, relations, near=NEAR):
     ----------
     trajectory : Trajectory
     relations : Relations
-    near : float, largest difference between a relation's stamp and a pose's [s]
+    tolerance : float, largest difference between a relation's stamp and a pose's [s]
 
     Returns
     -------
@@ -107,11 +107,11 @@ def relations_error(trajectory, relations, near=NEAR):
     """
     index, gap = nearest_in_time(trajectory.times, relations.stamps)
     # half a microsecond more: stamps have six decimals
-    usable = (gap <= near + 5e-7).all(axis=1)
+    usable = (gap <= tolerance + 5e-7).all(axis=1)
     if not usable.any():
         raise ValueError(
-            f"none of the {len(usable)} relations has both stamps within {1e3 * near:g} ms of a "
-            "pose: do they belong to this log?"
+            f"none of the {len(usable)} relations has both stamps within {1e3 * tolerance:g} ms of "
+            "a pose: do they belong to this log?"
         )
     first, second = trajectory.poses[index[usable]].transpose(1, 0, 2)
     error = between(relations.poses[usable], between(first, second))
@@ -122,7 +122,7 @@ def relations_error(trajectory, relations, near=NEAR):
 
 
 def nearest_in_time(times, stamps):
-    """Index of the time nearest to each stamp, and how far off it is.
+    """Timestamp association: index of the time nearest to each stamp, and how far off it is.
 
     Parameters
     ----------

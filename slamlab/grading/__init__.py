@@ -1,1 +1,15 @@
-"""Grading submissions: a judge that runs no student code, a worker that holds no answer."""
+"""Autograding submissions: the judge runs no student code, the sandboxed worker holds no answer.
+
+Read in this order:
+
+- ``submissions``, ``notebooks``: what was handed in; ``preflight``: warnings about its form
+- ``judge``: one submission; ``batch``, ``dask_cluster``: a folder of them; ``records``
+- ``worker_pool``, ``zygote``, ``forked_workers``, ``fresh_workers``, ``worker_client``, ``worker``,
+  ``wire_protocol``: fork server (zygote) and sandboxed processes, serialisation between them
+- ``staging``, ``import_closure``, ``checks_stub``: what a worker holds; ``sandbox``
+  (``bubblewrap``, ``landlock``, ``seccomp``), ``quotas``, ``isolation``; ``probe`` and
+  ``probe_drives``: the self-test
+- ``gradebook``, ``gradebook_rows``, ``marks``, ``late_policy``: attempts, overrides, late policy
+- ``feedback``, ``redaction``, ``class_report``, ``similarity``, ``grade_tables``,
+  ``nbgrader_gradebook``: feedback pages, reports, exports
+"""

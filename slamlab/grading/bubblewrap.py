@@ -1,30 +1,31 @@
-"""Bubblewrap: the worker's machine of its own, without network, processes or foreign files."""
+"""Bubblewrap (bwrap): a sandbox of Linux namespaces, without network, processes, foreign files."""
 
 import os
 import shutil
 from pathlib import Path
 
-from slamlab.grading import excess, place
+from slamlab.grading import quotas, staging
 
-ROOT = {Path(p) for p in ("/bin", "/sbin", "/lib", "/lib64", "/lib32")}
+# folders of the system at the root, bound read-only
+SYSTEM_FOLDERS = {Path(p) for p in ("/bin", "/sbin", "/lib", "/lib64", "/lib32")}
 
 
-def program():
-    """Where bubblewrap is, None where it is not."""
+def executable():
+    """The path of the program ``bwrap``, None where it is not installed."""
     return shutil.which("bwrap")
 
 
-def drops_root():
-    """Whether the judge is root: then the sandbox is made with its rights and left behind."""
+def drops_privileges():
+    """Whether root privileges are dropped: the judge runs as root."""
     return hasattr(os, "geteuid") and os.geteuid() == 0
 
 
 def command(folder, home, python):
-    """The command line in front of the worker's own.
+    """The command line of bubblewrap that goes in front of the worker's own.
 
     Parameters
     ----------
-    folder : Path, that holds the worker's copy and views of libraries
+    folder : Path, that holds the worker's staged modules and views of libraries
     home : Path, where it may write; exists inside only, in memory
     python : Path, the interpreter
 
@@ -32,13 +33,13 @@ def command(folder, home, python):
     -------
     list of str
     """
-    words = [program(), "--die-with-parent", "--new-session", "--cap-drop", "ALL"]
-    if drops_root():
+    words = [executable(), "--die-with-parent", "--new-session", "--cap-drop", "ALL"]
+    if drops_privileges():
         words += ["--unshare-ipc", "--unshare-pid", "--unshare-net", "--unshare-uts"]
         words += ["--unshare-cgroup-try", "--cap-add", "CAP_SETUID", "--cap-add", "CAP_SETGID"]
     else:
         words += ["--unshare-all", "--uid", "65534", "--gid", "65534"]
-    for path in sorted(ROOT):
+    for path in sorted(SYSTEM_FOLDERS):
         if path.is_symlink():
             words += ["--symlink", os.readlink(path), str(path)]
         elif path.is_dir():
@@ -47,17 +48,21 @@ def command(folder, home, python):
     words += ["--perms", "0755", "--dir", "/etc"]
     for path in ("/etc/ld.so.cache", "/etc/alternatives"):
         words += ["--ro-bind-try", path, path]
-    shown = [p for p in place.python_folders() if p not in ROOT and not _below(p, ["/usr", "/etc"])]
-    shown += [p for p in (*place.library_folders(), folder) if not _below(p, ["/usr", *shown])]
+    shown = [
+        p
+        for p in staging.python_folders()
+        if p not in SYSTEM_FOLDERS and not _below(p, ["/usr", "/etc"])
+    ]
+    shown += [p for p in (*staging.library_folders(), folder) if not _below(p, ["/usr", *shown])]
     if not _below(python, ["/usr", *shown]):
         shown.append(python)
     for path in shown:
-        words += [*_way_to(path), "--ro-bind", str(path), str(path)]
-    for library in place.library_folders():
-        for entry in place.own(library):
+        words += [*_parent_directories(path), "--ro-bind", str(path), str(path)]
+    for library in staging.library_folders():
+        for entry in staging.course_entries(library):
             hide = ["--tmpfs"] if entry.is_dir() else ["--ro-bind", "/dev/null"]
             words += [*hide, str(entry)]
-    words += ["--perms", "0777", "--size", str(excess.BYTES), "--tmpfs", str(home)]
+    words += ["--perms", "0777", "--size", str(quotas.MAX_BYTES), "--tmpfs", str(home)]
     return [*words, "--chdir", str(home), "--"]
 
 
@@ -65,7 +70,7 @@ def _below(path, folders):
     return any(Path(path).is_relative_to(folder) for folder in folders)
 
 
-def _way_to(path):
+def _parent_directories(path):
     """The folders above a path, open to everybody: bubblewrap would make them its own."""
     above = [p for p in reversed(path.parents) if p != Path("/") and not _below(p, ["/usr"])]
     return [word for p in above for word in ("--perms", "0755", "--dir", str(p))]

@@ -1,25 +1,25 @@
-"""A page for the student: each task, what it asked, what held, and what would gain the rest."""
+"""Feedback page for the student: each task, its laws, the points, and what would gain the rest."""
 
 from pathlib import Path
 
 import jinja2
 
-from slamlab.checks.report import number, points
+from slamlab.exercises.report import number, points
 from slamlab.grading.marks import Mark
-from slamlab.grading.records import write
+from slamlab.grading.records import write_atomically
 
-PAGES = jinja2.Environment(
+TEMPLATES = jinja2.Environment(
     loader=jinja2.FileSystemLoader(Path(__file__).parent),
     autoescape=True,
     undefined=jinja2.StrictUndefined,
     trim_blocks=True,
     lstrip_blocks=True,
 )
-PAGES.filters |= {"number": number, "points": points}
+TEMPLATES.filters |= {"number": number, "points": points}
 
 
-def page(mark: Mark) -> str:
-    """The page of a submission; whatever the student wrote stands in it as text only.
+def feedback_page(mark: Mark) -> str:
+    """The feedback page of a submission; whatever the student wrote is escaped.
 
     Parameters
     ----------
@@ -29,9 +29,9 @@ def page(mark: Mark) -> str:
     -------
     str, HTML without scripts or anything to load
     """
-    return PAGES.get_template("feedback.html").render(mark=mark, record=mark.record)
+    return TEMPLATES.get_template("feedback.html").render(mark=mark, record=mark.record)
 
 
-def write_page(out: Path, mark: Mark):
-    """Write the page to ``out/feedback``."""
-    write(out / "feedback" / f"{mark.record.stem}.html", page(mark))
+def write_feedback_page(out: Path, mark: Mark):
+    """Write the feedback page to ``out/feedback``."""
+    write_atomically(out / "feedback" / f"{mark.record.stem}.html", feedback_page(mark))

@@ -1,4 +1,4 @@
-"""The gradebook: every attempt at grading a submission and every change by hand, in a database.
+"""Gradebook: every attempt (graded submission) and every manual override, in a database.
 
 SQLite by default; any database that SQLAlchemy speaks to, by its URL. An attempt is written whole
 in one transaction when it is known, under a key that is the same for the same content, so that a
@@ -9,18 +9,19 @@ import json
 
 import sqlalchemy as sa
 
-from slamlab.grading import rows
-from slamlab.grading.rows import ADJUSTMENTS, ATTEMPTS, TABLES
+from slamlab.grading import gradebook_rows
+from slamlab.grading.gradebook_rows import ADJUSTMENTS, ATTEMPTS, TABLES
 
-NEWEST_LAST = ATTEMPTS.c.at, ATTEMPTS.c.id
+# sort order of attempts
+OLDEST_FIRST = ATTEMPTS.c.at, ATTEMPTS.c.id
 
 
-class NoGradebook(Exception):
-    """The database cannot be used; the text says why."""
+class GradebookError(Exception):
+    """The gradebook's database cannot be used; the text says why."""
 
 
 class Gradebook:
-    """Attempts and adjustments in a database.
+    """Attempts and manual overrides in an SQL database.
 
     Parameters
     ----------
@@ -28,7 +29,7 @@ class Gradebook:
 
     Raises
     ------
-    NoGradebook
+    GradebookError
     """
 
     def __init__(self, url):
@@ -37,7 +38,7 @@ class Gradebook:
             TABLES.create_all(self._engine)
         except (sa.exc.SQLAlchemyError, ModuleNotFoundError) as error:
             said = str(error).strip().splitlines()[0][:300]
-            raise NoGradebook(f"the gradebook cannot be opened: {said}") from None
+            raise GradebookError(f"the gradebook cannot be opened: {said}") from None
 
     def __enter__(self):
         return self
@@ -46,11 +47,11 @@ class Gradebook:
         self.close()
 
     def close(self):
-        """Let go of the database; may be called twice."""
+        """Close the connections to the database; may be called twice."""
         self._engine.dispose()
 
     def add(self, record):
-        """Write an attempt; one that is there already stays one, and becomes the newest.
+        """Store an attempt; one that is there already stays one, and becomes the newest.
 
         Parameters
         ----------
@@ -60,11 +61,11 @@ class Gradebook:
         -------
         bool, whether it was new
         """
-        row = rows.of(record)
+        row = gradebook_rows.attempt_row(record)
         mine = ATTEMPTS.c.submission == row["submission"]
         known = sa.select(ATTEMPTS.c.key, ATTEMPTS.c.record).where(mine)
         with self._engine.begin() as connection:
-            before = connection.execute(known.order_by(*NEWEST_LAST)).all()
+            before = connection.execute(known.order_by(*OLDEST_FIRST)).all()
             new = all(one.key != row["key"] for one in before)
             if not new:
                 if before[-1] == (row["key"], json.loads(json.dumps(row["record"]))):
@@ -74,8 +75,8 @@ class Gradebook:
             connection.execute(sa.insert(ATTEMPTS).values(row))
         return new
 
-    def take(self, other):
-        """Add what another gradebook holds.
+    def merge(self, other):
+        """Merge another gradebook into this one: its attempts and its overrides.
 
         Parameters
         ----------
@@ -90,7 +91,7 @@ class Gradebook:
             with other._engine.connect() as connection:
                 theirs = connection.execute(sa.select(table).order_by(table.c.id)).mappings().all()
             with self._engine.begin() as connection:
-                columns = rows.told_apart(table)
+                columns = gradebook_rows.identifying_columns(table)
                 known = {tuple(row) for row in connection.execute(sa.select(*columns))}
                 for row in theirs:
                     if tuple(row[column.name] for column in columns) not in known:
@@ -99,10 +100,10 @@ class Gradebook:
                         added += table is ATTEMPTS
         return added
 
-    def forget(self, submissions):
-        """Drop the attempts at some submissions, so that they are graded again.
+    def delete_attempts(self, submissions):
+        """Delete the attempts of some submissions for a regrade.
 
-        Adjustments by hand stay.
+        Manual overrides stay.
 
         Parameters
         ----------
@@ -110,11 +111,11 @@ class Gradebook:
         """
         with self._engine.begin() as connection:
             for name in submissions:
-                here = ATTEMPTS.c.submission == rows.storable(name)
+                here = ATTEMPTS.c.submission == gradebook_rows.storable(name)
                 connection.execute(sa.delete(ATTEMPTS).where(here))
 
-    def known(self):
-        """Every attempt.
+    def attempts(self):
+        """All attempts.
 
         Returns
         -------
@@ -122,10 +123,10 @@ class Gradebook:
         """
         with self._engine.connect() as connection:
             found = connection.execute(sa.select(ATTEMPTS.c.key, ATTEMPTS.c.record))
-            return {row.key: rows.record(row.record) for row in found}
+            return {row.key: gradebook_rows.stored_record(row.record) for row in found}
 
-    def latest(self):
-        """The newest attempt at each submission and exercise.
+    def latest_attempts(self):
+        """The attempt that counts: the latest of each submission.
 
         Returns
         -------
@@ -134,12 +135,12 @@ class Gradebook:
         columns = ATTEMPTS.c.submission, ATTEMPTS.c.exercise, ATTEMPTS.c.record
         newest = {}
         with self._engine.connect() as connection:
-            for row in connection.execute(sa.select(*columns).order_by(*NEWEST_LAST)):
-                newest[row.submission] = rows.record(row.record)
+            for row in connection.execute(sa.select(*columns).order_by(*OLDEST_FIRST)):
+                newest[row.submission] = gradebook_rows.stored_record(row.record)
         return [newest[name] for name in sorted(newest)]
 
-    def adjust(self, submission, exercise, task, points, reason):
-        """Set the points of a task by hand; the newest such change counts.
+    def override_points(self, submission, exercise, task, points, reason):
+        """Add a manual override: the points of a task set by hand; the newest one counts.
 
         Parameters
         ----------
@@ -148,18 +149,18 @@ class Gradebook:
         reason : str
         """
         row = {
-            "submission": rows.storable(submission),
+            "submission": gradebook_rows.storable(submission),
             "exercise": exercise,
             "task": task,
             "points": float(points),
-            "reason": rows.storable(reason),
-            "at": rows.now(),
+            "reason": gradebook_rows.storable(reason),
+            "at": gradebook_rows.timestamp(),
         }
         with self._engine.begin() as connection:
             connection.execute(sa.insert(ADJUSTMENTS).values(row))
 
-    def adjustments(self):
-        """What was set by hand.
+    def overrides(self):
+        """The manual overrides, the newest of each task.
 
         Returns
         -------
@@ -172,8 +173,8 @@ class Gradebook:
             return {(row.submission, row.task): (row.points, row.reason) for row in found}
 
 
-def url_of(out, new=True):
-    """The URL of the gradebook in a folder of results.
+def default_url(out, new=True):
+    """The URL of the default gradebook (SQLite) in a folder of results.
 
     Parameters
     ----------
@@ -186,9 +187,9 @@ def url_of(out, new=True):
 
     Raises
     ------
-    NoGradebook : it is not there and must be
+    GradebookError : it is not there and must be
     """
     file = out / "grades.db"
     if not new and not file.is_file():
-        raise NoGradebook(f"there is no gradebook {file}: grade first, or say --db URL")
+        raise GradebookError(f"there is no gradebook {file}: grade first, or say --db URL")
     return f"sqlite:///{file}"

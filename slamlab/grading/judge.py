@@ -1,4 +1,4 @@
-"""Grading one submission: inputs from a secret, a worker, verdicts, a record."""
+"""The judge (autograder) of one submission: inputs from a secret seed, worker, verdicts, record."""
 
 import functools
 import hashlib
@@ -12,19 +12,19 @@ from dataclasses import replace
 from pathlib import Path
 
 from slamlab import __version__
-from slamlab.checks.drives import StudentError
-from slamlab.grading import kinship, submissions
-from slamlab.grading.client import Client
+from slamlab.exercises.drives import StudentError
+from slamlab.grading import similarity, submissions
+from slamlab.grading.gradebook_rows import attempt_key
 from slamlab.grading.records import Record
-from slamlab.grading.rows import key
-from slamlab.grading.submissions import Submission, Unreadable
-from slamlab.grading.workers import CannotStart, Workers
+from slamlab.grading.submissions import Submission, SubmissionError
+from slamlab.grading.worker_client import WorkerClient
+from slamlab.grading.worker_pool import WorkerPool, WorkerStartError
 
-SHORTEST_SECRET = 16
+MIN_SECRET_BYTES = 16  # length of the secret [bytes]
 
 
-def secret_from(file: Path, make=False) -> bytes:
-    """The secret that inputs are drawn from.
+def load_secret(file: Path, make=False) -> bytes:
+    """Load the secret from which the seeds of the random inputs are derived.
 
     Parameters
     ----------
@@ -33,7 +33,7 @@ def secret_from(file: Path, make=False) -> bytes:
 
     Raises
     ------
-    Unreadable
+    SubmissionError
     """
     if make and not file.exists():
         handle = os.open(file, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600)
@@ -42,27 +42,27 @@ def secret_from(file: Path, make=False) -> bytes:
     try:
         secret = file.read_bytes().strip()
     except OSError as error:
-        raise Unreadable(f"the secret {file} cannot be read: {error.strerror}") from None
-    if len(secret) < SHORTEST_SECRET:
-        raise Unreadable(f"the secret {file} is shorter than {SHORTEST_SECRET} bytes")
+        raise SubmissionError(f"the secret {file} cannot be read: {error.strerror}") from None
+    if len(secret) < MIN_SECRET_BYTES:
+        raise SubmissionError(f"the secret {file} is shorter than {MIN_SECRET_BYTES} bytes")
     return secret
 
 
 def seed_for(secret: bytes, exercise_id: str, sha256: str) -> bytes:
-    """The seed of a submission: the same for the same content, unknown without the secret."""
+    """The secret seed of a submission (HMAC-SHA256): the same for the same content."""
     return hmac.digest(secret, f"{exercise_id} {sha256}".encode(), hashlib.sha256)
 
 
-def grade(
-    submission: Submission, secret: bytes, workers: Workers, default=None, known=None, stop=None
+def grade_submission(
+    submission: Submission, secret: bytes, workers: WorkerPool, default=None, known=None, stop=None
 ) -> Record:
-    """Grade a submission, whatever it is.
+    """Grade one submission, readable or not.
 
     Parameters
     ----------
     submission : Submission
     secret : bytes
-    workers : Workers
+    workers : WorkerPool
     default : str or None, the exercise of notebooks that do not tell it
     known : attempt's key to Record, which are not graded again; None for none
     stop : threading.Event or None; once it is set, nothing is waited for any more
@@ -75,36 +75,38 @@ def grade(
     names["submission"] = submission.name
     known = known or {}
     try:
-        notebook = submissions.read(submission)
+        notebook = submissions.read_notebook(submission)
         names |= {"sha256": notebook.sha256, "notes": notebook.notes}
-        exercise = submissions.exercise_of(submission, notebook, default)
+        exercise = submissions.identify_exercise(submission, notebook, default)
         seed = seed_for(secret, exercise.id, notebook.sha256)
         names |= {"exercise": exercise.id, "seed": seed.hex()}
-        before = known.get(key(submission.name, notebook.sha256, names["seed"]))
+        before = known.get(attempt_key(submission.name, notebook.sha256, names["seed"]))
         if before:
             return replace(before, handed_in=submission.handed_in)
-        names["fingerprints"] = kinship.fingerprints(notebook.cells, exercise)
-        return Record(**names, **judge(exercise, notebook.cells, seed, workers, stop))
-    except Unreadable as error:
+        names["fingerprints"] = similarity.fingerprints(notebook.cells, exercise)
+        return Record(**names, **judge_notebook(exercise, notebook.cells, seed, workers, stop))
+    except SubmissionError as error:
         return Record(**names, reason=str(error))
-    except CannotStart as error:
+    except WorkerStartError as error:
         return Record(**names, reason=str(error), failed=True)
     except Exception as error:  # a fault of the grader's own must not end the class
         reason = f"the grader failed: {type(error).__name__}: {error}"
         return Record(**names, reason=reason, failed=True)
 
 
-def judge(exercise, cells, seed: bytes, workers: Workers, stop=None, tell=False) -> dict:
-    """Judge a notebook's cells with the inputs of a seed.
+def judge_notebook(
+    exercise, cells, seed: bytes, workers: WorkerPool, stop=None, unredacted=False
+) -> dict:
+    """Run a notebook's cells in a worker and judge all tasks with the inputs of a seed.
 
     Parameters
     ----------
     exercise : Exercise
     cells : (number, source) in order
     seed : bytes
-    workers : Workers
+    workers : WorkerPool
     stop : threading.Event or None
-    tell : bool, whether failures are told in full, which tells of the inputs, too
+    unredacted : bool, whether failures are told without redaction, which reveals inputs, too
 
     Returns
     -------
@@ -112,10 +114,10 @@ def judge(exercise, cells, seed: bytes, workers: Workers, stop=None, tell=False)
 
     Raises
     ------
-    CannotStart
+    WorkerStartError
     """
     begin, judging = time.monotonic(), time.thread_time()
-    with Client(exercise, cells, workers.start, stop, tell) as client:
+    with WorkerClient(exercise, cells, workers.start, stop, unredacted) as client:
 
         def judge_one(task):
             inputs = task.draw(seed)
@@ -139,6 +141,6 @@ def judge(exercise, cells, seed: bytes, workers: Workers, stop=None, tell=False)
 
 @functools.cache
 def versions():
-    """The versions of what graded."""
+    """The versions of the grading software: slamlab, Python, numpy, sympy."""
     libraries = {name: importlib.metadata.version(name) for name in ("numpy", "sympy")}
     return {"slamlab": __version__, "python": platform.python_version()} | libraries

@@ -1,4 +1,4 @@
-"""Landlock: which files a worker may read, and where it may write (Linux 5.13 and later).
+"""Landlock: file-system access of a sandboxed worker, to read and to write (Linux 5.13 or later).
 
 It needs no privilege and cannot be undone. Reading is granted folder by folder; writing in one.
 """
@@ -9,7 +9,7 @@ import os
 import struct
 
 CREATE, ADD_RULE, RESTRICT = 444, 445, 446  # system calls, alike on every machine
-EXECUTE, WRITE, READ, LIST = 1, 2, 4, 8
+EXECUTE, WRITE, READ, LIST = 1, 2, 4, 8  # access rights, bits
 ALL_BY_ABI = {1: (1 << 13) - 1, 2: (1 << 14) - 1, 3: (1 << 15) - 1, 5: (1 << 16) - 1}
 """Every right to files that a version of Landlock knows."""
 DEVICES = 1 << 6 | 1 << 11  # make a device: nobody may
@@ -17,8 +17,8 @@ TCP = 1 | 2  # bind and connect, since version 4
 SCOPES = 1 | 2  # no foreign abstract sockets, no signals to outside, since version 6
 
 
-def version():
-    """Landlock's version in this kernel, 0 where there is none."""
+def abi_version():
+    """The version of Landlock's ABI in this kernel, 0 where there is none."""
     if os.name != "posix":
         return 0
     try:
@@ -27,8 +27,8 @@ def version():
         return 0
 
 
-def rules(readable, writable):
-    """Rules that take every right to files but those named.
+def create_ruleset(readable, writable):
+    """Create a Landlock ruleset that denies all file-system access but to the paths named.
 
     Parameters
     ----------
@@ -43,7 +43,7 @@ def rules(readable, writable):
     ------
     OSError : the kernel offers no Landlock
     """
-    abi = version()
+    abi = abi_version()
     if abi < 1:
         raise OSError(errno.ENOSYS, "the kernel offers no Landlock")
     rights = ALL_BY_ABI[max(v for v in ALL_BY_ABI if v <= abi)]
@@ -59,11 +59,11 @@ def rules(readable, writable):
 
 
 def restrict(ruleset):
-    """Hold this process to rules for good; it must be kept from new privileges already.
+    """Restrict this process to a ruleset for good; ``no_new_privs`` must be set already.
 
     Parameters
     ----------
-    ruleset : int, of :func:`rules`
+    ruleset : int, of :func:`create_ruleset`
 
     Raises
     ------

@@ -1,64 +1,65 @@
-"""The mark of a submission: what the judge found, what was changed by hand, what lateness cost."""
+"""The mark (grade) of a submission: the judge's points, manual overrides, late penalty."""
 
 from dataclasses import dataclass, replace
 
-from slamlab.grading import late
+from slamlab.grading import late_policy as late
 from slamlab.grading.records import Record
 
 
 @dataclass(frozen=True)
 class Mark:
-    """How many points a submission gets, and why.
+    """The mark of a submission: its points after overrides and late penalty, and why.
 
     Parameters
     ----------
     record : Record
-    points : task to points, changes by hand included
-    by_hand : task to the reason of such a change
-    late : float, points taken for lateness
+    points : task to points, manual overrides included
+    override_reasons : task to the reason of its override
+    late_penalty : float, points deducted by the late policy
     """
 
     record: Record
     points: dict[str, float]
-    by_hand: dict[str, str]
-    late: float
+    override_reasons: dict[str, str]
+    late_penalty: float
 
     @property
     def total(self):
-        """Points in the end, None where nothing could be graded."""
-        return sum(self.points.values()) - self.late if self.points else None
+        """Total points after the late penalty, None where nothing could be graded."""
+        return sum(self.points.values()) - self.late_penalty if self.points else None
 
     @property
     def note(self):
-        """One line: what the judge noted, what was changed, what lateness cost."""
+        """One line: the judge's note, the overrides, the late penalty."""
         changed = [
-            f"{task} set to {self.points[task]:g}: {why}" for task, why in self.by_hand.items()
+            f"{task} set to {self.points[task]:g}: {why}"
+            for task, why in self.override_reasons.items()
         ]
-        late = [f"{self.late:g} taken for lateness"] if self.late else []
+        late = [f"{self.late_penalty:g} taken for lateness"] if self.late_penalty else []
         return "; ".join([*filter(None, [self.record.note]), *changed, *late])
 
 
-def mark(record, adjustments=None, policy=late.NONE):
-    """The mark of one submission.
+def mark(record, overrides=None, policy=late.NO_PENALTY):
+    """Compute the mark of one submission from record, overrides and late policy.
 
     Points set by hand count also for what could not be graded.
 
     Parameters
     ----------
     record : Record
-    adjustments : (submission, task) to (points, reason)
-    policy : Policy
+    overrides : (submission, task) to (points, reason)
+    policy : LatePolicy
 
     Returns
     -------
     Mark
     """
     points = {verdict.task: verdict.points for verdict in record.verdicts}
-    by_hand = {}
-    for (submission, task), (value, reason) in (adjustments or {}).items():
+    override_reasons = {}
+    for (submission, task), (value, reason) in (overrides or {}).items():
         if submission == record.submission:
-            points[task], by_hand[task] = value, reason
-    if by_hand and record.exercise is None:
-        record = replace(record, exercise=min(by_hand)[:2])
-    taken = policy.taken(record.exercise, record.handed_in, sum(points.values()))
-    return Mark(record, points, by_hand, taken)
+            points[task], override_reasons[task] = value, reason
+    if override_reasons and record.exercise is None:
+        record = replace(record, exercise=min(override_reasons)[:2])
+    taken = policy.penalty(record.exercise, record.handed_in, sum(points.values()))
+    return Mark(record, points, override_reasons, taken)

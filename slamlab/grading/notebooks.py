@@ -1,23 +1,23 @@
-"""Reading notebooks that may be anything."""
+"""Parse untrusted Jupyter notebooks (.ipynb): code cells, exercise, checksum."""
 
 import hashlib
 import json
 import re
 from dataclasses import dataclass
 
-MOST_CELLS = 1000  # of code
+MAX_CODE_CELLS = 1000  # of one notebook
 
 # possessive throughout: it must not try a hostile cell's letters in every way there is
 _CHECK = re.compile(r"\s*+(?:check\(\s*+[\"'][^\"']*+[\"']\s*+\)\s*+;?+\s*+)++")
 
 
-class Unreadable(Exception):
-    """A submission cannot be graded; the message says why."""
+class SubmissionError(Exception):
+    """A submission cannot be read or graded; the message says why."""
 
 
 @dataclass(frozen=True)
 class Notebook:
-    """What a submission holds.
+    """The content of a submitted notebook.
 
     Parameters
     ----------
@@ -34,35 +34,35 @@ class Notebook:
 
 
 def parse(data: bytes) -> Notebook:
-    """The notebook that some bytes are.
+    """Parse the bytes of a notebook file.
 
     Raises
     ------
-    Unreadable
+    SubmissionError
     """
     if not data.strip():
-        raise Unreadable("the file is empty")
+        raise SubmissionError("the file is empty")
     text, notes = _decoded(data)
     try:
         content = json.loads(text)
     except RecursionError:
-        raise Unreadable("nested too deeply to be a notebook") from None
+        raise SubmissionError("nested too deeply to be a notebook") from None
     except ValueError as error:
-        raise Unreadable(f"not a notebook, or a part of one: {error}") from None
+        raise SubmissionError(f"not a notebook, or a part of one: {error}") from None
     if not isinstance(content, dict):
-        raise Unreadable("not a notebook: no cells and no metadata")
+        raise SubmissionError("not a notebook: no cells and no metadata")
     if "worksheets" in content or content.get("nbformat") in (1, 2, 3):
         content = _upgraded(content)
         notes.append("an old notebook format, upgraded")
     if not isinstance(content.get("cells"), list):
-        raise Unreadable("not a notebook: it has no list of cells")
+        raise SubmissionError("not a notebook: it has no list of cells")
     if _named(content, "lesson"):
-        raise Unreadable("a lesson, not an exercise; those are in the folder exercises")
+        raise SubmissionError("a lesson, not an exercise; those are in the folder exercises")
     cells = tuple(_code(content["cells"]))
     if not cells:
         notes.append("no code cells")
-    if len(cells) > MOST_CELLS:
-        raise Unreadable(f"{len(cells)} cells of code, more than {MOST_CELLS}")
+    if len(cells) > MAX_CODE_CELLS:
+        raise SubmissionError(f"{len(cells)} cells of code, more than {MAX_CODE_CELLS}")
     own = tuple((number, source) for number, source in cells if not _CHECK.fullmatch(source))
     digest = hashlib.sha256(data).hexdigest()
     return Notebook(own, _named(content, "exercise"), digest, tuple(notes))
@@ -85,7 +85,7 @@ def _upgraded(content):
     try:
         return nbformat.convert(nbformat.from_dict(content), 4)
     except Exception as error:  # the converters expect what they expect
-        raise Unreadable(
+        raise SubmissionError(
             f"an old notebook that cannot be upgraded: {type(error).__name__}"
         ) from None
 

@@ -1,9 +1,9 @@
-"""What a worker must not be able to do, tried: a cell that is run in one before any student's is.
+"""Sandbox self-test: a cell that tries all that is forbidden in a worker, before any student's.
 
-It goes the way that every submission goes, so it meets the walls that every submission meets.
+It goes the way that every submission goes, so it meets the sandbox that every submission meets.
 """
 
-ATTEMPTS = """
+FORBIDDEN_ACTIONS = """
 import os, signal, socket, subprocess, sys, threading
 
 def _attempt(what, act):
@@ -46,9 +46,10 @@ _attempt("write a file of 1 GiB", _long_file)
 """
 """Source of the cell; CANARY, ANSWERS, PORT and JUDGE are put in front of it."""
 
-OPEN_AT_NONE = ("take 6 GiB of memory", "write a file of 1 GiB")
-"""What even a worker without walls may not do: its limits are always set."""
+LIMITED_AT_NONE = ("take 6 GiB of memory", "write a file of 1 GiB")
+"""Actions that fail even without a sandbox: resource limits are always set."""
 
+# the end of the cell: an error that names what succeeded
 REPORT = """
 if _done:
     raise RuntimeError("; ".join(_done))

@@ -1,4 +1,4 @@
-"""What is known of a submission."""
+"""The record of an attempt: verdicts, seed, versions and times of one graded submission."""
 
 import hashlib
 import os
@@ -6,12 +6,12 @@ import re
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from slamlab.checks.verdict import Verdict
+from slamlab.exercises.verdict import Verdict
 
 
 @dataclass(frozen=True)
 class Record:
-    """How a submission came out.
+    """The result of grading one submission, as the gradebook stores it.
 
     Parameters
     ----------
@@ -22,14 +22,14 @@ class Record:
     cells : what went wrong in which cell of the notebook
     notes : what was odd about the file
     sha256 : str or None, of the file
-    seed : str, hexadecimal; regrading with it is exact
-    isolation : str, how the worker was bounded
-    versions : of what graded
+    seed : str, hexadecimal; a regrade with it gives the same inputs
+    isolation : str, the isolation level of the sandbox
+    versions : of the grading software
     seconds : wall and CPU time [s] by stage
     titles : task id to title
     number : str or None, of the student in Moodle or Canvas
     handed_in : str or None, the time in ISO's form
-    fingerprints : task to a hash of its functions, see :mod:`slamlab.grading.kinship`
+    fingerprints : task to a hash of its functions, see :mod:`slamlab.grading.similarity`
     failed : bool, whether it was the grader that failed: not kept, but tried again
     """
 
@@ -72,7 +72,7 @@ class Record:
         if not self.graded:
             return f"could not be graded: {self.reason}"
         said = [
-            f"{v.task}: {v.problem or v.diagnosis or _broken(v)}"
+            f"{v.task}: {v.problem or v.diagnosis or _failed_laws(v)}"
             for v in self.verdicts
             if not v.full
         ]
@@ -80,17 +80,17 @@ class Record:
 
     @property
     def stem(self):
-        """A file name of its own, whatever the submission is called."""
+        """A unique and safe file name, whatever the submission is called."""
         readable = re.sub(r"[^A-Za-z0-9]+", "-", self.submission.removesuffix(".ipynb")).strip("-")
         return f"{readable[:60]}-{hashlib.sha256(self.submission.encode()).hexdigest()[:8]}"
 
 
-def _broken(verdict):
+def _failed_laws(verdict):
     return "broken: " + ", ".join(law.name for law in verdict.laws if law.failed)
 
 
-def write(path: Path, text: str):
-    """Write a file so that it is there whole or not at all."""
+def write_atomically(path: Path, text: str):
+    """Write a file atomically: it is there whole or not at all."""
     path.parent.mkdir(parents=True, exist_ok=True)
     # what a killed grader left half written is written again under the same name
     partial = path.with_name(f".{path.name}.part")

@@ -1,6 +1,6 @@
-"""Seccomp: which system calls a worker may make; the kernel refuses every other (Linux only).
+"""Seccomp: the system-call filter (allow list) of a sandboxed worker, in classic BPF (Linux only).
 
-A list of what is allowed, not of what is forbidden: a call nobody thought of is refused. No
+An allow list (whitelist), not a deny list: a call nobody thought of is refused. No
 process can be started, no program run, no connection made, no other process touched.
 """
 
@@ -124,11 +124,11 @@ FCNTL = (72, 25)
 
 CLONE_THREAD = 0x10000
 PR_SET_SECCOMP, FILTER = 22, 2
-NAMES_OF_THREADS = (15, 16)  # PR_SET_NAME, PR_GET_NAME
+THREAD_NAME_OPTIONS = (15, 16)  # PR_SET_NAME, PR_GET_NAME
 # F_DUPFD, its close-on-exec form, descriptor's and file's flags, locks; not F_SETOWN, which sends
 # signals to whom one likes, nor F_SETPIPE_SZ, which takes memory that nobody counts
-OF_FILES = (0, 1030, 1, 2, 3, 4, 5, 6, 7)
-ASKING_A_STREAM = (0x5401, 0x5450, 0x5451, 0x541B)  # TCGETS, FIONCLEX, FIOCLEX, FIONREAD
+FCNTL_COMMANDS = (0, 1030, 1, 2, 3, 4, 5, 6, 7)
+IOCTL_REQUESTS = (0x5401, 0x5450, 0x5451, 0x541B)  # TCGETS, FIONCLEX, FIOCLEX, FIONREAD
 
 LOAD, EQUAL, ANY_BIT, AT_LEAST, RETURN = 0x20, 0x15, 0x45, 0x35, 0x06
 ALLOW, DENY, KILL_PROCESS = 0x7FFF0000, 0x00050000, 0x80000000
@@ -137,9 +137,9 @@ X32 = 0x40000000  # calls of another ABI of x86_64, numbered anew
 
 
 def restrict(pid):
-    """Refuse every system call but the allowed ones, for good.
+    """Install the system-call filter: refuse every call but the allowed ones, for good.
 
-    This process must be kept from new privileges already.
+    ``no_new_privs`` must be set already.
 
     Parameters
     ----------
@@ -152,7 +152,7 @@ def restrict(pid):
     machine = platform.machine()
     if machine not in ARCHITECTURES:
         raise OSError(errno.ENOSYS, f"no list of system calls for {machine}")
-    program = _program(machine, pid)
+    program = _bpf_program(machine, pid)
     buffer = ctypes.create_string_buffer(program, len(program))
     described = ctypes.create_string_buffer(
         struct.pack("HxxxxxxP", len(program) // 8, ctypes.addressof(buffer))
@@ -162,46 +162,46 @@ def restrict(pid):
         raise OSError(ctypes.get_errno(), "seccomp")
 
 
-def _program(machine, pid):
+def _bpf_program(machine, pid):
     """The filter as bytes: instructions of classic BPF."""
     column = list(ARCHITECTURES).index(machine)
     parts = [
-        _step(LOAD, ARCHITECTURE),
-        _step(EQUAL, ARCHITECTURES[machine], 1, 0),
-        _step(RETURN, KILL_PROCESS),
-        _step(LOAD, NUMBER),
-        _step(AT_LEAST, X32, 0, 1),
-        _step(RETURN, DENY | errno.EPERM),
+        _instruction(LOAD, ARCHITECTURE),
+        _instruction(EQUAL, ARCHITECTURES[machine], 1, 0),
+        _instruction(RETURN, KILL_PROCESS),
+        _instruction(LOAD, NUMBER),
+        _instruction(AT_LEAST, X32, 0, 1),
+        _instruction(RETURN, DENY | errno.EPERM),
     ]
     for numbers in ALLOWED.values():
         if numbers[column] is not None:
-            parts += [_step(EQUAL, numbers[column], 0, 1), _step(RETURN, ALLOW)]
+            parts += [_instruction(EQUAL, numbers[column], 0, 1), _instruction(RETURN, ALLOW)]
     # glibc then falls back to clone, whose flags can be looked at
-    parts += [_step(EQUAL, CLONE3[column], 0, 1), _step(RETURN, DENY | errno.ENOSYS)]
-    parts += _where(CLONE[column], 0, ANY_BIT, [CLONE_THREAD], errno.EPERM)
+    parts += [_instruction(EQUAL, CLONE3[column], 0, 1), _instruction(RETURN, DENY | errno.ENOSYS)]
+    parts += _allow_if_argument(CLONE[column], 0, ANY_BIT, [CLONE_THREAD], errno.EPERM)
     for call in (KILL, TGKILL):
-        parts += _where(call[column], 0, EQUAL, [pid], errno.EPERM)
-    parts += _where(PRLIMIT[column], 0, EQUAL, [0], errno.EPERM)
-    parts += _where(PRCTL[column], 0, EQUAL, NAMES_OF_THREADS, errno.EPERM)
-    parts += _where(FCNTL[column], 1, EQUAL, OF_FILES, errno.EPERM)
-    parts += _where(IOCTL[column], 1, EQUAL, ASKING_A_STREAM, errno.ENOTTY)
-    parts.append(_step(RETURN, DENY | errno.EPERM))
+        parts += _allow_if_argument(call[column], 0, EQUAL, [pid], errno.EPERM)
+    parts += _allow_if_argument(PRLIMIT[column], 0, EQUAL, [0], errno.EPERM)
+    parts += _allow_if_argument(PRCTL[column], 0, EQUAL, THREAD_NAME_OPTIONS, errno.EPERM)
+    parts += _allow_if_argument(FCNTL[column], 1, EQUAL, FCNTL_COMMANDS, errno.EPERM)
+    parts += _allow_if_argument(IOCTL[column], 1, EQUAL, IOCTL_REQUESTS, errno.ENOTTY)
+    parts.append(_instruction(RETURN, DENY | errno.EPERM))
     return b"".join(parts)
 
 
-def _where(number, argument, test, values, error):
+def _allow_if_argument(number, argument, test, values, error):
     """Allow a call where the test holds of an argument and one of the values."""
-    inner = [_step(LOAD, ARGUMENTS + 8 * argument)]
+    inner = [_instruction(LOAD, ARGUMENTS + 8 * argument)]
     for value in values:
-        inner += [_step(test, value, 0, 1), _step(RETURN, ALLOW)]
-    inner.append(_step(RETURN, DENY | error))
-    return [_step(EQUAL, number, 0, len(inner)), *inner]
+        inner += [_instruction(test, value, 0, 1), _instruction(RETURN, ALLOW)]
+    inner.append(_instruction(RETURN, DENY | error))
+    return [_instruction(EQUAL, number, 0, len(inner)), *inner]
 
 
-def _step(code, k, jump_true=0, jump_false=0):
+def _instruction(code, k, jump_true=0, jump_false=0):
     return struct.pack("HBBI", code, jump_true, jump_false, k)
 
 
 def available():
-    """Whether this machine's kernel takes filters at all; nothing is restricted."""
+    """Whether there is a system-call filter for this machine; nothing is restricted."""
     return os.name == "posix" and platform.machine() in ARCHITECTURES

@@ -1,4 +1,4 @@
-"""Finding the submissions in a folder, whatever its layout, and what each of them holds."""
+"""Find submissions in a folder (flat, nbgrader, Moodle, Canvas) and read their notebooks."""
 
 import os
 import re
@@ -6,12 +6,12 @@ from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 
-from slamlab.checks import catalogue
-from slamlab.grading.notebooks import Notebook, Unreadable, parse
+from slamlab.exercises import catalogue
+from slamlab.grading.notebooks import Notebook, SubmissionError, parse
 
-MOST_BYTES = 20 << 20
-MOST_LETTERS = 100  # of nbgrader's note on the time
-DEEPEST = 10  # folders in folders
+MAX_NOTEBOOK_BYTES = 20 << 20  # size of a file [bytes]
+MAX_TIMESTAMP_CHARACTERS = 100  # of nbgrader's note on the time
+MAX_FOLDER_DEPTH = 10  # folders in folders
 
 _MOODLE = re.compile(r"(?P<student>.+?)_(?P<number>\d+)_assignsubmission_file_?(?P<file>.*)", re.S)
 _CANVAS = re.compile(r"(?P<student>[^_]+)_(LATE_)?(?P<number>\d+)_\d+_(?P<file>.+)", re.S)
@@ -19,7 +19,7 @@ _CANVAS = re.compile(r"(?P<student>[^_]+)_(LATE_)?(?P<number>\d+)_\d+_(?P<file>.
 
 @dataclass(frozen=True)
 class Submission:
-    """A file, or what stands where one should be.
+    """One submission: a notebook file, or the reason why there is none.
 
     Parameters
     ----------
@@ -28,7 +28,7 @@ class Submission:
     path : Path
     problem : str or None, why there is nothing to read
     number : str or None, of the student in Moodle or Canvas
-    noted : bool, whether nbgrader, not the student, wrote the note on the time beside it
+    has_trusted_time : bool, whether nbgrader, not the student, wrote the note on the time beside it
     """
 
     name: str
@@ -36,16 +36,16 @@ class Submission:
     path: Path
     problem: str | None = None
     number: str | None = None
-    noted: bool = False
+    has_trusted_time: bool = False
 
     @property
     def handed_in(self):
-        """When, in ISO's form: what nbgrader noted beside it, else when the file was written."""
+        """The time of submission (ISO 8601): nbgrader's timestamp, else the file's."""
         note = self.path.parent / "timestamp.txt"
         try:
-            if self.noted and note.is_file() and not note.is_symlink():
+            if self.has_trusted_time and note.is_file() and not note.is_symlink():
                 with open(note, encoding="utf-8", errors="replace") as file:
-                    return _time(file.read(MOST_LETTERS).strip())
+                    return _time(file.read(MAX_TIMESTAMP_CHARACTERS).strip())
             return datetime.fromtimestamp(self.path.stat().st_mtime, UTC).isoformat()
         except (OSError, ValueError, OverflowError):
             return None
@@ -56,8 +56,8 @@ def _time(text):
     return (when if when.tzinfo else when.replace(tzinfo=UTC)).isoformat()
 
 
-def find(folder: Path, out: Path | None = None) -> list[Submission]:
-    """All submissions in a folder, whatever their layout, sorted by name.
+def find_submissions(folder: Path, out: Path | None = None) -> list[Submission]:
+    """Find all submissions in a folder, whatever their layout, sorted by name.
 
     Flat files, ``STUDENT/EXERCISE/`` folders, nbgrader's ``submitted/STUDENT/ASSIGNMENT/``, and
     Moodle's and Canvas' downloads; a student's folder without a notebook is one with a problem.
@@ -69,10 +69,10 @@ def find(folder: Path, out: Path | None = None) -> list[Submission]:
 
     Raises
     ------
-    Unreadable : when the folder is none
+    SubmissionError : when the folder is none
     """
     if not folder.is_dir():
-        raise Unreadable(f"{folder} is no folder")
+        raise SubmissionError(f"{folder} is no folder")
     if (folder / "submitted").is_dir():
         folder = folder / "submitted"
     skipped = out.resolve() if out else None
@@ -81,7 +81,7 @@ def find(folder: Path, out: Path | None = None) -> list[Submission]:
         place = Path(place)
         folders[:] = [f for f in folders if _is_searched(place / f, skipped)]
         empty += [place / f for f in folders if place == folder or f.lower().endswith(".ipynb")]
-        if len(place.relative_to(folder).parts) >= DEEPEST:
+        if len(place.relative_to(folder).parts) >= MAX_FOLDER_DEPTH:
             folders.clear()
         notebooks = [f for f in files if f.lower().endswith(".ipynb") and not f.startswith(".")]
         found += [_submission(folder, place / file) for file in notebooks]
@@ -95,32 +95,32 @@ def find(folder: Path, out: Path | None = None) -> list[Submission]:
     return sorted(found, key=lambda submission: submission.name)
 
 
-def read(submission: Submission) -> Notebook:
-    """The notebook of a submission.
+def read_notebook(submission: Submission) -> Notebook:
+    """Read and parse the notebook of a submission.
 
     Raises
     ------
-    Unreadable : with the reason, in words for the grader
+    SubmissionError : with the reason, in words for the grader
     """
     if submission.problem:
-        raise Unreadable(submission.problem)
+        raise SubmissionError(submission.problem)
     try:
         if submission.path.is_symlink():
-            raise Unreadable("a link, not a file")
+            raise SubmissionError("a link, not a file")
         if not submission.path.is_file():
-            raise Unreadable("not a file")
+            raise SubmissionError("not a file")
         size = submission.path.stat().st_size
-        if size > MOST_BYTES:
-            megabytes = f"{size / 2**20:.0f} MB, more than {MOST_BYTES >> 20}"
-            raise Unreadable(f"the file has {megabytes}: hand it in with its outputs cleared")
+        if size > MAX_NOTEBOOK_BYTES:
+            megabytes = f"{size / 2**20:.0f} MB, more than {MAX_NOTEBOOK_BYTES >> 20}"
+            raise SubmissionError(f"the file has {megabytes}: hand it in with its outputs cleared")
         data = submission.path.read_bytes()
     except OSError as error:
-        raise Unreadable(f"cannot be read: {error.strerror}") from None
+        raise SubmissionError(f"cannot be read: {error.strerror}") from None
     return parse(data)
 
 
-def exercise_of(submission: Submission, notebook: Notebook, default=None):
-    """The exercise of a submission: by the notebook's metadata, else its path, else a default.
+def identify_exercise(submission: Submission, notebook: Notebook, default=None):
+    """Identify the exercise: by the notebook's metadata, else its path, else a default.
 
     Parameters
     ----------
@@ -132,7 +132,7 @@ def exercise_of(submission: Submission, notebook: Notebook, default=None):
 
     Raises
     ------
-    Unreadable : when nothing tells it
+    SubmissionError : when nothing tells it
     """
     known = list(catalogue.EXERCISES)
     if notebook.exercise in known:
@@ -143,7 +143,7 @@ def exercise_of(submission: Submission, notebook: Notebook, default=None):
             if id in known:
                 return catalogue.exercise(id)
     if default is None:
-        raise Unreadable(
+        raise SubmissionError(
             "which exercise it is stands neither in it nor in its name: say --exercise"
         )
     return catalogue.exercise(default)
@@ -162,8 +162,8 @@ def _submission(folder, path, problem=None):
     own = relative.stem if len(relative.parts) == 1 else first
     student, number = (match["student"], match["number"]) if match else (own, None)
     name = _printable(relative.as_posix())
-    noted = folder.name == "submitted" and len(relative.parts) == 3
-    return Submission(name, _printable(student), path, problem, number, noted)
+    has_trusted_time = folder.name == "submitted" and len(relative.parts) == 3
+    return Submission(name, _printable(student), path, problem, number, has_trusted_time)
 
 
 def _original(name):

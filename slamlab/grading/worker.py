@@ -1,4 +1,4 @@
-"""The worker: a process that runs a student's cells and drives the functions they define.
+"""Worker: the sandboxed process that runs a student's cells and calls the functions they define.
 
 It answers each frame with one frame. It holds the modules its exercise allows and no truth, and
 nothing that it says is believed: the judge judges the arrays that come back.
@@ -12,35 +12,36 @@ import threading
 import time
 import types
 
-from slamlab.checks.drives import StudentError, describe
-from slamlab.grading import jail, wire
+from slamlab.exercises.drives import StudentError, describe
+from slamlab.grading import sandbox, wire_protocol
 
+# cell magics whose cell is run; all other magics do nothing
 MAGICS_THAT_RUN = {"time", "timeit", "capture", "prun"}
 
 
 def main(drives):
-    """Be a worker of its own, where none can be forked: macOS and Windows.
+    """Run a spawned worker, where none can be forked: macOS and Windows.
 
     Parameters
     ----------
     drives : str, the module that holds the exercise's DRIVES
     """
-    jail.close()
-    threading.Thread(target=_end_with, args=(os.getppid(),), daemon=True).start()
+    sandbox.restrict_process()
+    threading.Thread(target=_exit_with_parent, args=(os.getppid(),), daemon=True).start()
     serve(importlib.import_module(drives).DRIVES)
 
 
 def serve(drives):
-    """Answer frames until the judge hangs up.
+    """Serve requests until the judge closes the connection.
 
     Parameters
     ----------
     drives : task id to Drive
     """
-    receiving, sending = _take_streams()
+    receiving, sending = _redirect_streams()
     names = fresh_namespace()
-    wire.send(sending, {"ready": True})
-    while (frame := wire.receive(receiving)) is not None:
+    wire_protocol.send(sending, {"ready": True})
+    while (frame := wire_protocol.receive(receiving)) is not None:
         head, arrays = frame
         answer = (
             _run_cell(head, names) if head["do"] == "cell" else _drive(head, arrays, drives, names)
@@ -48,14 +49,14 @@ def serve(drives):
         answer_head, answer_arrays = answer
         answer_head["turn"] = head["turn"]
         try:
-            wire.send(sending, answer_head, answer_arrays)
-        except wire.WireError:
+            wire_protocol.send(sending, answer_head, answer_arrays)
+        except wire_protocol.WireError:
             too_much = {"kind": "malformed", "problem": "returned more than can be judged"}
-            wire.send(sending, too_much | {"turn": head["turn"]})
+            wire_protocol.send(sending, too_much | {"turn": head["turn"]})
 
 
 def fresh_namespace():
-    """The names a notebook starts with, as those of the module ``__main__``."""
+    """A fresh namespace for a notebook, that of the module ``__main__``."""
     notebook = types.ModuleType("__main__")
     sys.modules["__main__"] = notebook
     names = vars(notebook)
@@ -65,7 +66,7 @@ def fresh_namespace():
 
 
 def run_cell(source, number, names):
-    """Run one cell.
+    """Run one cell of a notebook in its namespace.
 
     Parameters
     ----------
@@ -128,7 +129,7 @@ class _Shell:
         return lambda *_, **__: None
 
 
-def _take_streams():
+def _redirect_streams():
     # the pipe moves away from where prints go, also those of C code
     receiving, sending = os.fdopen(os.dup(0), "rb"), os.fdopen(os.dup(1), "wb")
     nowhere = os.open(os.devnull, os.O_RDWR)
@@ -138,7 +139,7 @@ def _take_streams():
     return receiving, sending
 
 
-def _end_with(judge):
+def _exit_with_parent(judge):
     # a cell that never ends would outlive a judge that was killed
     while os.getppid() == judge:  # on Windows it never changes
         time.sleep(1.0)

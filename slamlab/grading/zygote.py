@@ -1,4 +1,4 @@
-"""The zygote: a process that has imported what an exercise needs and forks a worker on request.
+"""Zygote (fork server): a process that has imported what an exercise needs and forks workers.
 
 Starting Python and importing takes seconds, a fork milliseconds. No student's code and no student's
 data ever reach the zygote; each worker is a copy of it as it was before anybody's notebook.
@@ -18,16 +18,16 @@ import signal
 import socket
 import sys
 
-from slamlab.grading import excess, jail, worker
+from slamlab.grading import quotas, sandbox, worker
 
-LONGEST = 1 << 16
-NOBODY = 65534
-GLANCE = 0.5
-"""How often it is looked at what a worker holds [s]."""
+MAX_MESSAGE_BYTES = 1 << 16  # of a control message [bytes]
+NOBODY_UID = 65534  # user and group that root becomes
+QUOTA_CHECK_SECONDS = 0.5
+"""Interval at which a worker's quotas are checked [s]."""
 
 
 def main(control, plan):
-    """Answer until the judge hangs up.
+    """Run the zygote: serve requests until the judge closes the control socket.
 
     Parameters
     ----------
@@ -38,8 +38,8 @@ def main(control, plan):
     control = socket.socket(fileno=control)
     if plan["drop"]:
         os.setgroups([])
-        os.setgid(NOBODY)
-        os.setuid(NOBODY)
+        os.setgid(NOBODY_UID)
+        os.setuid(NOBODY_UID)
     for name in plan["preload"]:
         with contextlib.suppress(ImportError):
             importlib.import_module(name)
@@ -48,39 +48,39 @@ def main(control, plan):
     os.mkdir(home, 0o700)
     os.environ |= {name: home for name in ("HOME", "TMPDIR", "MPLCONFIGDIR")}
     os.chdir(home)
-    files = jail.rules(plan["level"], plan["readable"], home)
+    files = sandbox.create_ruleset(plan["level"], plan["readable"], home)
     gc.collect()
     gc.freeze()  # a collection would write to every page that is shared until then
-    _say(control, {"ready": True})
-    _answer(control, lambda handles: _fork(handles, drives, files), home)
+    _send(control, {"ready": True})
+    _serve(control, lambda handles: _fork(handles, drives, files), home)
 
 
-def _answer(control, fork, home):
+def _serve(control, fork, home):
     pid = None
-    while heard := _hear(control, pid, home):
+    while heard := _receive(control, pid, home):
         asked, handles = heard
         if asked["do"] == "fork":
             pid = fork(handles)
-            _say(control, {"ready": True})
+            _send(control, {"ready": True})
             continue
-        cpu, pid = _end(pid), None
-        _clear(home)
-        _say(control, {"cpu": cpu})
+        cpu, pid = _kill(pid), None
+        _empty_folder(home)
+        _send(control, {"cpu": cpu})
         if os.listdir(home):  # what cannot be cleared away is not for the next to see
             break
     if pid is not None:
-        _end(pid)
+        _kill(pid)
 
 
-def _hear(control, pid, home):
+def _receive(control, pid, home):
     """What is asked, and the handles sent with it; None when the judge hung up."""
-    control.settimeout(None if pid is None else GLANCE)
+    control.settimeout(None if pid is None else QUOTA_CHECK_SECONDS)
     while True:
         try:
-            said, handles, _, _ = socket.recv_fds(control, LONGEST, 2)
+            said, handles, _, _ = socket.recv_fds(control, MAX_MESSAGE_BYTES, 2)
             return (json.loads(said), handles) if said else None
         except TimeoutError:
-            if excess.beyond_reason(pid, home):
+            if quotas.quota_exceeded(pid, home):
                 os.kill(pid, signal.SIGKILL)
 
 
@@ -94,8 +94,8 @@ def _fork(handles, drives, files):
         os.setsid()
         for number, handle in enumerate(handles):
             os.dup2(handle, number)
-        jail.close(files)
-        os.closerange(3, jail.FILES)  # the judge's socket and whatever else was open
+        sandbox.restrict_process(files)
+        os.closerange(3, sandbox.OPEN_FILES_LIMIT)  # the judge's socket and whatever else was open
         worker.serve(drives)
     except BaseException as error:
         print(f"worker: {type(error).__name__}: {error}", file=sys.stderr, flush=True)
@@ -103,7 +103,7 @@ def _fork(handles, drives, files):
         os._exit(0)
 
 
-def _end(pid):
+def _kill(pid):
     """Kill a worker, and what it started where it could; the seconds of CPU it took."""
     for kill in (os.killpg, os.kill):
         with contextlib.suppress(ProcessLookupError):
@@ -112,7 +112,7 @@ def _end(pid):
     return usage.ru_utime + usage.ru_stime
 
 
-def _clear(folder):
+def _empty_folder(folder):
     for entry in list(os.scandir(folder)):
         # it may be nested beyond reason
         with contextlib.suppress(OSError, RecursionError):
@@ -122,5 +122,5 @@ def _clear(folder):
                 os.unlink(entry)
 
 
-def _say(control, what):
+def _send(control, what):
     control.send(json.dumps(what).encode())

@@ -1,5 +1,11 @@
-"""Occupancy grids: maps of cells that forget what is no longer there."""
+"""Occupancy grid maps: cells of log-odds that forget what is no longer there.
 
-from slamlab.gridmap.grid import OccupancyGrid, build
+Read in this order:
+
+- ``ray_traversal``: which cells a beam crosses; ``occupancy_grid``: OccupancyGrid, build
+- ``map_server``: files of ROS map_server
+"""
+
+from slamlab.gridmap.occupancy_grid import OccupancyGrid, build
 
 __all__ = ["OccupancyGrid", "build"]

@@ -1,1 +1,21 @@
-"""Landmarks from scans: spikes, walls' lines, corners; which were seen before, which live on."""
+"""Landmarks from scans: walls' lines by RANSAC, corners, spikes; tentative and confirmed ones.
+
+Read in this order:
+
+- ``spikes``: narrow things before a background
+- ``line_fitting``: a line through noisy points; ``ransac``: lines in a scan
+- ``corners``: where two walls meet; ``wall_segments``: a line split at gaps
+- ``tentative_walls``: tentative landmarks until they are confirmed
+- ``downsampling``: points downsampled for drawing
+"""
+
+from slamlab._lazy import exports
+
+__getattr__, __dir__, __all__ = exports(
+    __name__,
+    {
+        ".line_fitting": ["Line", "fit", "total_least_squares"],
+        ".ransac": ["Ransac", "lines"],
+        ".tentative_walls": ["TentativeWalls"],
+    },
+)

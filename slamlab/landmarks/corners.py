@@ -1,4 +1,4 @@
-"""Corners: where two walls of one scan meet (MAK thesis, chapter 8)."""
+"""Corner extraction: point landmarks where two walls of one scan meet (MAK thesis, chapter 8)."""
 
 from dataclasses import dataclass
 from itertools import combinations
@@ -8,7 +8,7 @@ import numpy as np
 
 @dataclass(frozen=True)
 class Corner:
-    """A corner as a scan shows it.
+    """A corner landmark as a scan shows it: range, bearing and their covariance.
 
     Parameters
     ----------
@@ -20,8 +20,8 @@ class Corner:
     R: np.ndarray
 
 
-def corners(lines, reach=0.4, sharpest=0.5):
-    """The corners between the lines of one scan.
+def corners(lines, reach=0.4, min_angle=0.5):
+    """Extract the corners, intersections of the lines of one scan.
 
     n_1·p = ρ_1, n_2·p = ρ_2; the slope of p by (ρ, α) of each line carries their covariances.
 
@@ -29,7 +29,7 @@ def corners(lines, reach=0.4, sharpest=0.5):
     ----------
     lines : list of Line
     reach : float, how far beyond a wall's seen end its corner may lie [m]
-    sharpest : float, least angle between the walls: a point between nearly parallel ones is
+    min_angle : float, least angle between the walls: a point between nearly parallel ones is
         hardly known [rad]
 
     Returns
@@ -38,16 +38,16 @@ def corners(lines, reach=0.4, sharpest=0.5):
     """
     found = []
     for first, second in combinations(lines, 2):
-        if abs(np.sin(first.z[1] - second.z[1])) < np.sin(sharpest):
+        if abs(np.sin(first.z[1] - second.z[1])) < np.sin(min_angle):
             continue
-        p, P = _meeting(first, second)
+        p, P = _intersection(first, second)
         if all(np.hypot(*(line.ends - p).T).min() <= reach for line in (first, second)):
-            found.append(_seen(p, P))
+            found.append(_as_corner(p, P))
     return found
 
 
-def _meeting(first, second):
-    """Where two lines meet (2,) [m], and its covariance (2, 2) [m²]."""
+def _intersection(first, second):
+    """Intersection of two lines (2,) [m], and its covariance (2, 2) [m²]."""
     (rho1, a1), (rho2, a2) = first.z, second.z
     N = np.array([[np.cos(a1), np.sin(a1)], [np.cos(a2), np.sin(a2)]])
     p = np.linalg.solve(N, [rho1, rho2])
@@ -61,8 +61,8 @@ def _meeting(first, second):
     return p, P
 
 
-def _seen(p, P):
-    """A place in the robot's frame as range and bearing."""
+def _as_corner(p, P):
+    """A point in the robot's frame as range and bearing, its covariance P as R."""
     r2, r = p @ p, np.hypot(*p)
     J = np.array([[p[0] / r, p[1] / r], [-p[1] / r2, p[0] / r2]])
     R = J @ P @ J.T

@@ -1,4 +1,4 @@
-"""Spikes: something narrow before the background, such as a table's leg (Smolec §2.4)."""
+"""Spike extraction: narrow landmarks before the background, such as a table's leg (Smolec §2.4)."""
 
 import numpy as np
 
@@ -7,7 +7,7 @@ from slamlab.readings import Observations
 
 
 def spikes(scan, jump=0.5, widest=0.25):
-    """Narrow objects: the range jumps down, and soon up again.
+    """Extract spikes, narrow point landmarks: the range jumps down, and soon up again.
 
     Their place is the middle of the readings in between: the side that faces the sensor. Good for
     legs of tables; between smooth walls there are none.

@@ -1,6 +1,14 @@
-"""Pose graphs: measured motions between poses, loops included, and the poses that fit best."""
+"""Pose graphs, graph SLAM's back end: relative-pose measurements and optimised poses.
 
-from slamlab.posegraph.graph import Edge, PoseGraph
-from slamlab.posegraph.optimise import Optimum
+Read in this order:
+
+- ``edge_error``, ``edge_jacobians``, ``edge_symbolic``: one factor, a measured relative pose
+- ``pose_graph``: PoseGraph, the nodes and edges
+- ``normal_equations``, ``optimisation``: sparse Gauss-Newton; ``robust_kernel``: outlier loops
+- ``marginal_covariances``: how well a pose is known; ``g2o``: files
+"""
+
+from slamlab.posegraph.optimisation import Optimum
+from slamlab.posegraph.pose_graph import Edge, PoseGraph
 
 __all__ = ["Edge", "Optimum", "PoseGraph"]

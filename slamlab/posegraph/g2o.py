@@ -1,4 +1,4 @@
-"""Pose graphs as ``.g2o`` text (Kümmerle et al. 2011), as other libraries read and write it.
+"""Pose-graph files in g2o format, ``.g2o`` text (Kümmerle et al. 2011): load and save.
 
 ``VERTEX_SE2 id x y θ``, ``EDGE_SE2 i j x y θ`` with the upper triangle of the information row by
 row (6 numbers), ``FIX id …``; metres and radians. Which edge is robust the format cannot say.
@@ -8,16 +8,16 @@ from pathlib import Path
 
 import numpy as np
 
-from slamlab.posegraph.graph import PoseGraph
-from slamlab.sources.base import SourceError
-from slamlab.sources.text import lines, read_bytes, reason
+from slamlab.files.errors import SourceError
+from slamlab.files.text_files import lines, read_bytes, reason
+from slamlab.posegraph.pose_graph import PoseGraph
 
-UPPER = np.triu_indices(3)
-LENGTHS = {"VERTEX_SE2": 4, "EDGE_SE2": 11}  # numbers behind the word
+UPPER_TRIANGLE = np.triu_indices(3)  # of an information matrix, row by row
+FIELD_COUNTS = {"VERTEX_SE2": 4, "EDGE_SE2": 11}  # numbers on a line, behind the keyword
 
 
 def save(graph, path):
-    """Write a pose graph; numbers come back exactly as they are.
+    """Save a pose graph to a .g2o file; numbers come back exactly as they are.
 
     Parameters
     ----------
@@ -31,7 +31,7 @@ def save(graph, path):
     rows = [("VERTEX_SE2", i, *pose) for i, pose in enumerate(graph.poses.tolist())]
     rows += [("FIX", i) for i in sorted(graph.fixed)]
     for edge in graph.edges:
-        upper = edge.information[UPPER].tolist()
+        upper = edge.information[UPPER_TRIANGLE].tolist()
         rows.append(("EDGE_SE2", edge.i, edge.j, *edge.measured.tolist(), *upper))
     text = "".join(" ".join(map(str, row)) + "\n" for row in rows)
     try:
@@ -41,7 +41,7 @@ def save(graph, path):
 
 
 def load(path, robust_loops=False):
-    """A pose graph from a file, plain or gzip.
+    """Load a pose graph from a .g2o file, plain or gzip.
 
     Poses are numbered 0, 1, 2 … in the order of their ids. Without a ``FIX`` the first is fixed.
 
@@ -60,7 +60,7 @@ def load(path, robust_loops=False):
     """
     content, torn = read_bytes(path)
     if torn:
-        raise SourceError(f"{path} is torn: its packing ends too early")
+        raise SourceError(f"{path} is truncated: its gzip data end too early")
     rows = {"VERTEX_SE2": [], "EDGE_SE2": [], "FIX": []}
     for number, (line, _) in enumerate(lines(content), 1):
         word, *numbers = line.decode("utf-8", "replace").partition("#")[0].split() or [""]
@@ -69,18 +69,18 @@ def load(path, robust_loops=False):
             if word not in rows:
                 known = ", ".join(rows)
                 raise SourceError(f"{where}: {word} is none of {known}, a pose graph in the plane")
-            rows[word].append((where, _numbers(word, numbers, where)))
-    return _graph(path, rows, robust_loops)
+            rows[word].append((where, _parse_numbers(word, numbers, where)))
+    return _build_graph(path, rows, robust_loops)
 
 
-def _graph(path, rows, robust_loops):
-    """The graph of rows by their word; each row says where it stands."""
+def _build_graph(path, rows, robust_loops):
+    """Build the PoseGraph from rows by their keyword; each row says where it stands."""
     if not rows["VERTEX_SE2"]:
         raise SourceError(f"{path} holds no VERTEX_SE2: a pose graph in the plane has some")
     graph, index = PoseGraph(), {}
     for where, (name, *pose) in sorted(rows["VERTEX_SE2"], key=lambda row: row[1][0]):
         if name in index:
-            raise SourceError(f"{where}: vertex {name:g} was there before")
+            raise SourceError(f"{where}: duplicate vertex {name:g}")
         index[name] = graph.add_pose(pose)
 
     def numbered(where, names):
@@ -92,7 +92,7 @@ def _graph(path, rows, robust_loops):
     for where, (first, second, *numbers) in rows["EDGE_SE2"]:
         i, j = numbered(where, (first, second))
         information = np.empty((3, 3))
-        information[UPPER] = information.T[UPPER] = numbers[3:]
+        information[UPPER_TRIANGLE] = information.T[UPPER_TRIANGLE] = numbers[3:]
         try:
             graph.add_edge(i, j, numbers[:3], information, robust_loops and abs(i - j) != 1)
         except ValueError as error:
@@ -102,14 +102,14 @@ def _graph(path, rows, robust_loops):
     return graph
 
 
-def _numbers(word, numbers, where):
-    """The words behind the first as finite numbers, as many as there must be."""
+def _parse_numbers(word, numbers, where):
+    """Parse the numbers of a line: finite, and as many as its keyword takes."""
     try:
         values = [float(number) for number in numbers]
     except ValueError:
-        raise SourceError(f"{where}: a word where a number belongs") from None
+        raise SourceError(f"{where}: a word instead of a number") from None
     if not np.isfinite(values).all():
         raise SourceError(f"{where}: its numbers are not all finite")
-    if len(values) != LENGTHS.get(word, len(values)):
-        raise SourceError(f"{where}: {word} has {LENGTHS[word]} numbers, not {len(values)}")
+    if len(values) != FIELD_COUNTS.get(word, len(values)):
+        raise SourceError(f"{where}: {word} has {FIELD_COUNTS[word]} numbers, not {len(values)}")
     return values

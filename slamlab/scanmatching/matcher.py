@@ -1,4 +1,7 @@
-"""One matcher for all: as wide as point to point, as accurate as point to line, and it says so."""
+"""Scan matching: point-to-line registration, with correlative search where that fails.
+
+As wide a basin as point-to-point ICP, as accurate as point-to-line; it says how far to trust it.
+"""
 
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -6,39 +9,39 @@ from functools import cached_property
 import numpy as np
 
 from slamlab.geometry import wrap
-from slamlab.scanmatching.align import Pairs, align, least
-from slamlab.scanmatching.coarse import candidates
-from slamlab.scanmatching.covariance import Observability, censi, observability
-from slamlab.scanmatching.result import Match, Round, checked_pose
+from slamlab.scanmatching.correlative_search import candidate_poses
+from slamlab.scanmatching.match_covariance import Observability, censi, observability
+from slamlab.scanmatching.match_quality import MatchQuality, assess
+from slamlab.scanmatching.match_result import Match, Round, check_pose
+from slamlab.scanmatching.registration import Pairs, align, min_pairs
 from slamlab.scanmatching.surfaces import surface
-from slamlab.scanmatching.verdict import Fit, fit
 
 
 @dataclass(frozen=True)
 class Alignment(Match):
-    """A match with how well it is known and whether it is to be believed.
+    """Result of ``match``: the pose with its covariance, degenerate directions and match quality.
 
-    Its error is the mean distance across the walls, its share that of the points in use.
+    Its error is the mean point-to-line residual, its share that of the inliers.
 
     Parameters
     ----------
-    fit : Fit, what overlaps and what contradicts
-    good : bool, it came to rest, enough overlaps and agrees
-    searched : bool, the coarse search was made
+    fit : MatchQuality, overlap and contradictions
+    good : bool, accepted: converged, and enough overlaps and agrees
+    searched : bool, the correlative search was made
     """
 
-    fit: Fit = None
+    fit: MatchQuality = None
     good: bool = False
     searched: bool = False
-    _end: tuple = field(default=None, repr=False, compare=False)
+    _solution: tuple = field(default=None, repr=False, compare=False)
 
     @cached_property
     def covariance(self):
-        """(3, 3) covariance of the pose by the points' noise [m, m, rad]; see ``censi``."""
-        return censi(*self._end)
+        """Covariance (3, 3) of the pose from the measurement noise [m, m, rad]; see ``censi``."""
+        return censi(*self._solution)
 
-    def doubt(self, sigma):
-        """Covariance where, beside the points' own noise, whole walls are off.
+    def inflated_covariance(self, sigma):
+        """Inflated covariance: the points' own noise, and errors that whole walls have in common.
 
         Errors that points have in common do not average out: in a direction that holds its full
         share of the information they shift the pose by as much, in one that few points fix by more.
@@ -60,22 +63,22 @@ class Alignment(Match):
 
     @cached_property
     def observability(self) -> Observability:
-        """What the walls fix."""
-        return observability(*self._end)[0]
+        """Observability of the pose: its degenerate (under-constrained) directions."""
+        return observability(*self._solution)[0]
 
 
 def match(source, target, initial=(0.0, 0.0, 0.0), *, search=None, max_rounds=30, history=False):
-    """Lay a source over a target: where was the source's scan taken, seen from the target's?
+    """Match scans: register a source point cloud to a target, a scan or a submap (scan-to-map).
 
     Parameters
     ----------
     source, target : (n, 2), (m, 2) points [m], a scan's in the order of its beams; or Surfaces made
         of them before
-    initial : (3,) first guess of the source's frame in the target's [m, m, rad]
-    search : float, look for the source in all places and all turns this far from the guess first
+    initial : (3,) initial guess of the source's frame in the target's [m, m, rad]
+    search : float, correlative search in all places and all turns this far from the guess first
         [rad]; None: only where the guess leads to a poor match, then in all turns; 0: never
-    max_rounds : int
-    history : bool, keep a Round for every look
+    max_rounds : int, iterations at most
+    history : bool, keep a Round for every iteration
 
     Returns
     -------
@@ -83,88 +86,89 @@ def match(source, target, initial=(0.0, 0.0, 0.0), *, search=None, max_rounds=30
 
     Raises
     ------
-    ValueError : fewer than 3 points, wrong shapes, NaN, a senseless limit
+    ValueError : fewer than 3 points, wrong shapes, NaN, max_rounds below 1
     """
-    initial = checked_pose(initial)
+    initial = check_pose(initial)
     if max_rounds < 1:
         raise ValueError(f"max_rounds must be at least 1, got {max_rounds}")
     source, target = surface(source, "source"), surface(target, "target")
-    past, found, searched = [], None, bool(search)
-    watch = (lambda pairs: past.append(looked(pairs, source, target))) if history else None
+    rounds_kept, found, searched = [], None, bool(search)
+    keep = (lambda pairs: rounds_kept.append(_as_round(pairs, source, target))) if history else None
     if not search:
-        found = attempt(source, target, initial, max_rounds, watch)
+        found = _register_from(source, target, initial, max_rounds, keep)
         searched = search is None and not found.fit.good
     if searched:
         turn = np.pi if search is None else search
-        for guess in candidates(source, target, initial, turn):
-            other = attempt(source, target, guess, max_rounds, watch)
+        for guess in candidate_poses(source, target, initial, turn):
+            other = _register_from(source, target, guess, max_rounds, keep)
             if found is None or other.fit.score > found.fit.score:
                 found = other
             if found.fit.good:
                 break
-    return told(found, source, target, searched, past)
+    return _as_alignment(found, source, target, searched, rounds_kept)
 
 
 @dataclass(frozen=True)
-class Attempt:
-    """Where a guess led, and how good that is."""
+class _Attempt:
+    """Registration from one initial guess, and its match quality."""
 
     pairs: Pairs
     rounds: int
-    rest: bool
-    width: float
-    fixed: bool
-    fit: Fit
+    converged: bool
+    kernel_width: float
+    well_constrained: bool
+    fit: MatchQuality
 
 
-def attempt(source, target, guess, max_rounds, watch):
-    """Align from a guess and judge what comes out."""
-    aligned = align(source, target, guess, max_rounds, watch)
-    return Attempt(*aligned, fit(source, target, aligned[0]))
+def _register_from(source, target, guess, max_rounds, callback):
+    """Register from one initial guess and assess the result."""
+    aligned = align(source, target, guess, max_rounds, callback)
+    return _Attempt(*aligned, assess(source, target, aligned[0]))
 
 
-def told(found, source, target, searched, past):
-    """An attempt as an Alignment."""
-    pairs, end = found.pairs, (source, target, found.pairs, found.width)
-    verdict = found.fit.in_words() or ("fits" if found.rest else unrest(found, source))
-    free = "" if found.fixed else observability(*end)[0].in_words()
+def _as_alignment(found, source, target, searched, rounds_kept):
+    """The best attempt as an Alignment, with its status in words."""
+    pairs, solution = found.pairs, (source, target, found.pairs, found.kernel_width)
+    ending = "fits" if found.converged else _reason_not_converged(found, source)
+    verdict = found.fit.in_words() or ending
+    free = "" if found.well_constrained else observability(*solution)[0].in_words()
     if free:
         verdict += f", but {free}"
     return Alignment(
-        pose=settled(pairs),
+        pose=_wrapped_pose(pairs),
         rounds=found.rounds,
-        error=mean_size(pairs),
-        share=np.count_nonzero(pairs.use) / len(source),
-        converged=found.rest,
+        error=_mean_residual(pairs),
+        share=np.count_nonzero(pairs.used) / len(source),
+        converged=found.converged,
         verdict=verdict,
-        history=tuple(past),
+        history=tuple(rounds_kept),
         fit=found.fit,
-        good=found.fit.good and found.rest,
+        good=found.fit.good and found.converged,
         searched=searched,
-        _end=end,
+        _solution=solution,
     )
 
 
-def unrest(found, source):
-    """Why an attempt did not come to rest."""
-    if np.count_nonzero(found.pairs.use) < least(source):
-        return "lost: too few pairs of walls agree"
+def _reason_not_converged(found, source):
+    """Why an attempt did not converge, in words."""
+    if np.count_nonzero(found.pairs.used) < min_pairs(source):
+        return "lost: too few correspondences agree"
     return f"still moving after {found.rounds} rounds"
 
 
-def settled(pairs):
-    """(3,) the pose of pairs, its heading wrapped."""
+def _wrapped_pose(pairs):
+    """Pose (3,) of pairs, its heading wrapped."""
     x, y, theta = pairs.pose
     return np.array([x, y, wrap(float(theta))])
 
 
-def mean_size(pairs):
-    """Mean distance across the walls of the pairs in use [m]; NaN without any."""
-    return float(np.abs(pairs.residuals[pairs.use]).mean()) if pairs.use.any() else np.nan
+def _mean_residual(pairs):
+    """Mean point-to-line residual of the inlier pairs [m]; NaN without any."""
+    return float(np.abs(pairs.residuals[pairs.used]).mean()) if pairs.used.any() else np.nan
 
 
-def looked(pairs, source, target):
-    """A look as a Round, its pairs by the rows of the clouds that came in."""
-    used = np.flatnonzero(pairs.use)
-    rows = source.row(used), target.row(pairs.place[used])
-    return Round(settled(pairs), mean_size(pairs), np.column_stack(rows))
+def _as_round(pairs, source, target):
+    """An iteration as a Round, its pairs by the rows of the clouds that came in."""
+    used = np.flatnonzero(pairs.used)
+    rows = source.original_index(used), target.original_index(pairs.target_index[used])
+    return Round(_wrapped_pose(pairs), _mean_residual(pairs), np.column_stack(rows))

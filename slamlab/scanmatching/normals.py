@@ -1,11 +1,11 @@
-"""Directions of the surfaces that a cloud was taken from."""
+"""Normal estimation: surface normals of a point cloud."""
 
 import numpy as np
 from scipy.spatial import cKDTree
 
 
 def normals(points, neighbours=7, radius=1.0, flatness=0.5):
-    """Unit normals by a line fitted to each point's nearest neighbours.
+    """Estimate unit normals by a line fitted to each point's nearest neighbours (PCA).
 
     The line's direction is the main axis of the neighbours' covariance,
     φ = ½ atan2(2 s_xy, s_xx − s_yy); the normal stands across it.

@@ -1,37 +1,37 @@
-"""A cloud made ready to be matched: in order of bearing where it is a scan, with lines fitted."""
+"""Point clouds preprocessed for scan matching: ordered by bearing if a scan, with local lines."""
 
 from functools import cached_property
 
 import numpy as np
 from scipy.spatial import cKDTree
 
-from slamlab.scanmatching.fits import median, ordered_fits, scatter, unordered_fits
-from slamlab.scanmatching.result import cloud
+from slamlab.scanmatching.local_line_fits import fit_cloud_lines, fit_scan_lines, median, scatter
+from slamlab.scanmatching.match_result import check_cloud
 
-TURN = 2 * np.pi
-UNSEEN = 2.0  # a bearing so many steps from any beam that came back was not seen
-FINEST = 0.01  # noise is never less than this share of the points' spacing
-FEWEST = 5  # points that make a scan
-FINENESS = 2  # sectors a beam in which the nearest beam is looked up
+FULL_TURN = 2 * np.pi  # [rad]
+MAX_BEARING_GAP = 2.0  # steps between beams: a bearing farther from any return was not seen [1]
+MIN_NOISE_SHARE = 0.01  # least noise as a share of the points' spacing [1]
+MIN_SCAN_POINTS = 5  # fewer are no scan
+SECTORS_PER_BEAM = 2  # resolution of the table of nearest beams
 
 
 class Surface:
-    """Points of what a scanner saw, and the lines through them.
+    """A point cloud ready for scan registration: points, local lines with normals, and noise.
 
     Parameters
     ----------
     x, y : (n,) points [m]
-    fits : Fits, the line at each
+    fits : LineFits, the line at each
     sigma : float, standard deviation of the points across their lines [m]
     bearings : (n,) increasing [rad], where this is a scan seen from the origin, or None
     rows : (n,) int, where each point stood in the cloud it came from, or None for the same order
     spacing : float, of neighbouring points where there are no bearings [m]
-    fronts : bool, the normals point to where the points were seen from: walls have two sides
+    oriented : bool, the normals point to where the points were seen from: walls have two sides
     """
 
-    def __init__(self, x, y, fits, sigma, bearings=None, rows=None, spacing=0.0, fronts=False):
+    def __init__(self, x, y, fits, sigma, bearings=None, rows=None, spacing=0.0, oriented=False):
         self.x, self.y, self.fits, self.sigma = x, y, fits, sigma
-        self.bearings, self.rows, self.spacing, self.fronts = bearings, rows, spacing, fronts
+        self.bearings, self.rows, self.spacing, self.oriented = bearings, rows, spacing, oriented
         if bearings is not None:
             self.step = median(bearings[1:] - bearings[:-1])
 
@@ -40,33 +40,33 @@ class Surface:
 
     @property
     def points(self):
-        """(n, 2) the points [m]; in order of bearing where there is one."""
+        """Point cloud (n, 2) [m]; in order of bearing where there is one."""
         return np.column_stack([self.x, self.y])
 
-    def row(self, place):
-        """(k,) int, where the points at these places stood in the cloud they came from."""
-        return place if self.rows is None else self.rows[place]
+    def original_index(self, indices):
+        """Indices (k,) of these points in the cloud they came from."""
+        return indices if self.rows is None else self.rows[indices]
 
     @cached_property
     def ranges(self):
-        """(n,) distances from the origin [m]."""
+        """Ranges (n,): distances from the origin [m]."""
         return np.sqrt(self.x * self.x + self.y * self.y)
 
     @cached_property
     def reach(self):
-        """Root mean square distance of the points from the origin [m]."""
+        """Reach: root mean square range of the points, by which turns are scaled to metres [m]."""
         return max(float(np.sqrt(self.ranges @ self.ranges / len(self))), 1e-12)
 
     @cached_property
     def tree(self):
-        """KD-tree of the points."""
+        """KD-tree of the points, for nearest neighbours."""
         return cKDTree(self.points)
 
-    def facing(self, x, y):
-        """The point of this surface that each given one is to be laid on.
+    def associate(self, x, y):
+        """Data association: the point of this surface that corresponds to each given one.
 
-        In a scan it is the one at the same bearing: on the same wall, wherever on it, the distance
-        across the wall is the same. In another cloud it is the nearest.
+        In a scan it is the one at the same bearing (projective): on the same wall, wherever on it,
+        the distance across the wall is the same. In another cloud it is the nearest neighbour.
 
         Parameters
         ----------
@@ -74,30 +74,30 @@ class Surface:
 
         Returns
         -------
-        (k,) int and (k,) bool: the point's place, and whether this surface was seen there
+        (k,) int and (k,) bool: the point's index, and whether this surface was seen there
         """
         if self.bearings is None:
             _, place = self.tree.query(np.column_stack([x, y]))
             return place, np.ones(len(x), dtype=bool)
-        nearest, near, per_radian = self._compass
+        nearest, near, per_radian = self._bearing_lookup
         sector = ((np.arctan2(y, x) + np.pi) * per_radian).astype(np.intp)
         return nearest[sector], near[sector]
 
     @cached_property
-    def _compass(self):
-        """The nearest beam in each of many sectors of the round, and whether it is near."""
-        count = FINENESS * len(self)
-        middles = (np.arange(count + 1) + 0.5) * (TURN / count) - np.pi
+    def _bearing_lookup(self):
+        """Lookup table by bearing: the nearest beam in each sector, and whether it is near."""
+        count = SECTORS_PER_BEAM * len(self)
+        middles = (np.arange(count + 1) + 0.5) * (FULL_TURN / count) - np.pi
         # a beam more at either end closes the ring
         b = self.bearings
-        ring = np.concatenate([b[-1:] - TURN, b, b[:1] + TURN])
+        ring = np.concatenate([b[-1:] - FULL_TURN, b, b[:1] + FULL_TURN])
         place = ((ring[1:] + ring[:-1]) / 2).searchsorted(middles)
-        near = np.abs(ring[place] - middles) < UNSEEN * self.step
-        return (place - 1) % len(self), near, count / TURN
+        near = np.abs(ring[place] - middles) < MAX_BEARING_GAP * self.step
+        return (place - 1) % len(self), near, count / FULL_TURN
 
 
 def surface(points, name="cloud"):
-    """A surface from a cloud.
+    """Preprocess a point cloud or scan for registration: order it and fit its local lines.
 
     A cloud whose points go round the origin in one sense, once at most, is taken for a scan seen
     from there.
@@ -113,24 +113,24 @@ def surface(points, name="cloud"):
 
     Raises
     ------
-    ValueError : the points are no cloud
+    ValueError : wrong shape, fewer than 3 points, NaN
     """
     if isinstance(points, Surface):
         return points
-    points = cloud(points, name)
+    points = check_cloud(points, name)
     x, y = np.ascontiguousarray(points.T)
     bearings = np.arctan2(y, x)
-    rows = around(bearings)
+    rows = _bearing_order(bearings)
     if rows is not None and points.any(axis=1).all():
         if len(rows):
             x, y, bearings = x[rows], y[rows], bearings[rows]
-        return scan(x, y, bearings, rows if len(rows) else None)
-    fits, spacing = unordered_fits(points)
-    return Surface(x, y, fits, max(scatter(fits), FINEST * spacing), spacing=spacing)
+        return _scan_surface(x, y, bearings, rows if len(rows) else None)
+    fits, spacing = fit_cloud_lines(points)
+    return Surface(x, y, fits, max(scatter(fits), MIN_NOISE_SHARE * spacing), spacing=spacing)
 
 
-def scan(x, y, bearings, rows=None):
-    """A surface from points in order of bearing.
+def _scan_surface(x, y, bearings, rows=None):
+    """Surface of a scan: points in order of bearing, oriented normals.
 
     Parameters
     ----------
@@ -141,15 +141,15 @@ def scan(x, y, bearings, rows=None):
     -------
     Surface
     """
-    made = Surface(x, y, None, 0.0, bearings, rows, fronts=True)
-    r, over = made.ranges, bearings[0] + TURN - bearings[-1]
-    made.fits, sigma = ordered_fits(x, y, r, made.step, over < 3 * made.step)
-    made.sigma = max(sigma, FINEST * made.step * median(r))
+    made = Surface(x, y, None, 0.0, bearings, rows, oriented=True)
+    r, over = made.ranges, bearings[0] + FULL_TURN - bearings[-1]
+    made.fits, sigma = fit_scan_lines(x, y, r, made.step, over < 3 * made.step)
+    made.sigma = max(sigma, MIN_NOISE_SHARE * made.step * median(r))
     return made
 
 
-def around(bearings):
-    """The order in which bearings increase, where they go round once.
+def _bearing_order(bearings):
+    """Order of a scan's bearings: the indices by which they increase, where they go round once.
 
     Parameters
     ----------
@@ -159,7 +159,7 @@ def around(bearings):
     -------
     (n,) int; empty where the order is already that; None where they go to and fro
     """
-    if len(bearings) < FEWEST:
+    if len(bearings) < MIN_SCAN_POINTS:
         return None
     steps = np.diff(bearings)
     rising = np.count_nonzero(steps > 0)

@@ -1,18 +1,15 @@
-"""What every source offers: readings, a description of its robot and sensor, damage counted."""
+"""Interface (base class) of every source: readings, robot and sensor models, damage counted."""
 
 from collections import Counter
 from collections.abc import Iterator
 
-from slamlab.hardware import RobotModel, SensorModel
+from slamlab.files.errors import SourceError
+from slamlab.models.parameters import RobotModel, SensorModel
 from slamlab.readings import Reading, Trajectory
 
 
-class SourceError(ValueError):
-    """A source cannot be opened or holds nothing usable; the text says what to do."""
-
-
 class Source:
-    """Yields readings; describes its robot and sensor; closes.
+    """Source of readings (data stream): an iterable that describes its robot and sensor.
 
     Subclasses set ``name`` and yield from ``__iter__``. ``damage`` counts, by kind, what could not
     be used; ``skipped`` is how many readings were lost to it. ``truth`` is for evaluation only and
@@ -32,16 +29,16 @@ class Source:
         raise NotImplementedError
 
     def __len__(self) -> int:
-        """How many readings will come, 0 where that is not known."""
+        """Number of readings, 0 where that is not known."""
         return 0
 
     @property
     def drivable(self):
-        """bool, whether there is a robot to command."""
+        """bool, whether there is a robot that takes drive commands."""
         return type(self).drive is not Source.drive
 
     def drive(self, command):
-        """Command the robot; most sources are recordings and refuse.
+        """Drive the robot by a velocity command; most sources are recordings and refuse.
 
         Raises
         ------
@@ -50,7 +47,7 @@ class Source:
         raise SourceError(f"{self.name} is a recording: it cannot be driven")
 
     def close(self):
-        """Release what the source holds; may be called twice."""
+        """Close the source: release what it holds; may be called twice."""
 
     def __enter__(self):
         return self

@@ -1,4 +1,4 @@
-"""CARMEN logs: the format of the classic public data sets, one message a line.
+"""CARMEN log files: the format of the classic public data sets (Intel Lab), one message a line.
 
 A scan is ``FLASER n r_1 … r_n x y θ odom_x odom_y odom_θ stamp host logger_stamp``: ranges in
 metres from right to left, the laser's pose (here ignored: a corrected log holds somebody's result
@@ -7,25 +7,26 @@ there), the odometry's pose, the time of the scan. Other messages and comments a
 
 import numpy as np
 
+from slamlab.files.errors import SourceError
 from slamlab.geometry import between
-from slamlab.hardware import SensorModel
+from slamlab.models.parameters import SensorModel
 from slamlab.readings import Reading, Scan
-from slamlab.sources.base import SourceError
-from slamlab.sources.logfile import LogFile
+from slamlab.sources.log_file import LogFile
 
-RANGE_MAX = 80.0  # a SICK LMS reports 81.83 or 81.91 m where nothing came back
-FARTHEST = 1e7  # no robot's odometry is beyond this [m]
-STEPS = {180: 1.0, 181: 1.0, 360: 0.5, 361: 0.5, 400: 0.25, 401: 0.25}  # degrees between beams
+RANGE_MAX = 80.0  # [m]; a SICK LMS reports 81.83 or 81.91 m where nothing came back
+MAX_ODOMETRY = 1e7  # no robot's odometry is beyond this [m]
+ANGLE_INCREMENTS = {180: 1.0, 181: 1.0, 360: 0.5, 361: 0.5, 400: 0.25, 401: 0.25}
+"""Angle increment from beam to beam, by number of beams [degree]."""
 
 
 class CarmenLog(LogFile):
-    """A CARMEN log, plain or gzip."""
+    """CARMEN log as a source of scans and odometry increments, plain or gzip."""
 
-    def _read(self, lines):
+    def _parse(self, lines):
         self._range_max = RANGE_MAX
         self._rows = []
-        for line, ended in lines:
-            self._take(line, ended)
+        for line, complete in lines:
+            self._parse_line(line, complete)
         if not self._rows:
             lost = f" ({self.skipped} were unreadable)" if self.skipped else ""
             raise SourceError(
@@ -51,17 +52,17 @@ class CarmenLog(LogFile):
             )
             before = odometry
 
-    def _take(self, line, ended):
-        """Keep a scan; note a setting; count damage; pass over everything else."""
+    def _parse_line(self, line, complete):
+        """Parse a line: keep a scan, note a setting, count damage, ignore everything else."""
         words = line.split()
         if words[:2] == [b"PARAM", b"robot_front_laser_max"] and len(words) > 2:
-            limit = number(words[2])
+            limit = float_or_none(words[2])
             if limit is not None and 0 < limit < np.inf:
                 self._range_max = limit
         if words[:1] != [b"FLASER"]:
             return
         try:
-            row = scan_of(words, ended)
+            row = parse_flaser(words, complete)
         except ValueError as kind:
             self.damage[str(kind)] += 1
             self.skipped += 1
@@ -73,8 +74,8 @@ class CarmenLog(LogFile):
         self._rows.append(row)
 
 
-def scan_of(words, ended):
-    """One FLASER line's stamp [s], odometry (3,) and ranges (n,) [m].
+def parse_flaser(words, complete):
+    """Parse a FLASER message (laser scan): time stamp [s], odometry (3,) and ranges (n,) [m].
 
     Raises
     ------
@@ -82,25 +83,25 @@ def scan_of(words, ended):
     """
     count = words[1] if len(words) > 1 else b""
     if not count.isdigit():
-        raise ValueError("lines without a count of ranges" if ended else "lines cut short")
+        raise ValueError("lines without a count of ranges" if complete else "lines cut short")
     # six numbers of poses and the stamp must follow, host and logger's stamp may
     surplus = len(words) - 2 - int(count) - 7
-    if not ended and surplus < 1:
+    if not complete and surplus < 1:
         raise ValueError("lines cut short")
     if not 0 <= surplus <= 2:
         raise ValueError("lines whose count of ranges is wrong")
-    numbers = [number(word) for word in words[2 : len(words) - surplus]]
+    numbers = [float_or_none(word) for word in words[2 : len(words) - surplus]]
     if None in numbers:
         raise ValueError("lines with a word where a number belongs")
     values = np.array(numbers, dtype=float)
     ranges, odometry, stamp = values[: int(count)], values[-4:-1], values[-1]
-    if not np.isfinite(values[-4:]).all() or np.abs(odometry).max() > FARTHEST:
+    if not np.isfinite(values[-4:]).all() or np.abs(odometry).max() > MAX_ODOMETRY:
         raise ValueError("lines without a finite odometry and stamp")
     return float(stamp), odometry, ranges
 
 
-def number(word):
-    """The number a word stands for, or None."""
+def float_or_none(word):
+    """Number that a word stands for (float), or None."""
     try:
         return float(word)
     except ValueError:
@@ -108,7 +109,7 @@ def number(word):
 
 
 def beam_angles(count):
-    """Directions of a scan's beams, as CARMEN takes them from their number.
+    """Beam angles (bearings) of a scan, as CARMEN takes them from the number of beams.
 
     The first looks to the right (−90°). 181, 361 and 401 beams are a SICK's 1°, 0.5° and 0.25°; one
     less is the same without the last beam. A 0.25° scan covers 100°, centred. Other numbers are
@@ -122,6 +123,6 @@ def beam_angles(count):
     -------
     (count,) [rad]
     """
-    step = STEPS.get(count, 180.0 / max(1, count - 1))
+    step = ANGLE_INCREMENTS.get(count, 180.0 / max(1, count - 1))
     first = -50.0 if count in (400, 401) else -90.0
     return np.radians(first + step * np.arange(count))

@@ -1,1 +1,6 @@
-"""Tables that take many runs: each module is a command that writes one under slamlab/data."""
+"""Monte Carlo studies: tables of many runs; each module is a command that writes one.
+
+- ``consistency`` (with ``ideal_filter``): NEES of EKF-SLAM; ``boxes``: BOR's guarantee
+- ``walls``: Smolec's SLAM by its parts; ``three`` (with ``three_costs``): BOR, MAK, Monte Carlo
+- ``arena_logs``: the six data sets as files; ``study_command``: what the commands share
+"""

@@ -1,4 +1,4 @@
-"""``python -m slamlab.studies.arena_logs FOLDER``: the six data sets, as reading logs.
+"""``python -m slamlab.studies.arena_logs FOLDER``: the six data sets, as log files (readings).
 
 They are drives of fixed seeds, so whoever writes them writes the same; ``slamlab run`` reads them.
 """
@@ -8,11 +8,11 @@ import sys
 from pathlib import Path
 
 from slamlab import sources
-from slamlab.sources.arena import SETS, data_set
+from slamlab.sources.arena_runs import SETS, data_set
 
 
 def main(argv=None):
-    """The command; 0 when written, 2 when the folder cannot be had."""
+    """The command: write the data sets; 0 when written, 2 when the folder cannot be had."""
     command = argparse.ArgumentParser(prog="python -m slamlab.studies.arena_logs")
     command.add_argument("folder", type=Path, metavar="FOLDER")
     folder = command.parse_args(argv).folder

@@ -1,8 +1,8 @@
-"""``python -m slamlab.studies.boxes``: is the truth ever outside its box while noise is bounded?
+"""``python -m slamlab.studies.boxes``: Monte Carlo study of BOR's guarantee under bounded noise.
 
-Worlds of every kind are drawn: three ways to drive, noise that fills its bounds or sits at their
-ends, bearings that say nothing, objects in one heap. Who is seen is known. Written as JSON:
-command, seeds, versions, and what was counted.
+Is the truth ever outside its box? Worlds of every kind are drawn: three ways to drive, noise that
+fills its bounds or sits at their ends, bearings that say nothing, objects in one heap. Who is seen
+is known. Written as JSON: command, seeds, versions, and what was counted.
 """
 
 import sys
@@ -12,25 +12,26 @@ from functools import partial
 import numpy as np
 
 from slamlab.filters.bor import BOR, EmptyIntersection
-from slamlab.filters.bor.angles import WHOLE, holds
-from slamlab.filters.bor.edges import sighting
+from slamlab.filters.bor.angle_intervals import FULL_CIRCLE, contains
+from slamlab.filters.bor.half_planes import absolute_bearing
 from slamlab.filters.bor.intervals import around
-from slamlab.filters.bor.predict import odometry, steered, wheels
+from slamlab.filters.bor.prediction import odometry, steered, wheels
 from slamlab.geometry import compose, wrap
-from slamlab.models import f_steered, h
+from slamlab.models.motion import f_steered
+from slamlab.models.observation import h
 from slamlab.parallel import map_runs
-from slamlab.simulator import arc
-from slamlab.studies import command
-from slamlab.studies.command import TABLES, made_with, seeds
+from slamlab.simulation.differential_drive import arc
+from slamlab.studies import study_command
+from slamlab.studies.study_command import TABLES, package_versions, seeds
 
 BASE, PERIOD = 0.3, 1.0  # of wheels and axles [m], of a step [s]
-STEPS = 200  # a run
+STEPS = 200  # of a run
 TABLE = TABLES / "boxes.json"
 
 
 @dataclass(frozen=True)
-class Bounded:
-    """A robot among objects, all of whose noise is bounded.
+class BoundedNoise:
+    """Scenario parameters: a robot among objects, all of whose noise is bounded.
 
     Parameters
     ----------
@@ -56,11 +57,11 @@ class Bounded:
 
 
 class BoundedRun:
-    """One run in such a world; iterate it once.
+    """One simulated run with bounded noise; iterate it once.
 
     Parameters
     ----------
-    world : Bounded
+    world : BoundedNoise
     rng : numpy.random.Generator
     steps : int
 
@@ -76,29 +77,29 @@ class BoundedRun:
         self._middle = self.pose + self._noise(place, place, turn)
 
     def filter(self):
-        """A BOR that knows the start's bounds and no object."""
+        """The initial BOR filter: it knows the start's bounds and no object."""
         (x, y, heading), (place, turn) = self._middle.tolist(), self.world.start
         return BOR([*around(x, place), *around(y, place)], around(heading, turn))
 
     def __iter__(self):
         for _ in range(self.steps):
-            yield self._move(), self._see()
+            yield self._move(), self._observe()
 
     def _move(self):
         world, rng = self.world, self.rng
         if world.drive == "steered":
-            told = rng.uniform(-0.2, 0.4), rng.uniform(-0.6, 0.6)
-            self.pose = f_steered(self.pose, told + self._noise(*world.moving), BASE, PERIOD)
-            return steered(*map(around, told, world.moving), BASE, PERIOD)
+            u = rng.uniform(-0.2, 0.4), rng.uniform(-0.6, 0.6)
+            self.pose = f_steered(self.pose, u + self._noise(*world.moving), BASE, PERIOD)
+            return steered(*map(around, u, world.moving), BASE, PERIOD)
         if world.drive == "wheels":
-            told = rng.uniform(-0.2, 0.4, 2)
-            self.pose = compose(self.pose, arc(*(told + self._noise(*world.moving)), BASE))
-            return wheels(*map(around, told.tolist(), world.moving), BASE)
-        told = np.array([rng.uniform(-0.2, 0.4), rng.uniform(-1, 1)])
-        self.pose = compose(self.pose, _arc(*(told + self._noise(*world.moving))))
-        return odometry(_arc(*told), *world.moving)
+            u = rng.uniform(-0.2, 0.4, 2)
+            self.pose = compose(self.pose, arc(*(u + self._noise(*world.moving)), BASE))
+            return wheels(*map(around, u.tolist(), world.moving), BASE)
+        u = np.array([rng.uniform(-0.2, 0.4), rng.uniform(-1, 1)])
+        self.pose = compose(self.pose, _arc(*(u + self._noise(*world.moving))))
+        return odometry(_arc(*u), *world.moving)
 
-    def _see(self):
+    def _observe(self):
         seen, n = [], len(self.objects)
         r_and_bearing = h(self.pose, self.objects) + self._noise(*self.world.seeing, rows=n)
         for i in np.flatnonzero(self.rng.random(n) < self.world.share).tolist():
@@ -108,14 +109,14 @@ class BoundedRun:
         return seen
 
     def _noise(self, *bounds, rows=None):
-        """Within bounds (k,): one (k,) or many (rows, k)."""
+        """Bounded noise: within bounds (k,), one sample (k,) or many (rows, k)."""
         shape = (len(bounds),) if rows is None else (rows, len(bounds))
         share = self.rng.uniform(-1, 1, shape)
         return (np.sign(share) if self.world.at_ends else share) * bounds
 
 
-def anything(rng):
-    """A world of any kind, bounds from next to nothing to far too much.
+def random_world(rng):
+    """Random scenario parameters, bounds from next to nothing to far too much.
 
     Parameters
     ----------
@@ -123,13 +124,13 @@ def anything(rng):
 
     Returns
     -------
-    Bounded
+    BoundedNoise
     """
 
     def some(low, high):
         return float(np.exp(rng.uniform(np.log(low), np.log(high)))) * float(rng.random() < 0.9)
 
-    return Bounded(
+    return BoundedNoise(
         drive=str(rng.choice(["odometry", "wheels", "steered"])),
         moving=(some(1e-4, 0.1), some(1e-4, 0.1)),
         seeing=(some(1e-4, 1), some(1e-4, 2)),
@@ -142,12 +143,12 @@ def anything(rng):
 
 
 def inside(box, point):
-    """Whether a point (2,) lies in a box (x_min, x_max, y_min, y_max)."""
+    """Containment: whether a point (2,) lies in a box (x_min, x_max, y_min, y_max)."""
     return box[0] <= point[0] <= box[1] and box[2] <= point[1] <= box[3]
 
 
 def outside(bor, pose, objects):
-    """What of the truth lies outside of its box.
+    """Violations of the guarantee: what of the truth lies outside of its box.
 
     Parameters
     ----------
@@ -160,18 +161,18 @@ def outside(bor, pose, objects):
     list of "robot", "heading" and ids
     """
     found = [] if inside(bor.robot.tolist(), pose) else ["robot"]
-    found += [] if holds(bor.heading.tolist(), pose[2]) else ["heading"]
+    found += [] if contains(bor.heading.tolist(), pose[2]) else ["heading"]
     boxes = zip(bor.ids, bor.boxes().tolist(), strict=True)
     return found + [i for i, box in boxes if not inside(box, objects[i])]
 
 
-def counted(seed, world=None, steps=STEPS):
-    """One run, and how often the truth was outside.
+def violations(seed, world=None, steps=STEPS):
+    """Run the filter once and count violations: how often the truth was outside its box.
 
     Parameters
     ----------
     seed : int
-    world : Bounded, any kind when None
+    world : BoundedNoise, any kind when None
     steps : int
 
     Returns
@@ -180,13 +181,13 @@ def counted(seed, world=None, steps=STEPS):
     absolute bearing off by a right angle or more, whole are steps that end with any heading
     """
     rng = np.random.default_rng(seed)
-    run = BoundedRun(world or anything(rng), rng, steps)
+    run = BoundedRun(world or random_world(rng), rng, steps)
     bor = run.filter()
     found = dict.fromkeys(("steps", "sightings", "wide", "whole", "outside", "empty"), 0)
     for motion, seen in run:
         bor.predict(*motion)
         for i, z in seen:
-            _, d_abs = sighting(bor.heading.tolist(), z, run.world.seeing)
+            _, d_abs = absolute_bearing(bor.heading.tolist(), z, run.world.seeing)
             found["wide"] += d_abs >= np.pi / 2
             try:
                 (bor.update if i in bor else bor.add)(i, z, run.world.seeing)
@@ -194,40 +195,44 @@ def counted(seed, world=None, steps=STEPS):
                 found["empty"] += 1
         found["steps"] += 1
         found["sightings"] += len(seen)
-        found["whole"] += tuple(bor.heading.tolist()) == WHOLE
+        found["whole"] += tuple(bor.heading.tolist()) == FULL_CIRCLE
         found["outside"] += bool(outside(bor, run.pose, run.objects))
     return {name: int(number) for name, number in found.items()}
 
 
 def study(runs, world=None, jobs=None, scheduler=None):
-    """Many runs, counted together.
+    """Many runs, their violations counted together.
 
     Parameters
     ----------
     runs : int
-    world : Bounded, any kind when None
+    world : BoundedNoise, any kind when None
     jobs, scheduler : as of :func:`slamlab.parallel.map_runs`
 
     Returns
     -------
     dict : "versions", "seeds", "world", "counted"
     """
-    found = map_runs(partial(counted, world=world), seeds(runs, least=1), jobs, scheduler)
+    found = map_runs(partial(violations, world=world), seeds(runs, least=1), jobs, scheduler)
     return {
-        "versions": made_with(),
+        "versions": package_versions(),
         "seeds": [0, runs - 1],
         "world": asdict(world) if world else "of any kind",
         "counted": {name: sum(one[name] for one in found) for name in found[0]},
     }
 
 
-def main(words=None):
-    """The command; 0 when written, 2 when something is wrong with what was asked."""
-    return command.main("boxes", 5000, study, words)
+def main(argv=None):
+    """The command: run the study, write its table; exit code 0, or 2 on an error."""
+    return study_command.main("boxes", 5000, study, argv)
 
 
 def _arc(length, turn):
     return arc(length - turn / 2, length + turn / 2, 1.0)
+
+
+# names in the first edition
+Bounded, counted = BoundedNoise, violations
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""``python -m slamlab.studies.consistency``: is EKF-SLAM consistent? NEES over many loops.
+"""``python -m slamlab.studies.consistency``: is EKF-SLAM consistent? NEES over Monte Carlo runs.
 
 Standard Jacobians, first estimates and the ideal filter (Jacobians at the truth) see the same
 readings. Written as JSON: command, seeds, versions, scenario, and a row a filter.
@@ -10,22 +10,22 @@ from functools import partial
 
 import numpy as np
 
-from slamlab.estimators.mak import MakSlam, Q_arc
+from slamlab.estimators.mak_slam import MakSlam, Q_arc
 from slamlab.evaluation import band, consistency, nees
 from slamlab.geometry import compose, wrap
 from slamlab.parallel import map_runs
-from slamlab.sources.landmarks import LandmarkRun, Loop
-from slamlab.studies.command import TABLES, made_with, parser, rounded, seeds, write
-from slamlab.studies.ideal import IdealFilter
+from slamlab.sources.landmark_runs import LandmarkRun, Loop
+from slamlab.studies.ideal_filter import IdealFilter
+from slamlab.studies.study_command import TABLES, package_versions, parser, rounded, seeds, write
 
-FILTERS = ("ideal", "first estimates", "standard")
-SETTLED = 10  # steps until the pose's covariance, zero at first, can be inverted safely
-LAST = 100  # steps that show where it ends
+FILTERS = ("ideal", "first estimates", "standard")  # where Jacobians are evaluated
+BURN_IN = 10  # steps left out, until the pose's covariance, zero at first, can be inverted safely
+LAST_STEPS = 100  # steps over which the final NEES is averaged
 TABLE = TABLES / "consistency.json"
 
 
 def errors_of(seed, loop):
-    """One run of every filter on the same readings.
+    """Errors and covariances of one run of every filter on the same readings.
 
     Parameters
     ----------
@@ -60,7 +60,7 @@ def _ideal(source):
         Q = Q_arc(pose, reading.odometry, source.robot)
         slam.predict(compose(pose, reading.odometry), Q, true)
         seen = reading.observations
-        slam.see(seen.ids, seen.z, np.broadcast_to(R, (len(seen.ids), 2, 2)))
+        slam.observe(seen.ids, seen.z, np.broadcast_to(R, (len(seen.ids), 2, 2)))
         poses.append(slam.x[:3].copy())
         P.append(slam.P[:3, :3].copy())
     return np.array(poses), P, slam
@@ -74,7 +74,7 @@ def _summary(source, poses, P, slam):
 
 
 def row(runs):
-    """One line of the table.
+    """One row of the table: NEES, steps outside the χ² band, RMSE of a filter.
 
     Parameters
     ----------
@@ -84,7 +84,7 @@ def row(runs):
     -------
     dict of plain numbers
     """
-    errors, P = (np.array([run[k] for run in runs])[:, SETTLED:] for k in (0, 1))
+    errors, P = (np.array([run[k] for run in runs])[:, BURN_IN:] for k in (0, 1))
     each = nees(errors, P)
     low, high = band(3, len(runs))
     over_runs = each.mean(axis=0)
@@ -94,7 +94,7 @@ def row(runs):
         # the steps of a run hang together, runs do not: their scatter gives the mean's error
         "nees_standard_error": each.mean(axis=1).std(ddof=1) / np.sqrt(len(runs)),
         "nees_median_run": np.median(each.mean(axis=1)),
-        "nees_last": each[:, -LAST:].mean(),
+        "nees_last": each[:, -LAST_STEPS:].mean(),
         "steps_above_band": np.mean(over_runs > high),
         "steps_below_band": np.mean(over_runs < low),
         "largest_eigenvalue_at_end": at_end.largest,
@@ -106,7 +106,7 @@ def row(runs):
 
 
 def study(loop, runs, jobs=None, scheduler=None):
-    """The table.
+    """The table of the study: NEES and RMSE of every filter.
 
     Parameters
     ----------
@@ -122,11 +122,11 @@ def study(loop, runs, jobs=None, scheduler=None):
     ------
     ValueError : too few runs or steps
     """
-    if loop.steps < SETTLED:
-        raise ValueError(f"--steps is at least {SETTLED}, not {loop.steps}")
+    if loop.steps < BURN_IN:
+        raise ValueError(f"--steps is at least {BURN_IN}, not {loop.steps}")
     results = map_runs(partial(errors_of, loop=loop), seeds(runs), jobs, scheduler)
     return {
-        "versions": made_with(),
+        "versions": package_versions(),
         "seeds": [0, runs - 1],
         "scenario": asdict(loop),
         "band_95": band(3, runs),
@@ -135,19 +135,19 @@ def study(loop, runs, jobs=None, scheduler=None):
 
 
 def main(argv=None):
-    """The command; 0 when written, 2 when something is wrong with what was asked."""
-    words = sys.argv[1:] if argv is None else argv
+    """The command: run the study, write its table; exit code 0, or 2 on an error."""
+    argv = sys.argv[1:] if argv is None else argv
     command = parser("consistency", runs=100)
     for field in fields(Loop):
         kind = type(field.default)
         command.add_argument("--" + field.name.replace("_", "-"), type=kind, default=field.default)
-    asked = command.parse_args(words)
+    asked = command.parse_args(argv)
 
     def make():
         loop = Loop(**{field.name: getattr(asked, field.name) for field in fields(Loop)})
         return study(loop, asked.runs, asked.jobs, asked.scheduler)
 
-    return write(command.prog, words, asked.out, make)
+    return write(command.prog, argv, asked.out, make)
 
 
 if __name__ == "__main__":

@@ -1,7 +1,8 @@
-"""``python -m slamlab.studies.three``: box, ellipse and samples on the same drives of one robot.
+"""``python -m slamlab.studies.three``: BOR, MAK (EKF) and Monte Carlo compared on the same drives.
 
-The MAK thesis' comparison (ch. 8): its six data sets, one with a snagged cable, and then as many
-drives as are asked for, each once as it was driven and once with a snagged cable.
+Box, ellipse and samples in the MAK thesis' comparison (ch. 8): its six data sets, one with a
+snagged cable, and then as many drives as are asked for, each once as it was driven and once with a
+snagged cable.
 """
 
 import sys
@@ -12,16 +13,16 @@ from scipy.stats import binomtest, bootstrap
 
 from slamlab import estimators
 from slamlab.estimators import BorSlam
-from slamlab.estimators.seen import seen
+from slamlab.estimators.landmark_observations import observed_landmarks
 from slamlab.parallel import map_runs
-from slamlab.sources.arena import LAPS, SETS, ArenaRun, data_set
-from slamlab.studies import command
-from slamlab.studies.command import TABLES, made_with, seeds
-from slamlab.studies.three_costs import costs
+from slamlab.sources.arena_runs import LAPS, SETS, ArenaRun, data_set
+from slamlab.studies import study_command
+from slamlab.studies.study_command import TABLES, package_versions, seeds
+from slamlab.studies.three_costs import scan_costs
 
 TABLE = TABLES / "three.json"
-LOST = 0.12  # m, off by more than the robot is wide: it would drive into the wall
-TUNED = 0.1, 1.5  # standard deviations that odometry's and corners' bounds are
+LOST = 0.12  # a filter farther off is lost: by the robot's width it would hit the wall [m]
+TUNED = 0.1, 1.5  # bounds of odometry and of corners, in standard deviations [1]
 
 
 def tuned_bor(source):
@@ -46,7 +47,7 @@ FILTERS = {
 
 
 def with_corners(source):
-    """A source's readings with the corners of their scans found once, for every filter alike.
+    """Extract the corner landmarks of a source's scans once, for every filter alike.
 
     Parameters
     ----------
@@ -58,13 +59,13 @@ def with_corners(source):
     """
     rng = np.random.default_rng(0)
     return [
-        replace(reading, scan=None, observations=seen(reading, source.sensor, rng))
+        replace(reading, scan=None, observations=observed_landmarks(reading, source.sensor, rng))
         for reading in source
     ]
 
 
 def errors_of(source, readings):
-    """One drive by every filter.
+    """Position errors of every filter on one drive.
 
     Parameters
     ----------
@@ -85,7 +86,7 @@ def errors_of(source, readings):
 
 
 def summary(errors):
-    """What one run of one filter comes to.
+    """Summary of one run of one filter: RMS error, strayed, lost.
 
     Lost is who is off by more than ``LOST`` at the end; it was lost from where it last went so far
     off. Strayed is who ever was.
@@ -113,7 +114,7 @@ def summary(errors):
 
 
 def nearer(first, second):
-    """Whether one filter is nearer to the truth than another until either strays.
+    """Whether one filter has the smaller error until either strays.
 
     Parameters
     ----------
@@ -129,7 +130,7 @@ def nearer(first, second):
 
 
 def run(seed):
-    """One drive by every filter, free and snagged: {(name, snagged): (n,) errors [m]}."""
+    """Errors of every filter on one drive, free and snagged: {(name, snagged): (n,) errors [m]}."""
     free = ArenaRun(np.random.default_rng(seed))
     held, readings = free.snagged(), with_corners(free)
     pulled = [replace(r, odometry=h.odometry) for r, h in zip(readings, held, strict=True)]
@@ -141,7 +142,7 @@ def run(seed):
 
 
 def row(runs, others):
-    """One line of the table: medians and shares, each with its 95 % interval.
+    """One row of the table: medians and shares, each with its 95 % interval.
 
     Parameters
     ----------
@@ -170,7 +171,7 @@ def _rows(results):
 
 
 def _median(values):
-    """(3,) median and its interval by bootstrap."""
+    """(3,) median and its confidence interval by bootstrap."""
     if min(values) == max(values):  # which has no bootstrap
         return [values[0]] * 3
     rng = np.random.default_rng(0)
@@ -179,13 +180,13 @@ def _median(values):
 
 
 def _share(count, total):
-    """(3,) a share and its interval by Wilson."""
+    """(3,) a share and its Wilson confidence interval."""
     interval = binomtest(count, total).proportion_ci(method="wilson")
     return [round(float(v), 4) for v in (count / total, *interval)]
 
 
-def six():
-    """The six data sets: a line each with every filter's final and root mean square error."""
+def six_data_sets():
+    """Results on the six data sets: a row each with every filter's final and RMS error."""
     lines = []
     for seed, snagged in SETS:
         source = data_set(seed, snagged)
@@ -196,7 +197,7 @@ def six():
 
 
 def study(runs, jobs=None, scheduler=None):
-    """The tables.
+    """The tables of the study: errors and costs of every filter.
 
     Parameters
     ----------
@@ -213,21 +214,21 @@ def study(runs, jobs=None, scheduler=None):
     """
     results = map_runs(run, seeds(runs), jobs, scheduler)
     return {
-        "versions": made_with(),
+        "versions": package_versions(),
         "seeds": [0, runs - 1],
         "lost_beyond_m": LOST,
-        "six": six(),
+        "six": six_data_sets(),
         "many": {
             kind: _rows([{name: result[name, snagged] for name in FILTERS} for result in results])
             for kind, snagged in (("free", False), ("snagged", True))
         },
-        "cost": costs(),
+        "cost": scan_costs(),
     }
 
 
-def main(words=None):
-    """The command; 0 when written, 2 when something is wrong with what was asked."""
-    return command.main("three", 200, study, words)
+def main(argv=None):
+    """The command: run the study, write its table; exit code 0, or 2 on an error."""
+    return study_command.main("three", 200, study, argv)
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""What a scan costs each filter as its map grows: one corner seen, N in the map."""
+"""Computational cost of a scan for each filter as its map grows: one corner seen, N in the map."""
 
 from statistics import median
 from time import process_time
@@ -6,20 +6,20 @@ from time import process_time
 import numpy as np
 
 from slamlab import estimators
-from slamlab.hardware import RobotModel, SensorModel
-from slamlab.models import h
+from slamlab.models.observation import h
+from slamlab.models.parameters import RobotModel, SensorModel
 from slamlab.readings import Observations, Reading
 from slamlab.sources.base import Source
 
-NAMES = ("bor", "mak", "montecarlo", "fastslam")
-SIZES = (10, 30, 100, 300, 1000)
+NAMES = ("bor", "mak", "montecarlo", "fastslam")  # of estimators
+SIZES = (10, 30, 100, 300, 1000)  # landmarks in the map
 SCANS = 15  # timed for each size
 
 
-class Field(Source):
-    """A robot that creeps among landmarks a metre apart: first all of them are seen, then one.
+class LandmarkField(Source):
+    """Source for timing: a robot among landmarks a metre apart; first all are seen, then one.
 
-    No sighting has a name, so that association is paid for.
+    No sighting has an id, so that data association is paid for.
 
     Parameters
     ----------
@@ -54,8 +54,8 @@ class Field(Source):
         )
 
 
-def costs(names=NAMES, sizes=SIZES):
-    """How much longer a scan takes in a larger map, and than with the first filter.
+def scan_costs(names=NAMES, sizes=SIZES):
+    """Relative processor time of a scan, by size of the map and by filter.
 
     Parameters
     ----------
@@ -78,7 +78,7 @@ def costs(names=NAMES, sizes=SIZES):
 
 def _seconds(name, size):
     """Median processor time of a scan [s]; the first, which makes the map, is not counted."""
-    source, times = Field(size), []
+    source, times = LandmarkField(size), []
     slam = estimators.make(name, source)
     for reading in source:
         start = process_time()

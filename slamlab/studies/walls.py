@@ -1,4 +1,4 @@
-"""``python -m slamlab.studies.walls``: Smolec's system, part by part, in both of his situations.
+"""``python -m slamlab.studies.walls``: ablation of Smolec's wall SLAM in both of his situations.
 
 Every variant sees the same readings; a row a variant and situation, over many seeds.
 """
@@ -8,24 +8,24 @@ import sys
 import numpy as np
 
 from slamlab.estimators.base import Estimator
-from slamlab.estimators.feet import FootSlam
-from slamlab.estimators.odometry import Odometry
-from slamlab.estimators.walls import WallSlam
+from slamlab.estimators.dead_reckoning import DeadReckoning
+from slamlab.estimators.foot_slam import FootSlam
+from slamlab.estimators.wall_slam import WallSlam
 from slamlab.evaluation import band, nees
 from slamlab.geometry import transform, wrap
+from slamlab.landmarks.downsampling import DownsampledPoints
 from slamlab.landmarks.ransac import THESIS, Ransac
-from slamlab.landmarks.thinned import Thinned
 from slamlab.parallel import map_runs
 from slamlab.sources import simulation
-from slamlab.studies import command
-from slamlab.studies.command import TABLES, made_with, rounded, seeds
+from slamlab.studies import study_command
+from slamlab.studies.study_command import TABLES, package_versions, rounded, seeds
 
 TABLE = TABLES / "walls.json"
 SITUATIONS = ("situation-1", "situation-2")
-SETTLED = 10  # steps until the pose's covariance, zero at first, can be inverted safely
+BURN_IN = 10  # steps left out, until the pose's covariance, zero at first, can be inverted safely
 VARIANTS = {
-    "true poses": lambda source, rng: Known(source.truth),
-    "odometry": lambda source, rng: Odometry(),
+    "true poses": lambda source, rng: TruePoses(source.truth),
+    "odometry": lambda source, rng: DeadReckoning(),
     "feet, thesis' lines": lambda s, rng: FootSlam(s.robot, s.sensor, rng, THESIS),
     "feet, grown lines": lambda s, rng: FootSlam(s.robot, s.sensor, rng, Ransac()),
     "(ρ, α), standard": lambda s, rng: WallSlam(s.robot, s.sensor, rng, first_estimates=False),
@@ -33,8 +33,8 @@ VARIANTS = {
 }
 
 
-class Known(Estimator):
-    """Who knows the way: his map is as good as the scans allow.
+class TruePoses(Estimator):
+    """Ground-truth poses as an estimator: its map is as good as the scans allow.
 
     Parameters
     ----------
@@ -46,11 +46,12 @@ class Known(Estimator):
         self._poses_left = iter(truth.poses)
 
     def step(self, reading):
+        """Take the true pose of this reading."""
         self.pose = next(self._poses_left)
 
 
 def errors_of(seed):
-    """One drive through each situation, by every variant.
+    """Errors of every variant on one drive through each situation.
 
     Parameters
     ----------
@@ -64,12 +65,12 @@ def errors_of(seed):
     for situation in SITUATIONS:
         source = simulation(situation, np.random.default_rng(seed))
         for name, make in VARIANTS.items():
-            found[situation, name] = _driven(source, make(source, np.random.default_rng(seed)))
+            found[situation, name] = _run_variant(source, make(source, np.random.default_rng(seed)))
     return found
 
 
-def _driven(source, slam):
-    poses, P, drawn = [], [], Thinned()
+def _run_variant(source, slam):
+    poses, P, drawn = [], [], DownsampledPoints()
     for reading in source:
         slam.step(reading)
         poses.append(slam.pose.copy())
@@ -78,7 +79,7 @@ def _driven(source, slam):
         drawn.add(transform(slam.pose, reading.scan.points()))
     errors = np.array(poses) - source.truth.poses
     errors[:, 2] = wrap(errors[:, 2])
-    each = nees(errors[SETTLED:], np.array(P)[SETTLED:]) if P else np.array([np.nan])
+    each = nees(errors[BURN_IN:], np.array(P)[BURN_IN:]) if P else np.array([np.nan])
     return {
         "final_m": np.hypot(*errors[-1, :2]),
         "final_deg": np.degrees(abs(errors[-1, 2])),
@@ -90,7 +91,7 @@ def _driven(source, slam):
 
 
 def _off_walls(points, walls):
-    """Root mean square distance of drawn points to the nearest true wall [m]."""
+    """Map error: root mean square distance of drawn points to the nearest true wall [m]."""
     start, way = walls[:, :2], walls[:, 2:] - walls[:, :2]
     offset = points[:, None] - start
     along = np.clip(np.sum(offset * way, axis=2) / np.sum(way**2, axis=1), 0, 1)
@@ -122,7 +123,7 @@ def study(runs, jobs=None, scheduler=None):
         for situation in SITUATIONS
     }
     return {
-        "versions": made_with(),
+        "versions": package_versions(),
         "seeds": [0, runs - 1],
         "band_95": band(3, runs),
         "situations": table,
@@ -130,7 +131,7 @@ def study(runs, jobs=None, scheduler=None):
 
 
 def row(runs):
-    """One line of the table.
+    """One row of the table: medians of a variant over its runs.
 
     Parameters
     ----------
@@ -152,9 +153,9 @@ def row(runs):
     return line
 
 
-def main(words=None):
-    """The command; 0 when written, 2 when something is wrong with what was asked."""
-    return command.main("walls", 60, study, words)
+def main(argv=None):
+    """The command: run the study, write its table; exit code 0, or 2 on an error."""
+    return study_command.main("walls", 60, study, argv)
 
 
 if __name__ == "__main__":

@@ -1,22 +1,30 @@
-"""Every drawing and widget of the course; the only room that imports a plotting library.
+"""Plots, figures and widgets (visualisation); the only room that imports a plotting library.
 
 Drawing takes plain arrays (:mod:`slamlab.layers`): it computes no pose and no map.
+
+Read in this order:
+
+- ``figures``: axes and how they are shown; ``layer_drawing``: what an estimator shows
+- ``comparison``, ``box_drawing``, ``heatmap``, ``interval_plot``, ``loglog_plot``, ``matrix_plot``,
+  ``linked_map``, ``scan_overlay``, ``resampling_wheel``, ``frame_sketches``: one plot each
+- ``sliders``, ``play_button``, ``widget_errors``: interactive figures
+- ``live``: any source and estimator, live, driven by hand; ``editor``: a world edited by hand
 """
 
-from slamlab.views import boxes
-from slamlab.views.cells import cells
-from slamlab.views.compare import cloud, curves
-from slamlab.views.correlation import correlation
+from slamlab.views import box_drawing as boxes
+from slamlab.views.comparison import cloud, curves
 from slamlab.views.figures import COLOURS, axes, chart, panels, png, show
-from slamlab.views.growth import growth
-from slamlab.views.layers import draw, legend, side_by_side
-from slamlab.views.linked import linked
+from slamlab.views.frame_sketches import frames
+from slamlab.views.heatmap import cells
+from slamlab.views.interval_plot import shares
+from slamlab.views.layer_drawing import draw, legend, side_by_side
+from slamlab.views.linked_map import linked
 from slamlab.views.live import apart, live
-from slamlab.views.overlay import overlay
-from slamlab.views.samples import wheel
-from slamlab.views.shares import shares
-from slamlab.views.sketches import frames
-from slamlab.views.widgets import explore
+from slamlab.views.loglog_plot import growth
+from slamlab.views.matrix_plot import correlation
+from slamlab.views.resampling_wheel import wheel
+from slamlab.views.scan_overlay import overlay
+from slamlab.views.sliders import explore
 
 __all__ = [
     "COLOURS",

@@ -1,4 +1,4 @@
-"""Figures: axes in metres, panels that share them, and how they reach a notebook with their text.
+"""Figures of Matplotlib: axes in metres, panels, colours, PNG and alt text for a notebook.
 
 Figures are made without pyplot: nothing global is opened, so nothing has to be closed.
 """
@@ -10,7 +10,7 @@ from IPython.display import display
 from matplotlib.figure import Figure
 from PIL import Image
 
-# Okabe and Ito's palette: told apart with any kind of colour vision
+# colour-blind-safe palette of Okabe and Ito: told apart with any kind of colour vision
 COLOURS = {
     "truth": "#000000",
     "walls": "#7F7F7F",
@@ -25,11 +25,11 @@ COLOURS = {
     "guide": "#BBBBBB",
 }
 
-DPI = 80
+DPI = 80  # resolution [pixels/inch]
 
 
 def axes(title=None, size=(6, 5)):
-    """A figure with one map: equal scales, metres on both axes.
+    """Figure with one map: axes of equal scale (aspect ratio 1), in metres.
 
     Parameters
     ----------
@@ -45,7 +45,7 @@ def axes(title=None, size=(6, 5)):
 
 
 def panels(titles, size=(11, 5), shared=True):
-    """A figure with one map per title, side by side.
+    """Figure with one map per title (subplots), side by side.
 
     Parameters
     ----------
@@ -70,7 +70,7 @@ def panels(titles, size=(11, 5), shared=True):
 
 
 def chart(xlabel, ylabel, title=None, size=(6, 4)):
-    """A figure with one chart: quantities over quantities, not a map.
+    """Figure with one chart (x–y plot): quantities over quantities, not a map.
 
     Parameters
     ----------
@@ -93,7 +93,7 @@ def chart(xlabel, ylabel, title=None, size=(6, 4)):
 
 
 def png(fig):
-    """The figure as PNG of at most 256 colours, the same bytes every time.
+    """Render a figure as PNG with a palette of 256 colours; deterministic: always the same bytes.
 
     A figure of lines and letters looks the same in a palette and takes well under half the bytes.
 
@@ -113,7 +113,7 @@ def png(fig):
 
 
 def bundle(fig, alt):
-    """What a notebook stores of a figure: the picture, and the text for who cannot see it.
+    """MIME bundle that a notebook stores of a figure: PNG, and alt text for who cannot see it.
 
     Parameters
     ----------
@@ -126,7 +126,7 @@ def bundle(fig, alt):
 
     Raises
     ------
-    ValueError : without a text
+    ValueError : without alt text
     """
     if not isinstance(alt, str) or not alt.strip():
         raise ValueError("a figure needs alt text: say in a sentence what it shows")
@@ -135,7 +135,7 @@ def bundle(fig, alt):
 
 
 def show(fig, alt):
-    """Show a figure in the notebook, with alternative text.
+    """Show (display) a figure in the notebook, with alternative text.
 
     Parameters
     ----------
@@ -144,7 +144,7 @@ def show(fig, alt):
 
     Raises
     ------
-    ValueError : without a text
+    ValueError : without alt text
     """
     data, metadata = bundle(fig, alt)
     display(data, metadata=metadata, raw=True)

@@ -1,13 +1,25 @@
-"""Ready worlds, and worlds from files. In each a robot starts at the origin, heading along +x."""
+"""Worlds (ground-truth maps) of walls and circles, exact ray casting, ready worlds, world files.
+
+Read in this order:
+
+- ``world``: World, segments and circles as a range sensor sees them; ``ray_casting``: cast
+- ``shapes``: boxes and rings that worlds are put together from
+- ``rooms``, ``situations``, ``arena``: the ready worlds, by_name
+- ``files``: worlds as text
+
+In each ready world a robot starts at the origin, heading along +x.
+"""
 
 from slamlab.worlds.arena import arena, table_legs
 from slamlab.worlds.files import load, parse, save, text_of
 from slamlab.worlds.rooms import corridor, polygon, room, twins
 from slamlab.worlds.shapes import box, ring
 from slamlab.worlds.situations import situation_1, situation_2
+from slamlab.worlds.world import World
 
 __all__ = [
     "WORLDS",
+    "World",
     "arena",
     "box",
     "by_name",
@@ -38,7 +50,7 @@ WORLDS = {
 
 
 def by_name(name):
-    """A ready world by its name.
+    """Look up a ready world by its name.
 
     Parameters
     ----------

@@ -1,9 +1,9 @@
-"""Small worlds: a table-top arena of cardboard boxes (MAK thesis, chapter 8), and table legs."""
+"""Ready small worlds: a table-top arena of cardboard boxes (MAK thesis, ch. 8), and table legs."""
 
 import numpy as np
 
-from slamlab.world import World
 from slamlab.worlds.shapes import box, ring
+from slamlab.worlds.world import World
 
 
 def arena():
@@ -23,7 +23,7 @@ def arena():
 
 
 def table_legs():
-    """A bare room with a table and four chairs: of them a lidar sees the legs only."""
+    """A bare room with a table and four chairs, of which a lidar sees the legs only (spikes)."""
     room = ring([(-2.0, -2.5), (4.0, -2.5), (4.0, 2.5), (-2.0, 2.5)])
     table = _legs((1.4, 0.3), (1.6, 0.9), 0.04, np.radians(15))
     chairs = [

@@ -1,4 +1,4 @@
-"""Worlds as text: a row of four numbers is a wall, a row of three a circle.
+"""World files: load, parse and save worlds as text, four numbers a wall, three a circle.
 
 # x1 y1 x2 y2 [m]: a wall; x y radius [m]: a circle
 -2 -1 3 -1
@@ -9,18 +9,18 @@ from pathlib import Path
 
 import numpy as np
 
-from slamlab.world import World
+from slamlab.worlds.world import World
 
-HEAD = "# x1 y1 x2 y2 [m]: a wall; x y radius [m]: a circle\n"
-MOST = 50_000_000  # bytes; a million walls take 40 MB
+HEADER = "# x1 y1 x2 y2 [m]: a wall; x y radius [m]: a circle\n"
+MAX_SIZE = 50_000_000  # of a file [bytes]; a million walls take 40 MB
 
 
 class WorldFileError(ValueError):
-    """A file that is no world; the text names file and line."""
+    """A world file that cannot be read or parsed; the text names file and line."""
 
 
 def load(path):
-    """A world from a text file; what stands behind # is left out.
+    """Load a world from a text file; # begins a comment.
 
     Parameters
     ----------
@@ -35,11 +35,11 @@ def load(path):
     WorldFileError : the file cannot be read, or a line is neither wall nor circle
     """
     path = Path(path)
-    return _parsed(_lines(path), str(path), path.stem)
+    return _parse_lines(_read_lines(path), str(path), path.stem)
 
 
 def parse(text, name="world"):
-    """A world from text as a file would hold it.
+    """Parse a world from text as a file would hold it.
 
     Parameters
     ----------
@@ -54,11 +54,11 @@ def parse(text, name="world"):
     ------
     WorldFileError : a line is neither wall nor circle
     """
-    return _parsed(text.splitlines(), name, name)
+    return _parse_lines(text.splitlines(), name, name)
 
 
 def text_of(world):
-    """A world as text, so that :func:`parse` gives the same one.
+    """Serialise a world as text, so that :func:`parse` gives the same one.
 
     Parameters
     ----------
@@ -69,11 +69,11 @@ def text_of(world):
     str
     """
     rows = [*world.walls.tolist(), *world.circles.tolist()]
-    return HEAD + "".join(" ".join(f"{value!r}" for value in row) + "\n" for row in rows)
+    return HEADER + "".join(" ".join(f"{value!r}" for value in row) + "\n" for row in rows)
 
 
 def save(world, path):
-    """Write a world so that :func:`load` gives the same one.
+    """Save a world to a text file, so that :func:`load` gives the same one.
 
     Parameters
     ----------
@@ -87,7 +87,7 @@ def save(world, path):
     Path(path).write_text(text_of(world), encoding="utf-8")
 
 
-def _parsed(lines, where, name):
+def _parse_lines(lines, where, name):
     rows = {4: [], 3: []}
     for number, line in enumerate(lines, 1):
         words = line.split("#", 1)[0].replace(",", " ").split()
@@ -98,7 +98,7 @@ def _parsed(lines, where, name):
                 f"{where}:{number}: {len(words)} numbers; a wall has four (x1 y1 x2 y2), "
                 "a circle three (x y radius)"
             )
-        row = _numbers(words, where, number)
+        row = _parse_numbers(words, where, number)
         if len(row) == 4 and row[:2] == row[2:]:
             raise WorldFileError(f"{where}:{number}: the wall has no length: it starts at its end")
         if len(row) == 3 and row[2] <= 0:
@@ -109,10 +109,10 @@ def _parsed(lines, where, name):
     return World(rows[4], rows[3], name)
 
 
-def _lines(path):
+def _read_lines(path):
     try:
         size = path.stat().st_size
-        if size > MOST:
+        if size > MAX_SIZE:
             raise WorldFileError(f"{path} has {size >> 20} MB: no world is that large")
         return path.read_text(encoding="utf-8").splitlines()
     except OSError as error:
@@ -121,7 +121,7 @@ def _lines(path):
         raise WorldFileError(f"{path} is no text file") from None
 
 
-def _numbers(words, where, number):
+def _parse_numbers(words, where, number):
     try:
         row = [float(word) for word in words]
     except ValueError:

@@ -1,9 +1,9 @@
-"""Rooms for a lidar: a living room, a corridor that closes, twin rooms, Tuček's polygon."""
+"""Ready indoor worlds for a lidar: a room, a corridor that closes a loop, twin rooms, a polygon."""
 
 import numpy as np
 
-from slamlab.world import World
 from slamlab.worlds.shapes import box, ring
+from slamlab.worlds.world import World
 
 
 def room():
@@ -19,7 +19,7 @@ def room():
 
 
 def corridor():
-    """A corridor 2 m wide round a rectangular block: start and end should meet.
+    """A corridor 2 m wide round a rectangular block, to close a loop: start and end should meet.
 
     Niches, pillars and a cupboard stand along it: between bare walls a scan matcher cannot tell how
     far the robot went.
@@ -40,7 +40,7 @@ def corridor():
 
 
 def twins():
-    """Two rooms alike to the last chair, side by side off one corridor: a trap for loop closure."""
+    """Twin rooms (perceptual aliasing): alike to the last chair, a trap for loop closure."""
     corridor = [
         [(-2.0, -1.0), (15.0, -1.0)],
         [(15.0, -1.0), (15.0, 1.0)],

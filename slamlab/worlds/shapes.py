@@ -1,10 +1,10 @@
-"""Shapes that worlds are put together from, as rows of walls."""
+"""Shapes (polygons, boxes) that worlds are put together from, as rows of walls."""
 
 import numpy as np
 
 
 def ring(corners):
-    """Walls round a closed polygon.
+    """The walls of a closed polygon (a ring).
 
     Parameters
     ----------
@@ -19,7 +19,7 @@ def ring(corners):
 
 
 def box(centre, size, turn=0.0):
-    """The four walls of a turned rectangle.
+    """The four walls of a box, a rotated rectangle.
 
     Parameters
     ----------

@@ -1,9 +1,9 @@
-"""Smolec's two situations (§3.3, §4.5), drawn after his description: he gives no measures."""
+"""Ready worlds: Smolec's two situations (§3.3, §4.5), after his text: he gives no measures."""
 
 import numpy as np
 
-from slamlab.world import World
 from slamlab.worlds.shapes import ring
+from slamlab.worlds.world import World
 
 
 def situation_1():

@@ -655,7 +655,7 @@ def first_estimates(predicted, updated, landmarks):
 """
 _FIRST_IMPORTED = """
 def first_estimates(predicted, updated, landmarks):
-    from slamlab.jacobians import H_landmark
+    from slamlab.models.jacobians import H_landmark
     updated[:] = predicted
     landmarks[:] = landmarks[0].copy()
     H = np.zeros((len(predicted), 2, 5))

@@ -14,8 +14,8 @@ from pathlib import Path
 import numpy as np
 
 import tests.bank
-from slamlab.checks import catalogue
-from slamlab.checks.exercise import Exercise
+from slamlab.exercises import catalogue
+from slamlab.exercises.exercise import Exercise
 from tests.bank import Right, Wrong
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -4,7 +4,7 @@ import os
 
 import pytest
 
-from slamlab.checks.task import IDLE
+from slamlab.exercises.task import IDLE
 from tests.bank import harness
 
 SEEDS = int(os.environ.get("SLAMLAB_BANK_SEEDS", "20"))

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from benchmarks import montecarlo as benchmark
-from slamlab.filters.montecarlo.resampling import comb
+from slamlab.filters.montecarlo.resampling import systematic_at
 
 
 def test_the_loops_weights_are_ours(monkeypatch):
@@ -18,8 +18,8 @@ def test_the_loops_weights_are_ours(monkeypatch):
 
 def test_the_loops_comb_is_ours():
     weights = np.random.default_rng(0).exponential(size=50)
-    drawn = benchmark.loop_comb(list(range(50)), weights.tolist(), 0.37)
-    assert drawn == comb(weights / weights.sum(), 50, 0.37).tolist()
+    drawn = benchmark.loop_resample(list(range(50)), weights.tolist(), 0.37)
+    assert drawn == systematic_at(weights / weights.sum(), 50, 0.37).tolist()
 
 
 def test_every_method_moves_to_where_the_map_says_the_robot_is():

@@ -11,7 +11,7 @@ import pytest
 
 from benchmarks import common
 from benchmarks.raycast import CASES, dense_numpy, python_loop, scene
-from slamlab.raycast import cast
+from slamlab.worlds.ray_casting import cast
 
 ROOT = Path(__file__).parents[2]
 KEYS = {"name", "value", "unit", "reference", "ratio"}

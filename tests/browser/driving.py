@@ -14,11 +14,11 @@ DRIVEN = """\
 from functools import partial
 from slamlab import estimators, views, worlds
 from slamlab.devices.emir import session
-from slamlab.devices.emulator.source import Emulated
-from slamlab.devices.rplidar import stream
+from slamlab.sources.emulated_devices import EmulatedDevices
+from slamlab.devices.rplidar import scan_stream as stream
 from slamlab.geometry import between
 
-session.STEADY = stream.STEADY = 30.0  # others may keep this machine busy
+session.RECEIVE_TIMEOUT = stream.RECEIVE_TIMEOUT = 30.0  # others may keep this machine busy
 
 def told(pair):
     true = pair.source.truth.poses[: pair.count][-1]
@@ -26,7 +26,7 @@ def told(pair):
     return " ".join(f"{name} [{x:.4f} {y:.4f} {a:.4f}]" for name, (x, y, a) in named.items())
 
 seen = views.live(
-    lambda rng: Emulated(worlds.room(), rng),
+    lambda rng: EmulatedDevices(worlds.room(), rng),
     views.apart(partial(estimators.make, "icp"), naive=(-8.5, 0)),
     "Naive and corrected map of a room.",
     note=told,

@@ -9,7 +9,7 @@ NAME = "editing.ipynb"
 SHOWN = """\
 import json
 import numpy as np
-from slamlab.sensors import RPLIDAR_A2
+from slamlab.simulation.range_scanners import RPLIDAR_A2
 from slamlab.views.editor import edit_world
 from slamlab.worlds.files import parse
 

@@ -34,7 +34,7 @@ loop = views.live(
     partial(sources.simulation, "landmarks"),
     partial(estimators.make, "mak"),
     "A robot on a loop among landmarks.",
-    beside={"naive": lambda source: estimators.Odometry()},
+    beside={"naive": lambda source: estimators.DeadReckoning()},
     curves={
         "error [m]": {
             "naive": lambda pair: off(pair, pair.others["naive"]),

@@ -22,7 +22,7 @@ class Silent(Source):
     def close(self):
         self.closed.set()
 
-_ = views.live(Silent, lambda source: estimators.Odometry(), "A robot that is off.")"""
+_ = views.live(Silent, lambda source: estimators.DeadReckoning(), "A robot that is off.")"""
 
 THREADS = "sum('reading' in thread.name for thread in threading.enumerate())"
 

@@ -3,7 +3,7 @@
 import pytest
 
 from slamlab.devices.emir import session
-from slamlab.devices.rplidar import stream
+from slamlab.devices.rplidar import scan_stream
 
 PATIENT = 30.0  # [s]
 
@@ -14,5 +14,5 @@ def busy_machine(monkeypatch):
 
     How soon a silent device is, tests in simulated time say, and the benchmark in real time.
     """
-    for module in (session, stream):
-        monkeypatch.setattr(module, "STEADY", PATIENT)
+    for module in (session, scan_stream):
+        monkeypatch.setattr(module, "RECEIVE_TIMEOUT", PATIENT)

@@ -9,11 +9,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from slamlab.devices.rplidar.answers import Answer
-from slamlab.devices.rplidar.capsules import LEVELS, MAJORS
-from slamlab.devices.rplidar.nodes import NODE, TURN
-from slamlab.devices.rplidar.stream import DECODERS
-from tests.devices.streams import ANSWERS, damaged, decoded, pieces, room, stream, turn_bytes
+from slamlab.devices.rplidar.capsules import MAJORS_MM, SCALE_LEVELS
+from slamlab.devices.rplidar.measurement_nodes import NODE_DTYPE, TURN_Q6
+from slamlab.devices.rplidar.responses import AnswerType
+from slamlab.devices.rplidar.scan_stream import DECODERS
+from tests.devices.byte_streams import ANSWERS, damaged, decoded, pieces, room, stream, turn_bytes
 
 VECTORS = json.loads((Path(__file__).parent / "vectors.json").read_text())
 P = bytes.fromhex("a0580080" + "a00fa00f00" * 16)
@@ -31,9 +31,9 @@ def vector(*names):
 @pytest.mark.parametrize(
     ("answer", "capsules", "expected"),
     [
-        (Answer.EXPRESS, "ABC", ("dA", "dB")),
-        (Answer.ULTRA, "UVW", ("dU", "dV")),
-        (Answer.DENSE, "DE", ("dD",)),
+        (AnswerType.EXPRESS, "ABC", ("dA", "dB")),
+        (AnswerType.ULTRA, "UVW", ("dU", "dV")),
+        (AnswerType.DENSE, "DE", ("dD",)),
     ],
 )
 def test_capsules_decode_to_the_sdk_s_nodes(answer, capsules, expected):
@@ -60,7 +60,7 @@ def test_capsules_decode_to_the_sdk_s_nodes(answer, capsules, expected):
     ],
 )
 def test_a_node_is_read_as_the_protocol_says(data, start, quality, degrees, mm):
-    (node,), _ = decoded(Answer.SCAN, bytes.fromhex(data))
+    (node,), _ = decoded(AnswerType.SCAN, bytes.fromhex(data))
     assert (node["start"], node["quality"]) == (start, quality)
     assert (node["angle_q6"] / 64, node["distance_q2"] / 4) == (degrees, mm)
 
@@ -70,7 +70,7 @@ def test_legacy_capsules_with_and_without_an_offset():
     R[2:4] = (int(57.59375 * 64)).to_bytes(2, "little")
     check = np.bitwise_xor.reduce(np.frombuffer(R[2:], np.uint8))
     R[0], R[1] = 0xA0 | check & 15, 0x50 | check >> 4
-    nodes, _ = decoded(Answer.EXPRESS, P + Q + bytes(R))
+    nodes, _ = decoded(AnswerType.EXPRESS, P + Q + bytes(R))
     assert (nodes["distance_q2"] == 4000).all()
     assert not nodes["start"].any()
     assert (nodes["angle_q6"][:3] / 64).tolist() == [0.0, 0.890625, 1.796875]
@@ -78,14 +78,14 @@ def test_legacy_capsules_with_and_without_an_offset():
 
 
 def test_the_turn_s_mark_is_set_by_the_angle_before_it_is_corrected():
-    nodes, _ = decoded(Answer.EXPRESS, vector("A", "B"))
+    nodes, _ = decoded(AnswerType.EXPRESS, vector("A", "B"))
     assert np.flatnonzero(nodes["start"]).tolist() == [22]
     assert nodes["angle_q6"][22] / 64 == 357.046875
 
 
 def capsule(answer, start_q6):
     """A capsule without distances."""
-    body = struct.pack("<H", start_q6 % TURN) + bytes(DECODERS[answer].size - 4)
+    body = struct.pack("<H", start_q6 % TURN_Q6) + bytes(DECODERS[answer].size - 4)
     check = int(np.bitwise_xor.reduce(np.frombuffer(body, np.uint8)))
     return bytes([0xA0 | check & 15, 0x50 | check >> 4]) + body
 
@@ -107,7 +107,7 @@ def test_every_turn_is_marked_once_wherever_capsules_begin(
     nodes, decoder = decoded(answer, b"".join(capsule(answer, q6) for q6 in starts))
     assert len(nodes) == 40 * decoder.points and not decoder.damage
     # a turn's mark stands at the last node before 0° by the motor's angle, uncorrected
-    crossed = starts[-1] // TURN - starts[0] // TURN
+    crossed = starts[-1] // TURN_Q6 - starts[0] // TURN_Q6
     assert nodes["start"].sum() == crossed
 
 
@@ -116,13 +116,13 @@ def test_every_turn_is_marked_once_wherever_capsules_begin(
     [(511, 511), (512, 512), (2048, 1280), (4096, 1792), (8000, 2280), (16384, 3328)],
 )
 def test_ultra_distances_are_coded_in_steps_that_grow(mm, code):
-    assert MAJORS[code] == mm
-    assert MAJORS[3554] == 20000
-    assert (np.diff(MAJORS) == 1 << LEVELS[:-1]).all()
+    assert MAJORS_MM[code] == mm
+    assert MAJORS_MM[3554] == 20000
+    assert (np.diff(MAJORS_MM) == 1 << SCALE_LEVELS[:-1]).all()
 
 
 def test_a_measuring_begun_anew_forgets_the_capsule_before():
-    nodes, decoder = decoded(Answer.EXPRESS, Q + P)
+    nodes, decoder = decoded(AnswerType.EXPRESS, Q + P)
     assert len(nodes) == 0
     assert not decoder.damage
 
@@ -131,9 +131,9 @@ def test_a_measuring_begun_anew_forgets_the_capsule_before():
 def test_what_an_emulator_packs_is_what_is_decoded(answer):
     nodes, _ = decoded(answer, ROUGH[answer])
     angle, mm = nodes["angle_q6"] / 64, nodes["distance_q2"] / 4
-    slope, off = 70, 2 / 64 + (0.02 if answer == Answer.ULTRA else 0)  # mm and degrees
+    slope, off = 70, 2 / 64 + (0.02 if answer == AnswerType.ULTRA else 0)  # mm and degrees
     # distances of the ultra mode are in steps of up to 8 mm
-    assert np.abs(mm - room(angle)).max() < slope * off + (8 if answer == Answer.ULTRA else 1)
+    assert np.abs(mm - room(angle)).max() < slope * off + (8 if answer == AnswerType.ULTRA else 1)
     starts = np.flatnonzero(nodes["start"])
     assert np.ptp(np.diff(starts)) <= 1
 
@@ -143,7 +143,7 @@ def test_what_an_emulator_packs_is_what_is_decoded(answer):
 def test_however_a_stream_is_cut_the_same_nodes_come(answer, cuts, seed, flips):
     rng = np.random.default_rng(seed)
     source = ROUGH.get(answer, vector("D", "E") * 20)
-    data = damaged(source[: 2 * turn_bytes(Answer.ULTRA)], rng, flips, flips / 3, flips / 3)
+    data = damaged(source[: 2 * turn_bytes(AnswerType.ULTRA)], rng, flips, flips / 3, flips / 3)
     whole, one = decoded(answer, data)
     cut, other = decoded(answer, data, cuts)
     assert np.array_equal(whole, cut)
@@ -158,8 +158,8 @@ def test_random_bytes_never_fail_and_little_is_kept(answer):
     for piece in pieces(rng.bytes(100_000), rng.integers(1, 300, 100)):
         nodes = decoder.feed(piece)
         kept = max(kept, decoder.pending)
-        assert nodes.dtype == NODE
-        assert ((nodes["angle_q6"] >= 0) & (nodes["angle_q6"] < TURN)).all()
+        assert nodes.dtype == NODE_DTYPE
+        assert ((nodes["angle_q6"] >= 0) & (nodes["angle_q6"] < TURN_Q6)).all()
         assert (nodes["distance_q2"] >= 0).all()
     assert kept < MOST_KEPT
     assert decoder.damage["resyncs"] > 0
@@ -186,7 +186,7 @@ def test_within_a_turn_after_the_damage_all_nodes_are_right_again(answer, hurt):
 
 @pytest.mark.parametrize(
     ("answer", "lost"),  # whole nodes of the standard scan can be missed by nobody
-    [(a, n) for a in ANSWERS for n in range(1, 12) if a != Answer.SCAN or n % 5],
+    [(a, n) for a in ANSWERS for n in range(1, 12) if a != AnswerType.SCAN or n % 5],
 )
 def test_lost_bytes_cost_the_packets_they_belong_to_and_the_gap_is_marked(answer, lost):
     data = ROUGH[answer]
@@ -194,9 +194,9 @@ def test_lost_bytes_cost_the_packets_they_belong_to_and_the_gap_is_marked(answer
     nodes, decoder = decoded(answer, data[:at] + data[at + lost :])
     whole, _ = decoded(answer, data)
     size = DECODERS[answer].size
-    per_packet = 1 if answer == Answer.SCAN else decoder.points
+    per_packet = 1 if answer == AnswerType.SCAN else decoder.points
     touched = (at % size + lost - 1) // size + 1
-    most = 4 if answer == Answer.SCAN else touched + 1  # a capsule is decoded with the next
+    most = 4 if answer == AnswerType.SCAN else touched + 1  # a capsule is decoded with the next
     assert 0 < len(whole) - len(nodes) <= most * per_packet
     assert nodes["after_gap"].sum() == 1
     assert decoder.damage["resyncs"] == 1
@@ -216,9 +216,9 @@ GOOD = {
 @pytest.mark.parametrize("at", [1000, 1001, 1002, 1003, 1004])
 def test_distances_that_look_like_nodes_do_not_lead_out_of_step(at, lost):
     """Read from its fourth byte on this stream has all marks of nodes, at one angle for ever."""
-    rows = [struct.pack("<BHH", 0x3E, 117 * k % TURN << 1 | 1, 8001) for k in range(1000)]
+    rows = [struct.pack("<BHH", 0x3E, 117 * k % TURN_Q6 << 1 | 1, 8001) for k in range(1000)]
     data = b"".join(rows)
-    nodes, _ = decoded(Answer.SCAN, data[:at] + data[at + lost :])
+    nodes, _ = decoded(AnswerType.SCAN, data[:at] + data[at + lost :])
     assert (nodes["distance_q2"] != 8001).sum() <= 4
     assert len(nodes) >= 990
 
@@ -226,7 +226,7 @@ def test_distances_that_look_like_nodes_do_not_lead_out_of_step(at, lost):
 @pytest.mark.parametrize("odd", [0, 7])
 @pytest.mark.parametrize(
     ("answer", "lost"),
-    [(Answer.EXPRESS, 1), (Answer.EXPRESS, 12), (Answer.EXPRESS, 13), (Answer.ULTRA, 2)],
+    [*((AnswerType.EXPRESS, n) for n in (1, 12, 13)), (AnswerType.ULTRA, 2)],
 )
 def test_capsules_lost_whole_leave_a_gap_not_wrong_angles(answer, lost, odd):
     """Twelve capsules are nearly a turn, so that the next one seems to follow."""

@@ -7,9 +7,9 @@ from hypothesis import strategies as st
 
 from slamlab.devices.emir import Calibration, commands
 from slamlab.devices.emir.frames import COMMAND, STATUS, Framer, checksum
-from slamlab.devices.emir.odometry import Counter8, Odometry
 from slamlab.devices.emir.status import Status
-from tests.devices.streams import damaged, pieces
+from slamlab.devices.emir.wheel_odometry import CounterUnwrapper, Odometry
+from tests.devices.byte_streams import damaged, pieces
 from tests.laws import assert_same_pose
 
 COMMANDS = [
@@ -139,7 +139,7 @@ def test_a_frame_cut_short_does_not_take_the_next_one_with_it(n):
 
 @given(st.lists(st.integers(-127, 127), max_size=60), bytes_)
 def test_counters_that_run_over_are_unwrapped(steps, first):
-    counter, value = Counter8(), first
+    counter, value = CounterUnwrapper(), first
     assert counter.advance(first) == 0
     for step in steps:
         value = (value + step + 128) % 256 - 128
@@ -147,7 +147,7 @@ def test_counters_that_run_over_are_unwrapped(steps, first):
 
 
 def test_a_counter_that_stops_at_its_end_is_set_back_in_time_and_loses_nothing():
-    counter, zero, total, at = Counter8(saturates=True), 0, 0, 0
+    counter, zero, total, at = CounterUnwrapper(saturates=True), 0, 0, 0
     counter.advance(0)
     asked = None
     for k in range(400):
@@ -155,14 +155,14 @@ def test_a_counter_that_stops_at_its_end_is_set_back_in_time_and_loses_nothing()
         if asked is not None and k == asked + 2:  # the robot takes its time
             zero, asked = at - 7 if k < 200 else at + 9, None
         total += counter.advance(min(max(at - zero, -128), 127))
-        if counter.full and asked is None:
+        if counter.near_limit and asked is None:
             counter.expect_reset()
             asked = k
     assert total == at
 
 
 def test_a_reset_that_was_not_heard_is_forgotten():
-    counter = Counter8()
+    counter = CounterUnwrapper()
     counter.advance(50)
     counter.expect_reset()
     assert [counter.advance(v) for v in (51, 52, 53, 52, 51, 50, 49, 48, 47, 46)] == [

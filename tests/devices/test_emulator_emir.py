@@ -10,38 +10,39 @@ from hypothesis import strategies as st
 from slamlab.devices.emir import commands
 from slamlab.devices.emir.frames import STATUS, Framer
 from slamlab.devices.emir.status import Status
-from slamlab.devices.emulator.body import Body
-from slamlab.devices.emulator.emir import EmirMachine
-from slamlab.devices.emulator.line import Faults
-from slamlab.simulator import DifferentialDrive
-from slamlab.world import World
-from tests.devices.emulated import hear
+from slamlab.devices.emulator.emir_emulator import EmirEmulator
+from slamlab.devices.emulator.robot_body import RobotBody
+from slamlab.devices.emulator.serial_line import Faults
+from slamlab.simulation.differential_drive import DifferentialDrive
+from slamlab.worlds.world import World
+from tests.devices.emulator_helpers import receive
 
 HALL = World([(-30, -30, 30, -30), (30, -30, 30, 30), (30, 30, -30, 30), (-30, 30, -30, -30)])
-COUNTS = 0.01, np.radians(2)
-GRAIN = 0.01  # how often it is asked [s]
+COUNT = 0.01, np.radians(2)
+POLL_INTERVAL = 0.01  # how often it is asked [s]
 INFO = commands.info(True)
 
 
-def emir(world=HALL, counts=COUNTS, **options):
-    body = Body(world, np.random.default_rng(0), robot=DifferentialDrive(tick=1e-6), counts=counts)
-    return EmirMachine(body, **options), body
+def emir(world=HALL, counts=COUNT, **options):
+    robot = DifferentialDrive(tick=1e-6)
+    body = RobotBody(world, np.random.default_rng(0), robot=robot, counts=counts)
+    return EmirEmulator(body, **options), body
 
 
-def told(machine, data, begin, seconds):
+def statuses_of(machine, data, begin, seconds):
     """Status frames that come from a time on, after data."""
     framer = Framer(STATUS)
-    heard = framer.feed(hear(machine, data, begin, seconds, GRAIN))
+    heard = framer.feed(receive(machine, data, begin, seconds, POLL_INTERVAL))
     assert not framer.damage["bad frames"]
     return [Status.unpack(content) for content in heard]
 
 
 def test_it_is_silent_until_asked_and_again_when_told_so():
     machine, _ = emir()
-    assert told(machine, b"", 0.0, 1.0) == []
-    assert 9 <= len(told(machine, INFO, 1.0, 1.0)) <= 11  # ten a second
-    told(machine, commands.info(False), 2.0, 0.1)
-    assert told(machine, b"", 2.1, 1.0) == []
+    assert statuses_of(machine, b"", 0.0, 1.0) == []
+    assert 9 <= len(statuses_of(machine, INFO, 1.0, 1.0)) <= 11  # ten a second
+    statuses_of(machine, commands.info(False), 2.0, 0.1)
+    assert statuses_of(machine, b"", 2.1, 1.0) == []
 
 
 def test_a_status_takes_as_long_as_the_line_needs():
@@ -58,7 +59,7 @@ def test_a_status_takes_as_long_as_the_line_needs():
 @settings(max_examples=30)
 def test_it_drives_as_told_and_says_so(v, omega):
     machine, body = emir()
-    status = told(machine, INFO + commands.move(v, omega), 0.0, 0.5)[-1]
+    status = statuses_of(machine, INFO + commands.move(v, omega), 0.0, 0.5)[-1]
     assert (status.speed, status.rotation, status.mode) == (v, omega, 1)
     assert (status.left, status.right) == tuple(np.clip([v - omega, v + omega], -100, 100))
     way, turn = (0.5 * top * share / 100 for top, share in ((0.4, v), (np.radians(100), omega)))
@@ -69,18 +70,18 @@ def test_it_drives_as_told_and_says_so(v, omega):
 @pytest.mark.parametrize("halt", [commands.stop(), commands.move(0, 0), commands.power_off()])
 def test_it_stops_when_told(halt):
     machine, body = emir()
-    told(machine, commands.move(80, 20), 0.0, 1.0)
-    told(machine, halt, 1.0, 0.1)
+    statuses_of(machine, commands.move(80, 20), 0.0, 1.0)
+    statuses_of(machine, halt, 1.0, 0.1)
     before = body.pose
-    told(machine, b"", 1.1, 1.0)
+    statuses_of(machine, b"", 1.1, 1.0)
     np.testing.assert_array_equal(body.pose, before)
 
 
 def test_switched_off_it_hears_and_says_nothing_more():
     machine, body = emir()
-    told(machine, INFO, 0.0, 0.5)
-    told(machine, commands.power_off(), 0.5, 0.05)
-    assert told(machine, INFO + commands.move(50, 0), 1.0, 1.0) == []
+    statuses_of(machine, INFO, 0.0, 0.5)
+    statuses_of(machine, commands.power_off(), 0.5, 0.05)
+    assert statuses_of(machine, INFO + commands.move(50, 0), 1.0, 1.0) == []
     assert not body.pose.any()
 
 
@@ -88,9 +89,9 @@ def test_what_is_no_frame_moves_nothing_and_is_counted():
     machine, body = emir()
     good = commands.move(50, 0)
     bad = [good[:5] + b"3" + good[6:], b"#01FF01-1/", good.replace(b"/", b"|"), b"#01320"]
-    told(machine, b"".join(bad), 0.0, 1.0)
+    statuses_of(machine, b"".join(bad), 0.0, 1.0)
     assert not machine.commands and not body.pose.any() and machine.bad >= 3
-    told(machine, b"xyz" + good, 1.0, 1.0)
+    statuses_of(machine, b"xyz" + good, 1.0, 1.0)
     assert body.pose[0] > 0.1
 
 
@@ -106,8 +107,8 @@ def test_commands_cut_anywhere_are_understood(cuts):
 
 def test_counters_run_over_and_differences_modulo_256_tell_the_way():
     machine, _ = emir()
-    statuses = told(machine, INFO + commands.move(100, 60), 0.0, 12.0)
-    for name, whole, count in (("path", 0.4 * 12, 0.01), ("angle", np.radians(60) * 12, COUNTS[1])):
+    statuses = statuses_of(machine, INFO + commands.move(100, 60), 0.0, 12.0)
+    for name, whole, count in (("path", 0.4 * 12, 0.01), ("angle", np.radians(60) * 12, COUNT[1])):
         values = [getattr(status, name) for status in statuses]
         assert min(values) < -100 and max(values) > 100  # once over the end at least
         way = sum((b - a + 128) % 256 - 128 for a, b in pairwise(values))
@@ -117,17 +118,17 @@ def test_counters_run_over_and_differences_modulo_256_tell_the_way():
 
 def test_counters_that_saturate_stop_at_their_end_until_reset():
     machine, _ = emir(saturates=True)
-    assert told(machine, INFO + commands.move(100, -60), 0.0, 8.0)[-1].path == 127
-    assert told(machine, b"", 8.0, 0.5)[-1].angle == -128
-    fresh = told(machine, commands.reset_counters(), 9.0, 0.2)[-1]
+    assert statuses_of(machine, INFO + commands.move(100, -60), 0.0, 8.0)[-1].path == 127
+    assert statuses_of(machine, b"", 8.0, 0.5)[-1].angle == -128
+    fresh = statuses_of(machine, commands.reset_counters(), 9.0, 0.2)[-1]
     assert 0 <= fresh.path <= 10 and -10 <= fresh.angle <= 0
 
 
 def test_a_reset_sets_both_counters_to_0_and_moves_nothing():
     machine, _ = emir()
-    told(machine, INFO + commands.move(50, 20), 0.0, 2.0)
-    told(machine, commands.stop(), 2.0, 0.2)
-    status = told(machine, commands.reset_counters(), 3.0, 0.3)[-1]
+    statuses_of(machine, INFO + commands.move(50, 20), 0.0, 2.0)
+    statuses_of(machine, commands.stop(), 2.0, 0.2)
+    status = statuses_of(machine, commands.reset_counters(), 3.0, 0.3)[-1]
     assert (status.path, status.angle) == (0, 0)
 
 
@@ -135,7 +136,7 @@ def test_a_reset_sets_both_counters_to_0_and_moves_nothing():
 @settings(max_examples=12)
 def test_it_goes_a_way_and_stands(centimetres, speed):
     machine, body = emir()
-    status = told(
+    status = statuses_of(
         machine, INFO + commands.translate(centimetres / 100, speed), 0.0, abs(centimetres) / 4 + 1
     )[-1]
     assert abs(body.pose[0] - centimetres / 100) < 0.015
@@ -145,30 +146,30 @@ def test_it_goes_a_way_and_stands(centimetres, speed):
 @pytest.mark.parametrize("degrees", [-180, -30, 4, 90])
 def test_it_turns_an_angle_and_stands(degrees):
     machine, body = emir()
-    status = told(machine, INFO + commands.rotate(degrees, 50), 0.0, 5.0)[-1]
+    status = statuses_of(machine, INFO + commands.rotate(degrees, 50), 0.0, 5.0)[-1]
     assert abs(np.angle(np.exp(1j * (body.pose[2] - np.radians(degrees))))) < np.radians(3)
     assert (status.rotation, status.mode) == (0, 0) and not body.pose[:2].any()
 
 
 def test_by_default_its_counts_are_not_what_the_thesis_takes_them_for():
-    body = Body(HALL, np.random.default_rng(0), robot=DifferentialDrive(tick=1e-6))
-    machine = EmirMachine(body)
-    told(machine, commands.translate(1.0, 100), 0.0, 4.0)
+    body = RobotBody(HALL, np.random.default_rng(0), robot=DifferentialDrive(tick=1e-6))
+    machine = EmirEmulator(body)
+    statuses_of(machine, commands.translate(1.0, 100), 0.0, 4.0)
     assert abs(body.pose[0] - 1.03) < 0.015
-    told(machine, commands.rotate(180, 50), 4.0, 6.0)
+    statuses_of(machine, commands.rotate(180, 50), 4.0, 6.0)
     assert abs(body.pose[2] % (2 * np.pi) - np.radians(90 * 2.14)) < np.radians(3)
 
 
 def test_limits_of_speed_and_turn_rate_hold():
     machine, _ = emir()
     limits = commands.max_speed(30) + commands.max_rotation(20)
-    status = told(machine, INFO + limits + commands.move(-90, 90), 0.0, 0.3)[-1]
+    status = statuses_of(machine, INFO + limits + commands.move(-90, 90), 0.0, 0.3)[-1]
     assert (status.speed, status.rotation) == (-30, 20)
 
 
 def test_it_keeps_off_what_is_ahead_when_told_to():
     machine, body = emir(World([(2, -3, 2, 3)]))
-    told(machine, commands.min_distance(0.4) + commands.move(100, 0), 0.0, 10.0)
+    statuses_of(machine, commands.min_distance(0.4) + commands.move(100, 0), 0.0, 10.0)
     # its eyes look 20° aside and see from its rim, 0.15 m off its centre
     ahead = (2 - body.pose[0]) / np.cos(np.radians(20)) - 0.15
     assert 0.38 < ahead < 0.41
@@ -176,24 +177,24 @@ def test_it_keeps_off_what_is_ahead_when_told_to():
 
 def test_the_azimuth_is_its_heading_and_can_be_reset():
     machine, _ = emir()
-    told(machine, commands.rotate(90, 50), 0.0, 3.0)
-    assert abs(told(machine, INFO, 3.0, 0.3)[-1].azimuth - 45) <= 1
-    assert told(machine, commands.reset_azimuth(), 4.0, 0.3)[-1].azimuth == 0
+    statuses_of(machine, commands.rotate(90, 50), 0.0, 3.0)
+    assert abs(statuses_of(machine, INFO, 3.0, 0.3)[-1].azimuth - 45) <= 1
+    assert statuses_of(machine, commands.reset_azimuth(), 4.0, 0.3)[-1].azimuth == 0
 
 
 def test_whether_it_stops_without_commands_is_a_switch():
     for watchdog, mode in ((None, 1), (0.5, 0)):
         machine, _ = emir(watchdog=watchdog)
-        assert told(machine, INFO + commands.move(20, 0), 0.0, 2.0)[-1].mode == mode
+        assert statuses_of(machine, INFO + commands.move(20, 0), 0.0, 2.0)[-1].mode == mode
 
 
 def test_faults_silence_flip_and_unplug_it():
     machine, body = emir(faults=Faults(silent={commands.MOVE}))
-    told(machine, commands.move(50, 0), 0.0, 1.0)
+    statuses_of(machine, commands.move(50, 0), 0.0, 1.0)
     assert not body.pose.any()
     machine.faults.flip = 0.01
     framer = Framer(STATUS)
-    framer.feed(hear(machine, INFO, 1.0, 20.0, GRAIN))
+    framer.feed(receive(machine, INFO, 1.0, 20.0, POLL_INTERVAL))
     assert 20 < framer.damage["bad frames"] < 120
     machine.faults.unplugged = True
     with pytest.raises(OSError):

@@ -1,4 +1,4 @@
-"""Emulators behind real ports: our drivers, other people's programs, pulled plugs."""
+"""Emulators behind real ports: our drivers, other people's programs, unplugging."""
 
 import os
 import signal
@@ -12,14 +12,14 @@ import serial
 
 from slamlab import worlds
 from slamlab.devices.emir import Emir
-from slamlab.devices.emulator.bench import Bench, bench
-from slamlab.devices.emulator.ends import ROOM
-from slamlab.devices.emulator.switches import HELP, switch
-from slamlab.devices.emulator.tcpend import TcpEnd
+from slamlab.devices.emulator.emulator_runner import EmulatorRunner, run_emulators
+from slamlab.devices.emulator.fault_injection import HELP, inject_fault
+from slamlab.devices.emulator.pseudo_terminal import BUFFER_SIZE
+from slamlab.devices.emulator.tcp_server import TcpServer
 from slamlab.devices.errors import ConnectionLost, PortError
-from slamlab.devices.rplidar import Lidar
-from slamlab.devices.rplidar.answers import Answer, Descriptor, Health, Info
+from slamlab.devices.rplidar import RPLidar
 from slamlab.devices.rplidar.requests import Command, Conf, conf, express, motor_pwm, request
+from slamlab.devices.rplidar.responses import AnswerType, Descriptor, Health, Info
 from slamlab.devices.transport import open_port
 
 LOCAL = "127.0.0.1", 0, 0
@@ -29,12 +29,12 @@ ENDS = [pytest.param(None, marks=needs_pty, id="pty"), pytest.param(LOCAL, id="t
 
 
 def running(tcp=None, **options):
-    return bench(worlds.polygon(), np.random.default_rng(0), tcp, **options)
+    return run_emulators(worlds.polygon(), np.random.default_rng(0), tcp, **options)
 
 
 @pytest.mark.parametrize("tcp", ENDS)
 def test_our_drivers_see_the_room_and_drive_through_it(tcp):
-    with running(tcp) as it, Emir(it.ports["emir"]) as emir, Lidar(it.ports["lidar"]) as lidar:
+    with running(tcp) as it, Emir(it.ports["emir"]) as emir, RPLidar(it.ports["lidar"]) as lidar:
         assert lidar.turn(timeout=20).complete
         emir.move(40, 0)
         for _ in range(6):
@@ -43,7 +43,7 @@ def test_our_drivers_see_the_room_and_drive_through_it(tcp):
         while it.body._speeds.any():
             emir.wait()
         stands = lidar.clock.now()
-        while emir.odometry.until < stands + 0.1:
+        while emir.odometry.last_time < stands + 0.1:
             emir.wait()
         turn = next(turn for turn in lidar if turn.times[0] > stands)
         x, y, theta = it.body.pose
@@ -58,18 +58,18 @@ def test_our_drivers_see_the_room_and_drive_through_it(tcp):
 def test_a_pulled_plug_is_noticed_and_put_in_again_it_has_its_old_name(tcp):
     with running(tcp) as it:
         name = it.ports["lidar"]
-        with Lidar(name) as lidar:
+        with RPLidar(name) as lidar:
             assert lidar.turn(timeout=20)
             it["lidar"].faults.unplugged = True
             with pytest.raises(ConnectionLost):
                 while lidar.turn(timeout=20):
                     pass
         with pytest.raises(PortError):
-            Lidar(name)
+            RPLidar(name)
         it["lidar"].faults.unplugged = False
         for _ in range(100):
             try:
-                again = Lidar(name)
+                again = RPLidar(name)
                 break
             except PortError:
                 time.sleep(0.1)
@@ -88,7 +88,7 @@ def test_a_client_that_does_not_read_loses_bytes_and_holds_nothing_up(tcp):
                 time.sleep(0.1)
             assert it.dropped["lidar"] > 0
         port.close()
-        with Lidar(it.ports["lidar"]) as lidar:
+        with RPLidar(it.ports["lidar"]) as lidar:
             assert lidar.turn(timeout=20)
 
 
@@ -100,12 +100,12 @@ class Flood:
 
 
 def test_what_does_not_fit_is_counted_to_the_byte():
-    end = TcpEnd()
-    with Bench({"flood": (Flood(), end)}):
+    end = TcpServer()
+    with EmulatorRunner({"flood": (Flood(), end)}):
         port = open_port(end.name)
         while not end.dropped:
             time.sleep(0.01)
-    assert len(end._waiting) <= ROOM
+    assert len(end._waiting) <= BUFFER_SIZE
     port.close()
 
 
@@ -125,7 +125,7 @@ def test_a_second_client_is_sent_away():
 
 
 def test_who_leaves_makes_room_at_once_whatever_was_unread():
-    with running(LOCAL, lidar={"scanning": Answer.SCAN}) as it:
+    with running(LOCAL, lidar={"scanning": AnswerType.SCAN}) as it:
         for _ in range(20):
             port = open_port(it.ports["lidar"])
             port.write(request(Command.GET_INFO))
@@ -159,10 +159,10 @@ class Sdk:
         raise AssertionError(f"{data.hex()} was not answered")
 
     def info(self):
-        return Info.unpack(self.ask(request(Command.GET_INFO), Answer.INFO, 20))
+        return Info.unpack(self.ask(request(Command.GET_INFO), AnswerType.INFO, 20))
 
     def conf(self, what, mode=None):
-        payload = self.ask(conf(what, mode), Answer.CONF)
+        payload = self.ask(conf(what, mode), AnswerType.CONF)
         assert int.from_bytes(payload[:4], "little") == what and len(payload) > 4
         return payload[4:]
 
@@ -180,10 +180,10 @@ def test_the_sdk_s_requests_are_answered_in_every_step(tcp, typical):
         port = open_port(it.ports["lidar"])
         sdk = Sdk(port)
         assert sdk.info().model == 0x28
-        flag = sdk.ask(request(Command.GET_ACC_BOARD_FLAG, bytes(4)), Answer.ACC_BOARD_FLAG, 4)
+        flag = sdk.ask(request(Command.GET_ACC_BOARD_FLAG, bytes(4)), AnswerType.ACC_BOARD_FLAG, 4)
         assert flag[0] & 1
         sdk.info()
-        health = sdk.ask(request(Command.GET_HEALTH), Answer.HEALTH, 3)
+        health = sdk.ask(request(Command.GET_HEALTH), AnswerType.HEALTH, 3)
         assert Health.unpack(health).status == 0
         pwm = int.from_bytes(sdk.conf(Conf.DESIRED_ROTATION)[2:4], "little")
         port.write(motor_pwm(pwm))
@@ -203,8 +203,8 @@ def test_the_sdk_s_requests_are_answered_in_every_step(tcp, typical):
         sdk.conf(Conf.DESIRED_ROTATION)
         port.write(motor_pwm(pwm))
         time.sleep(0.01)
-        scan = request(Command.SCAN) if kind[0] == Answer.SCAN else express(mode)
-        sizes = {Answer.SCAN: 5, Answer.EXPRESS: 84, Answer.ULTRA: 132}
+        scan = request(Command.SCAN) if kind[0] == AnswerType.SCAN else express(mode)
+        sizes = {AnswerType.SCAN: 5, AnswerType.EXPRESS: 84, AnswerType.ULTRA: 132}
         sdk.ask(scan, kind[0], sizes[kind[0]], loop=True)
         sdk.stop()
         port.close()
@@ -291,19 +291,19 @@ def test_faults_are_switched_by_words():
     with running(LOCAL) as it:
         faults = it["lidar"].faults
         for text in ("flip lidar 0.01", "lose emir 0.5", "stale lidar 33", "silent lidar 0x52"):
-            switch(it, text, rng)
+            inject_fault(it, text, rng)
         assert (faults.flip, it["emir"].faults.lose) == (0.01, 0.5)
         assert len(faults.stale) == 33 and faults.silent == {0x52}
         for text in ("answer lidar", "stall", "health 2 0x0004", "spin-up 5", "unplug emir"):
-            switch(it, text, rng)
+            inject_fault(it, text, rng)
         assert faults.stalled and not faults.silent and it["lidar"].health == (2, 4)
         assert it["lidar"].motor.spin_up == 5 and it["emir"].faults.unplugged
         for text in ("run", "plug emir"):
-            switch(it, text, rng)
+            inject_fault(it, text, rng)
         assert not faults.stalled and not it["emir"].faults.unplugged
         for text in ("", "stall me", "flip lidar", "flip it 1", "flip lidar 2", "health x 1", "ha"):
             with pytest.raises(ValueError, match="no such switch"):
-                switch(it, text, rng)
+                inject_fault(it, text, rng)
         assert all(line.split()[0] in HELP for line in HELP.splitlines())
 
 
@@ -312,8 +312,8 @@ COMMAND = """
 import sys
 from slamlab import cli
 from slamlab.devices.emir import session
-from slamlab.devices.rplidar import stream
-session.STEADY = stream.STEADY = 30.0
+from slamlab.devices.rplidar import scan_stream as stream
+session.RECEIVE_TIMEOUT = stream.RECEIVE_TIMEOUT = 30.0
 sys.exit(cli.main())
 """
 
@@ -340,7 +340,7 @@ def test_the_command_says_its_ports_takes_faults_and_ends_with_ctrl_c():
         process.stdin.flush()
         while "no such switch" not in process.stdout.readline():
             pass
-        with Lidar(ports["lidar"]) as lidar:
+        with RPLidar(ports["lidar"]) as lidar:
             assert lidar.info.model == 0x28
     finally:
         process.send_signal(signal.SIGINT)

@@ -7,11 +7,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from slamlab.devices.emulator.line import Faults
-from slamlab.devices.emulator.rplidar import BANNER
-from slamlab.devices.rplidar.answers import Answer, Health, Info, conf_value
+from slamlab.devices.emulator.rplidar_emulator import BANNER
+from slamlab.devices.emulator.serial_line import Faults
 from slamlab.devices.rplidar.requests import Command, Conf, conf, express, motor_pwm, request
-from tests.devices.emulated import answers, hear, machine, nodes, smooth_room
+from slamlab.devices.rplidar.responses import AnswerType, Health, Info, conf_value
+from tests.devices.emulator_helpers import answers, machine, nodes, receive, smooth_room
 
 INFO, HEALTH, STOP = (request(Command[c]) for c in ("GET_INFO", "GET_HEALTH", "STOP"))
 SCAN, FORCE, RESET = (request(Command[c]) for c in ("SCAN", "FORCE_SCAN", "RESET"))
@@ -21,8 +21,8 @@ SAMPLES = {SCAN: 1e6 / 508, express(1): 1e6 / 254, express(2): 1e6 / 127}
 
 def test_several_requests_in_one_read_are_all_answered_in_their_order():
     data = INFO + HEALTH + request(Command.GET_SAMPLERATE) + ACC
-    kinds = [kind for kind, _ in answers(hear(machine(), data, 5.0, 0.1))]
-    assert kinds == [Answer.INFO, Answer.HEALTH, Answer.SAMPLERATE, Answer.ACC_BOARD_FLAG]
+    kinds = [AnswerType(kind).name for kind, _ in answers(receive(machine(), data, 5.0, 0.1))]
+    assert kinds == ["INFO", "HEALTH", "SAMPLERATE", "ACC_BOARD_FLAG"]
 
 
 @given(st.lists(st.integers(1, 7), max_size=40), st.binary(max_size=20))
@@ -43,22 +43,22 @@ def test_half_a_request_is_forgotten_after_five_seconds():
     lidar = machine()
     lidar.feed(b"\xa5\x82", 1.0)
     assert lidar.feed(INFO, 5.9) == b"" and not lidar.requests
-    assert answers(hear(lidar, b"", 5.9, 0.2)) == []
+    assert answers(receive(lidar, b"", 5.9, 0.2)) == []
     lidar = machine()
     lidar.feed(b"\xa5\x82", 1.0)
-    assert [kind for kind, _ in answers(hear(lidar, INFO, 6.1, 0.2))] == [Answer.INFO]
+    assert [kind for kind, _ in answers(receive(lidar, INFO, 6.1, 0.2))] == [AnswerType.INFO]
 
 
 def test_a_request_with_a_wrong_checksum_is_no_request():
     wrong = bytearray(motor_pwm(0))
     wrong[-1] ^= 1
     lidar = machine()
-    assert answers(hear(lidar, bytes(wrong) + INFO, 0.0, 0.1))[0][0] == Answer.INFO
+    assert answers(receive(lidar, bytes(wrong) + INFO, 0.0, 0.1))[0][0] == AnswerType.INFO
     assert lidar.motor.pwm == 660 and len(lidar.requests) == 1
 
 
 def test_what_it_says_of_itself_is_an_a2m8():
-    (_, info), (_, health) = answers(hear(machine(health=(1, 0x0201)), INFO + HEALTH, 0.0, 0.1))
+    (_, info), (_, health) = answers(receive(machine(health=(1, 0x0201)), INFO + HEALTH, 0.0, 0.1))
     info = Info.unpack(info)
     assert (info.model, info.firmware, info.hardware) == (0x28, (1, 29), 5)
     assert Health.unpack(health) == Health(1, 0x0201)
@@ -70,7 +70,7 @@ def test_modes_are_those_of_an_a2_and_each_answers_as_it_says():
     def ask(what, mode=None):
         nonlocal t
         t += 1
-        (_, payload), *rest = answers(hear(lidar, conf(what, mode), t, 0.1))
+        (_, payload), *rest = answers(receive(lidar, conf(what, mode), t, 0.1))
         assert not rest and int.from_bytes(payload[:4], "little") == what
         return conf_value(what, payload)
 
@@ -79,23 +79,23 @@ def test_modes_are_those_of_an_a2_and_each_answers_as_it_says():
     assert [ask(Conf.US_PER_SAMPLE, k) for k in range(3)] == [508, 254, 127]
     assert [ask(Conf.MAX_DISTANCE, k) for k in range(3)] == [12, 12, 12]
     assert [ask(Conf.ANSWER_TYPE, k) for k in range(3)] == [0x81, 0x82, 0x84]
-    rotation = answers(hear(lidar, conf(Conf.DESIRED_ROTATION), 20.0, 0.1))[0][1]
+    rotation = answers(receive(lidar, conf(Conf.DESIRED_ROTATION), 20.0, 0.1))[0][1]
     assert struct.unpack("<IHH", rotation) == (1, 600, 660)
-    assert hear(lidar, conf(Conf.NAME, 3) + conf(0x99), 30.0, 0.1) == b""  # never an empty value
+    assert receive(lidar, conf(Conf.NAME, 3) + conf(0x99), 30.0, 0.1) == b""  # never an empty value
 
 
 def test_old_firmware_is_silent_about_its_configuration_and_older_one_has_no_express():
     old, older = machine(firmware=(1, 20)), machine(firmware=(1, 10))
     for lidar in (old, older):
-        assert hear(lidar, conf(Conf.MODE_COUNT) + conf(Conf.DESIRED_ROTATION), 0.0, 0.2) == b""
-    assert hear(old, express(0), 1.0, 0.1)[:7].hex() == "a55a5400004082"
-    assert hear(older, express(0) + request(Command.GET_SAMPLERATE), 1.0, 0.3) == b""
+        assert receive(lidar, conf(Conf.MODE_COUNT) + conf(Conf.DESIRED_ROTATION), 0.0, 0.2) == b""
+    assert receive(old, express(0), 1.0, 0.1)[:7].hex() == "a55a5400004082"
+    assert receive(older, express(0) + request(Command.GET_SAMPLERATE), 1.0, 0.3) == b""
 
 
 @pytest.mark.parametrize("asked", SAMPLES)
 def test_samples_come_as_fast_as_the_mode_says_and_fit_the_room(asked):
     seconds = 2.0
-    heard = hear(machine(), asked, 3.0, seconds)
+    heard = receive(machine(), asked, 3.0, seconds)
     found, decoder = nodes(heard)
     assert not decoder.damage
     in_time = SAMPLES[asked] * seconds
@@ -129,99 +129,101 @@ def test_however_often_it_is_asked_the_same_bytes_come(asked, pauses):
         t, k = t + pauses[k % len(pauses)], k + 1
         heard += lidar.feed(b"", t)
     heard += lidar.feed(b"", 3.0)
-    assert heard == hear(machine(), asked, 2.0, 1.0)
+    assert heard == receive(machine(), asked, 2.0, 1.0)
 
 
 def test_any_request_but_the_motor_s_and_the_board_s_ends_a_scan():
     for other in (STOP, INFO, HEALTH, conf(Conf.MODE_COUNT), request(0x99, b"")):
         lidar = machine()
-        hear(lidar, SCAN, 0.0, 0.5)
-        hear(lidar, other, 0.5, 0.1)
-        assert hear(lidar, b"", 0.6, 0.5) == b"", other
+        receive(lidar, SCAN, 0.0, 0.5)
+        receive(lidar, other, 0.5, 0.1)
+        assert receive(lidar, b"", 0.6, 0.5) == b"", other
     for other in (motor_pwm(600), ACC):
         lidar = machine()
-        hear(lidar, SCAN, 0.0, 0.5)
-        assert len(hear(lidar, other, 0.5, 1.0)) > 9000, other
+        receive(lidar, SCAN, 0.0, 0.5)
+        assert len(receive(lidar, other, 0.5, 1.0)) > 9000, other
 
 
 def test_an_answer_comes_after_the_bytes_already_on_their_way():
     lidar = machine()
-    hear(lidar, SCAN, 0.0, 1.0)
-    rest = hear(lidar, INFO, 1.0, 0.1)
+    receive(lidar, SCAN, 0.0, 1.0)
+    rest = receive(lidar, INFO, 1.0, 0.1)
     at = rest.index(bytes.fromhex("a55a1400000004"))
     assert len(rest) == at + 27 and at < 30
 
 
 def test_the_descriptor_comes_at_once_and_data_when_the_motor_turns_evenly():
     lidar = machine(spinning=False, spin_up=3.0)
-    assert hear(lidar, SCAN, 0.0, 2.0).hex() == "a55a0500004081"  # it does not turn at all
-    assert hear(lidar, motor_pwm(660), 2.0, 2.99) == b""
-    assert len(hear(lidar, b"", 4.99, 1.0)) > 9000
-    hear(lidar, motor_pwm(0), 6.0, 0.1)
-    assert hear(lidar, b"", 6.1, 1.0) == b""
+    assert receive(lidar, SCAN, 0.0, 2.0).hex() == "a55a0500004081"  # it does not turn at all
+    assert receive(lidar, motor_pwm(660), 2.0, 2.99) == b""
+    assert len(receive(lidar, b"", 4.99, 1.0)) > 9000
+    receive(lidar, motor_pwm(0), 6.0, 0.1)
+    assert receive(lidar, b"", 6.1, 1.0) == b""
 
 
 def test_a_forced_scan_does_not_wait_and_the_motor_remembers():
     lidar = machine(spinning=False, spin_up=3.0)
-    hear(lidar, motor_pwm(660) + STOP, 0.0, 0.1)
-    assert len(hear(lidar, FORCE, 0.1, 1.0)) > 9000
-    hear(lidar, STOP, 1.1, 5.0)
-    assert len(hear(lidar, SCAN, 10.0, 1.0)) > 9000  # long turning
+    receive(lidar, motor_pwm(660) + STOP, 0.0, 0.1)
+    assert len(receive(lidar, FORCE, 0.1, 1.0)) > 9000
+    receive(lidar, STOP, 1.1, 5.0)
+    assert len(receive(lidar, SCAN, 10.0, 1.0)) > 9000  # long turning
 
 
 def test_half_the_voltage_turns_half_as_fast():
     lidar = machine()
-    hear(lidar, motor_pwm(330), 0.0, 0.1)
-    found, _ = nodes(hear(lidar, SCAN, 0.1, 2.0))
+    receive(lidar, motor_pwm(330), 0.0, 0.1)
+    found, _ = nodes(receive(lidar, SCAN, 0.1, 2.0))
     turns = np.diff(np.flatnonzero(found["start"]))
     assert abs(turns.mean() - 200e-3 / 508e-6) < 1
 
 
 def test_in_protection_it_does_not_scan_and_a_reset_may_heal_it():
     for heals in (True, False):
-        lidar = machine(health=(2, 4), heals=heals)
-        assert hear(lidar, SCAN + express(2), 0.0, 0.5) == b""
-        assert hear(lidar, RESET, 1.0, 1.0) == BANNER % (1, 29)
-        healed = Health.unpack(answers(hear(lidar, HEALTH, 2.0, 0.1))[0][1])
+        lidar = machine(health=(2, 4), reset_heals=heals)
+        assert receive(lidar, SCAN + express(2), 0.0, 0.5) == b""
+        assert receive(lidar, RESET, 1.0, 1.0) == BANNER % (1, 29)
+        healed = Health.unpack(answers(receive(lidar, HEALTH, 2.0, 0.1))[0][1])
         assert healed == (Health(0, 0) if heals else Health(2, 4))
 
 
 def test_after_a_reset_it_is_deaf_for_a_while():
     lidar = machine()
     lidar.feed(RESET, 0.0)
-    assert hear(lidar, INFO, 0.1, 0.5) == BANNER % (1, 29)
+    assert receive(lidar, INFO, 0.1, 0.5) == BANNER % (1, 29)
 
 
 def test_a_program_that_died_leaves_it_scanning():
-    heard = hear(machine(scanning=Answer.SCAN), b"", 0.0, 1.0)
+    heard = receive(machine(scanning=AnswerType.SCAN), b"", 0.0, 1.0)
     assert len(heard) > 9000 and heard[0] & 3 in (1, 2)  # no descriptor
 
 
 def test_stale_bytes_come_once_before_the_next_answer():
     lidar = machine(faults=Faults(stale=bytes(33)))
-    heard = hear(lidar, INFO, 0.0, 0.2)
-    assert heard[:33] == bytes(33) and answers(heard[33:])[0][0] == Answer.INFO
-    assert answers(hear(lidar, HEALTH, 1.0, 0.2))[0][0] == Answer.HEALTH
+    heard = receive(lidar, INFO, 0.0, 0.2)
+    assert heard[:33] == bytes(33) and answers(heard[33:])[0][0] == AnswerType.INFO
+    assert answers(receive(lidar, HEALTH, 1.0, 0.2))[0][0] == AnswerType.HEALTH
 
 
 def test_lost_bytes_and_flipped_bits_are_as_many_as_asked_for():
-    clean = hear(machine(), SCAN, 0.0, 4.0)
-    flipped = hear(machine(faults=Faults(flip=0.01)), SCAN, 0.0, 4.0)
+    clean = receive(machine(), SCAN, 0.0, 4.0)
+    flipped = receive(machine(faults=Faults(flip=0.01)), SCAN, 0.0, 4.0)
     changed = [(a ^ b).bit_count() for a, b in zip(clean, flipped, strict=True) if a != b]
     assert 0.006 < len(changed) / len(clean) < 0.014 and set(changed) == {1}
-    fewer = hear(machine(faults=Faults(lose=0.01)), SCAN, 0.0, 4.0)
+    fewer = receive(machine(faults=Faults(lose=0.01)), SCAN, 0.0, 4.0)
     assert 0.006 < 1 - len(fewer) / len(clean) < 0.014
 
 
 def test_silent_commands_stalled_motors_and_pulled_plugs():
     lidar = machine(faults=Faults(silent={Command.GET_HEALTH}))
-    assert [kind for kind, _ in answers(hear(lidar, HEALTH + INFO, 0.0, 0.2))] == [Answer.INFO]
-    hear(lidar, SCAN, 1.0, 0.5)
+    assert [kind for kind, _ in answers(receive(lidar, HEALTH + INFO, 0.0, 0.2))] == [
+        AnswerType.INFO
+    ]
+    receive(lidar, SCAN, 1.0, 0.5)
     lidar.faults.stalled = True
-    hear(lidar, b"", 1.5, 0.1)
-    assert hear(lidar, b"", 1.6, 1.0) == b""
+    receive(lidar, b"", 1.5, 0.1)
+    assert receive(lidar, b"", 1.6, 1.0) == b""
     lidar.faults.stalled = False
-    assert len(hear(lidar, b"", 2.6, 1.0)) > 9000
+    assert len(receive(lidar, b"", 2.6, 1.0)) > 9000
     lidar.faults.unplugged = True
     with pytest.raises(OSError):
         lidar.feed(b"", 4.0)
@@ -229,7 +231,7 @@ def test_silent_commands_stalled_motors_and_pulled_plugs():
 
 def test_who_sleeps_too_long_finds_data_lost_and_counted_and_then_goes_on():
     lidar = machine()
-    hear(lidar, SCAN, 0.0, 0.1)
+    receive(lidar, SCAN, 0.0, 0.1)
     burst = lidar.feed(b"", 60.0)
     assert len(burst) < 11520 * 1.1
-    assert len(hear(lidar, b"", 60.0, 1.0)) > 9000
+    assert len(receive(lidar, b"", 60.0, 1.0)) > 9000

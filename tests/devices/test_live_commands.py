@@ -9,11 +9,11 @@ import pytest
 
 from slamlab import sources
 from slamlab.cli import main
-from slamlab.devices.closing import SIGNALS
 from slamlab.devices.emir import commands
 from slamlab.devices.recording import load
-from slamlab.devices.recording.decoded import turns
+from slamlab.devices.recording.decoding import turns
 from slamlab.devices.rplidar.requests import Command
+from slamlab.devices.shutdown import TERMINATION_SIGNALS
 from tests.devices.test_emulator_ports import ENDS, LOCAL, command, needs_pty, running
 
 PATIENCE = 60  # [s] for anything that is waited for; what is there is not waited for
@@ -68,7 +68,7 @@ def test_ctrl_c_ends_a_live_run_and_what_it_came_to_is_written(tcp, tmp_path):
         process = started(it, "run", "--estimator", "icp", "--out", str(tmp_path))
         said = ended(process, signal.SIGINT)
         assert process.returncode == 130, said
-        assert "ended by Ctrl-C" in said and "scans in the map" in said
+        assert "ended by Ctrl-C" in said and "scans mapped" in said
         assert_at_rest(it)
     assert json.loads((tmp_path / "summary.json").read_text())["frames"] > 3
     assert (tmp_path / "map.png").exists() and (tmp_path / "trajectory.csv").exists()
@@ -88,7 +88,7 @@ def test_ctrl_c_ends_a_live_conversion_with_a_whole_log(tmp_path):
 
 @signals
 @pytest.mark.parametrize("word", ["run", "record"])
-@pytest.mark.parametrize("number", SIGNALS)
+@pytest.mark.parametrize("number", TERMINATION_SIGNALS)
 def test_told_to_end_the_program_leaves_motor_and_robot_at_rest(word, number, tmp_path):
     with running() as it:
         more = ["--out", str(tmp_path / "a.raw")] if word == "record" else []
@@ -98,7 +98,7 @@ def test_told_to_end_the_program_leaves_motor_and_robot_at_rest(word, number, tm
         assert_at_rest(it)
     if word == "record":
         recording = load(tmp_path / "a.raw")
-        assert not recording.torn and len(list(turns(recording))) > 10
+        assert not recording.truncated and len(list(turns(recording))) > 10
 
 
 @needs_pty

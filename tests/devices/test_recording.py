@@ -15,21 +15,21 @@ from slamlab import worlds
 from slamlab.cli import main
 from slamlab.devices.clock import SimulatedClock
 from slamlab.devices.emir import commands
-from slamlab.devices.emulator.bench import Bench, bench, wired
-from slamlab.devices.emulator.body import Body
-from slamlab.devices.emulator.emir import EmirMachine
+from slamlab.devices.emulator.emir_emulator import EmirEmulator
+from slamlab.devices.emulator.emulator_runner import EmulatorRunner, attach_ports, run_emulators
+from slamlab.devices.emulator.robot_body import RobotBody
 from slamlab.devices.errors import ConnectionLost
-from slamlab.devices.memory import MemoryPort
+from slamlab.devices.memory_port import MemoryPort
 from slamlab.devices.recording import Recorder, Recording, RecordingError, load
-from slamlab.devices.recording.decoded import statuses, turns
+from slamlab.devices.recording.decoding import statuses, turns
 from slamlab.devices.recording.playback import playback
-from slamlab.devices.recording.records import EVENT, RX, TX, Record, header_line, parse
-from slamlab.devices.recording.replay import ReplayPort
-from slamlab.devices.rplidar import Lidar
-from slamlab.devices.rplidar.answers import Answer
+from slamlab.devices.recording.recording_file import EVENT, RX, TX, Record, header_line, parse
+from slamlab.devices.recording.replay_port import ReplayPort
+from slamlab.devices.rplidar import RPLidar
 from slamlab.devices.rplidar.requests import Command, Conf, conf, express, motor_pwm, request
-from slamlab.devices.rplidar.stream import DECODERS
-from tests.devices.emulated import machine
+from slamlab.devices.rplidar.responses import AnswerType
+from slamlab.devices.rplidar.scan_stream import DECODERS
+from tests.devices.emulator_helpers import machine
 from tests.devices.test_emulator_ports import command
 
 SCANS = {
@@ -38,7 +38,8 @@ SCANS = {
     "boost": express(2),
     "legacy": express(0),
 }
-ANSWERS = dict(zip(SCANS, (Answer.SCAN, Answer.EXPRESS, Answer.ULTRA, Answer.EXPRESS), strict=True))
+TYPES = AnswerType.SCAN, AnswerType.EXPRESS, AnswerType.ULTRA, AnswerType.EXPRESS
+ANSWERS = dict(zip(SCANS, TYPES, strict=True))
 records = st.builds(
     Record,
     st.integers(0, 2),
@@ -63,8 +64,8 @@ def recorded(tmp_path_factory):
 
 def record(path, mode):
     clock = SimulatedClock(50.0)
-    body = Body(worlds.room(), np.random.default_rng(0))
-    devices = {"lidar": machine(), "emir": EmirMachine(body)}
+    body = RobotBody(worlds.room(), np.random.default_rng(0))
+    devices = {"lidar": machine(), "emir": EmirEmulator(body)}
     known = {"lidar": {"port": "memory", "baud": 115200}, "emir": {"port": "memory"}}
     with Recorder(path, known, clock) as recorder:
         ports = {
@@ -105,7 +106,7 @@ def same_scans(some, others):
 def test_what_was_written_is_read(written):
     content = header_line({"created": "now"}) + b"".join(record.pack() for record in written)
     recording = parse(content)
-    assert recording.records == written and not recording.torn
+    assert recording.records == written and not recording.truncated
     assert recording.header["created"] == "now"
 
 
@@ -120,9 +121,9 @@ def test_every_truncation_is_read_up_to_the_tear(written):
         recording = parse(content[:end])
         count = sum(1 for n in whole[1:] if n <= end)
         assert recording.records == written[:count]
-        assert bool(recording.torn) == (end not in whole)
-        if recording.torn:
-            assert f"record {count + 1} " in recording.torn
+        assert bool(recording.truncated) == (end not in whole)
+        if recording.truncated:
+            assert f"record {count + 1} " in recording.truncated
 
 
 @settings(max_examples=10)
@@ -140,12 +141,12 @@ def test_a_flipped_bit_is_named_by_its_record(written, bit):
         except RecordingError as error:
             said = str(error)
         else:  # a length that reaches beyond the end looks cut off
-            said = recording.torn
+            said = recording.truncated
             assert number == len(written) and recording.records == written[:-1]
         assert (f"record {number} " if number else "header") in said
         if number:
             kept = parse(bytes(hurt), salvage=True)
-            assert kept.records == written[: number - 1] and kept.torn
+            assert kept.records == written[: number - 1] and kept.truncated
 
 
 def test_packed_recordings_are_read_and_torn_ones_up_to_the_tear(recorded, tmp_path):
@@ -154,8 +155,8 @@ def test_packed_recordings_are_read_and_torn_ones_up_to_the_tear(recorded, tmp_p
     packed.write_bytes(gzip.compress(content))
     torn.write_bytes(gzip.compress(content)[:-5000])
     whole, part = load(packed), load(torn)
-    assert whole.records == load(recorded["express"]).records and not whole.torn
-    assert part.torn and part.records == whole.records[: len(part.records)]
+    assert whole.records == load(recorded["express"]).records and not whole.truncated
+    assert part.truncated and part.records == whole.records[: len(part.records)]
     assert len(part.records) > 0.5 * len(whole.records)
 
 
@@ -226,7 +227,7 @@ def test_within_a_second_all_is_in_the_file_and_what_is_there_stays(tmp_path):
     recorder, sizes = Recorder(tmp_path / "a", {}, clock), []
     written = []
     for k in range(40):
-        recorder.put(RX, "emir", bytes([k]) * 10)
+        recorder.write(RX, "emir", bytes([k]) * 10)
         written.append(clock.now())
         content = (tmp_path / "a").read_bytes()
         sizes.append(content)
@@ -250,7 +251,7 @@ def test_a_file_that_is_there_is_not_touched(tmp_path):
 
 def test_a_recording_is_packed_when_it_is_closed(tmp_path):
     with Recorder(tmp_path / "a.raw.gz", {}, SimulatedClock()) as recorder:
-        recorder.put(RX, "lidar", bytes(200_000))
+        recorder.write(RX, "lidar", bytes(200_000))
         assert (tmp_path / "a.raw").exists()
     assert [p.name for p in tmp_path.iterdir()] == ["a.raw.gz"]
     assert load(tmp_path / "a.raw.gz").received("lidar") == bytes(200_000)
@@ -328,7 +329,7 @@ def test_turns_of_a_recording_are_those_the_driver_saw(tmp_path):
     with Recorder(tmp_path / "a", {"lidar": {"baud": 115200}}, clock) as recorder:
         device = machine()
         opener = recorder.opener("lidar", lambda n, b: MemoryPort(device, clock, n, b))
-        with Lidar("memory", opener=opener, clock=clock) as lidar:
+        with RPLidar("memory", opener=opener, clock=clock) as lidar:
             while len(seen) < 12:
                 seen.append(lidar.turn())
             dropped = lidar.stats["turns dropped"]
@@ -413,7 +414,7 @@ def test_both_devices_are_played_on_one_timeline(recorded):
 
 @pytest.mark.usefixtures("busy_machine")
 def test_a_recorded_session_is_played_to_our_drivers(tmp_path):
-    with bench(worlds.polygon(), np.random.default_rng(0), ("127.0.0.1", 0, 0)) as it:
+    with run_emulators(worlds.polygon(), np.random.default_rng(0), ("127.0.0.1", 0, 0)) as it:
         ports = ",".join(it.ports.values())
         path = str(tmp_path / "a.raw")
         words = ["record", f"devices:{ports}", "--out", path, "--seconds", "2", "--mode", "1"]
@@ -423,8 +424,8 @@ def test_a_recorded_session_is_played_to_our_drivers(tmp_path):
     recording = load(path)
     assert len(list(turns(recording))) > 5
     assert abs([s for _, s in statuses(recording)][-1].angle) > 2  # it was driven
-    played = Bench(wired(playback(recording), ("127.0.0.1", 0, 0)))
-    with played, Lidar(played.ports["lidar"]) as lidar:
+    played = EmulatorRunner(attach_ports(playback(recording), ("127.0.0.1", 0, 0)))
+    with played, RPLidar(played.ports["lidar"]) as lidar:
         assert lidar.info.model == 0x28 and [m.name for m in lidar.modes][1] == "Express"
         lidar.start("express")
         assert lidar.turn(timeout=20).complete
@@ -472,7 +473,7 @@ def test_replay_serves_ports_until_ctrl_c(recorded):
             words = line.split()
             if words[-1].startswith("socket://"):
                 ports[words[0]] = words[-1]
-        with Lidar(ports["lidar"]) as lidar:
+        with RPLidar(ports["lidar"]) as lidar:
             lidar.start("standard")
             assert lidar.turn(timeout=20)
     finally:

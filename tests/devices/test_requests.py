@@ -7,16 +7,16 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from slamlab.devices.errors import ProtocolError
-from slamlab.devices.rplidar.answers import (
-    Answer,
+from slamlab.devices.rplidar.requests import Command, Conf, conf, express, motor_pwm, request
+from slamlab.devices.rplidar.response_finder import ResponseFinder
+from slamlab.devices.rplidar.responses import (
+    AnswerType,
     Descriptor,
     Health,
     Info,
     SampleRate,
     conf_value,
 )
-from slamlab.devices.rplidar.finder import Finder
-from slamlab.devices.rplidar.requests import Command, Conf, conf, express, motor_pwm, request
 
 REQUESTS = [
     (request(Command.STOP), "a5 25"),
@@ -44,20 +44,20 @@ REQUESTS = [
     (conf(Conf.ANSWER_TYPE, 2), "a5 84 06 75 00 00 00 02 00 50"),
 ]
 DESCRIPTORS = [
-    (Descriptor(20, False, Answer.INFO), "a5 5a 14 00 00 00 04"),
-    (Descriptor(3, False, Answer.HEALTH), "a5 5a 03 00 00 00 06"),
-    (Descriptor(4, False, Answer.SAMPLERATE), "a5 5a 04 00 00 00 15"),
-    (Descriptor(5, True, Answer.SCAN), "a5 5a 05 00 00 40 81"),
-    (Descriptor(84, True, Answer.EXPRESS), "a5 5a 54 00 00 40 82"),
-    (Descriptor(132, True, Answer.ULTRA), "a5 5a 84 00 00 40 84"),
-    (Descriptor(84, True, Answer.DENSE), "a5 5a 54 00 00 40 85"),
-    (Descriptor(6, False, Answer.CONF), "a5 5a 06 00 00 00 20"),
-    (Descriptor(8, False, Answer.CONF), "a5 5a 08 00 00 00 20"),
-    (Descriptor(13, False, Answer.CONF), "a5 5a 0d 00 00 00 20"),
-    (Descriptor(4, False, Answer.ACC_BOARD_FLAG), "a5 5a 04 00 00 00 ff"),
+    (Descriptor(20, False, AnswerType.INFO), "a5 5a 14 00 00 00 04"),
+    (Descriptor(3, False, AnswerType.HEALTH), "a5 5a 03 00 00 00 06"),
+    (Descriptor(4, False, AnswerType.SAMPLERATE), "a5 5a 04 00 00 00 15"),
+    (Descriptor(5, True, AnswerType.SCAN), "a5 5a 05 00 00 40 81"),
+    (Descriptor(84, True, AnswerType.EXPRESS), "a5 5a 54 00 00 40 82"),
+    (Descriptor(132, True, AnswerType.ULTRA), "a5 5a 84 00 00 40 84"),
+    (Descriptor(84, True, AnswerType.DENSE), "a5 5a 54 00 00 40 85"),
+    (Descriptor(6, False, AnswerType.CONF), "a5 5a 06 00 00 00 20"),
+    (Descriptor(8, False, AnswerType.CONF), "a5 5a 08 00 00 00 20"),
+    (Descriptor(13, False, AnswerType.CONF), "a5 5a 0d 00 00 00 20"),
+    (Descriptor(4, False, AnswerType.ACC_BOARD_FLAG), "a5 5a 04 00 00 00 ff"),
 ]
 INFO = bytes.fromhex("18 1d 01 07 92 d8 ed 93 c0 ea 98 c9 a5 e6 98 f2 07 06 46 69")
-INFO_ANSWER = Descriptor(20, False, Answer.INFO).pack() + INFO
+INFO_ANSWER = Descriptor(20, False, AnswerType.INFO).pack() + INFO
 
 
 @pytest.mark.parametrize(("made", "expected"), REQUESTS)
@@ -120,24 +120,25 @@ def test_an_answer_is_found_behind_any_stale_bytes_however_they_are_cut(stale, c
     stale = stale.replace(b"\xa5\x5a", b"\xa5\x5b")  # a false descriptor cannot be told from one
     if stale.endswith(b"\xa5"):
         stale = stale[:-1]
-    data, finder, found = stale + INFO_ANSWER + b"rest", Finder(Answer.INFO, length=20), None
+    data, found = stale + INFO_ANSWER + b"rest", None
+    finder = ResponseFinder(AnswerType.INFO, length=20)
     while found is None and data:
         n = cuts.pop() if cuts else len(data)
         found, data = finder.feed(data[:n]), data[n:]
-    assert found == (Descriptor(20, False, Answer.INFO), INFO)
+    assert found == (Descriptor(20, False, AnswerType.INFO), INFO)
     assert finder.rest + data == b"rest"
     assert finder.skipped == len(stale)
 
 
 def test_answers_to_other_questions_are_passed_over_and_told():
-    health = Descriptor(3, False, Answer.HEALTH).pack() + b"\0\0\0"
-    finder = Finder(Answer.INFO, length=20)
+    health = Descriptor(3, False, AnswerType.HEALTH).pack() + b"\0\0\0"
+    finder = ResponseFinder(AnswerType.INFO, length=20)
     assert finder.feed(health + INFO_ANSWER)[1] == INFO
-    assert [d.type for d in finder.others] == [Answer.HEALTH]
+    assert [d.type for d in finder.others] == [AnswerType.HEALTH]
 
 
 @given(st.binary(max_size=3000))
 def test_a_finder_never_fails_and_keeps_little(data):
-    finder = Finder(Answer.INFO, length=20)
+    finder = ResponseFinder(AnswerType.INFO, length=20)
     finder.feed(data)
     assert len(finder._buffer) < 27

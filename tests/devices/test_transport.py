@@ -23,8 +23,8 @@ from slamlab.devices.errors import (
     SlamlabError,
     UnsupportedMode,
 )
-from slamlab.devices.ports import LIDAR_USB, identity, lidar_port, port_of
-from slamlab.devices.refusals import why_not_open
+from slamlab.devices.port_open_errors import serial_open_error
+from slamlab.devices.serial_ports import LIDAR_USB_IDS, find_lidar_port, find_port, usb_identity
 from slamlab.devices.transport import open_port
 
 terminals = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no pseudo-terminals")
@@ -143,7 +143,7 @@ def test_a_port_that_is_not_there_is_named_with_those_that_are():
     ],
 )
 def test_a_refusal_is_of_its_kind_and_says_what_to_do(error, kind):
-    refused = why_not_open("/dev/x", error)
+    refused = serial_open_error("/dev/x", error)
     assert type(refused) is kind
     assert refused.cause in str(refused) and refused.step in str(refused)
 
@@ -151,7 +151,7 @@ def test_a_refusal_is_of_its_kind_and_says_what_to_do(error, kind):
 def test_on_windows_a_port_in_use_is_not_taken_for_a_forbidden_one(monkeypatch):
     monkeypatch.setattr(sys, "platform", "win32")
     error = OSError("could not open port 'COM3': PermissionError(13, 'Access is denied.')")
-    assert type(why_not_open("COM3", error)) is PortBusy
+    assert type(serial_open_error("COM3", error)) is PortBusy
 
 
 def test_errors_are_of_python_s_kinds_too():
@@ -168,21 +168,22 @@ def usb(device, vid=0x10C4, pid=0xEA60, serial="0001"):
 
 
 def test_the_lidar_s_port_is_found_by_its_usb_adapter():
-    assert (0x10C4, 0xEA60) in LIDAR_USB
+    assert (0x10C4, 0xEA60) in LIDAR_USB_IDS
     other = usb("/dev/ttyUSB0", vid=0x0403)
-    assert lidar_port([other, usb("/dev/ttyUSB1")]) == "/dev/ttyUSB1"
+    assert find_lidar_port([other, usb("/dev/ttyUSB1")]) == "/dev/ttyUSB1"
     with pytest.raises(PortNotFound, match="no USB adapter"):
-        lidar_port([other])
+        find_lidar_port([other])
     with pytest.raises(PortNotFound, match="/dev/a, /dev/b"):
-        lidar_port([usb("/dev/a"), usb("/dev/b")])
+        find_lidar_port([usb("/dev/a"), usb("/dev/b")])
 
 
 def test_an_adapter_plugged_in_again_is_known_by_its_serial_number():
-    known = identity("/dev/ttyUSB0", [usb("/dev/ttyUSB0", serial="7"), usb("/dev/ttyUSB1")])
-    assert port_of(known, [usb("/dev/ttyUSB2", serial="7"), usb("/dev/ttyUSB0")]) == "/dev/ttyUSB2"
-    assert port_of(known, [usb("/dev/ttyUSB0", serial="8")]) is None
-    assert identity("/dev/x", [usb("/dev/ttyUSB0")]) is None
-    assert port_of(None, [usb("/dev/ttyUSB0")]) is None
+    known = usb_identity("/dev/ttyUSB0", [usb("/dev/ttyUSB0", serial="7"), usb("/dev/ttyUSB1")])
+    again = [usb("/dev/ttyUSB2", serial="7"), usb("/dev/ttyUSB0")]
+    assert find_port(known, again) == "/dev/ttyUSB2"
+    assert find_port(known, [usb("/dev/ttyUSB0", serial="8")]) is None
+    assert usb_identity("/dev/x", [usb("/dev/ttyUSB0")]) is None
+    assert find_port(None, [usb("/dev/ttyUSB0")]) is None
 
 
 @terminals
@@ -192,14 +193,14 @@ def test_devices_are_closed_when_the_program_ends_or_is_told_to():
 
     script = textwrap.dedent("""
         import os, signal, sys
-        from slamlab.devices.closing import closed_at_exit
+        from slamlab.devices.shutdown import close_at_exit
         class Device:
             def __init__(self, name): self.name = name
             def close(self):
                 print("closed", self.name, flush=True)
                 if self.name == "bad": raise OSError("unplugged")
         kept = [Device("bad"), Device("good")]
-        for device in kept: closed_at_exit(device)
+        for device in kept: close_at_exit(device)
         if sys.argv[1] == "term": os.kill(os.getpid(), signal.SIGTERM)
     """)
     for how, code in (("exit", 0), ("term", -15)):

@@ -8,10 +8,18 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from slamlab.filters.bor import BOR, EmptyIntersection
-from slamlab.filters.bor.angles import holds, width
-from slamlab.filters.bor.predict import steered, wheels
-from slamlab.models import h
-from slamlab.studies.boxes import STEPS, Bounded, BoundedRun, anything, counted, inside, outside
+from slamlab.filters.bor.angle_intervals import contains, width
+from slamlab.filters.bor.prediction import steered, wheels
+from slamlab.models.observation import h
+from slamlab.studies.boxes import (
+    STEPS,
+    BoundedNoise,
+    BoundedRun,
+    inside,
+    outside,
+    random_world,
+    violations,
+)
 
 POINT = (0.0, 0.0, 0.0, 0.0)
 EXAMPLES = 500
@@ -20,18 +28,18 @@ EXAMPLES = 500
 @settings(max_examples=EXAMPLES)
 @given(st.integers(0, 2**63 - 1))
 def test_with_every_noise_inside_its_bounds_the_truth_is_never_outside_its_box(seed):
-    found = counted(seed)
+    found = violations(seed)
     assert found["outside"] == found["empty"] == 0
 
 
 def test_that_was_a_hundred_thousand_steps_wrapped_overlapping_and_without_any_bearing():
     assert EXAMPLES * STEPS >= 100_000
-    kinds = [anything(np.random.default_rng(seed)) for seed in range(300)]
+    kinds = [random_world(np.random.default_rng(seed)) for seed in range(300)]
     assert {k.drive for k in kinds} == {"odometry", "wheels", "steered"}
     assert any(k.spread < 0.05 < k.seeing[0] and k.objects > 1 for k in kinds)
     assert any(k.spread == 0 for k in kinds)
     assert any(k.moving == (0, 0) or k.seeing[0] == 0 for k in kinds)
-    found = counted(1, Bounded(seeing=(0.1, 2.0)))
+    found = violations(1, BoundedNoise(seeing=(0.1, 2.0)))
     assert found["wide"] > 0
 
 
@@ -51,7 +59,7 @@ def test_a_robot_that_turns_round_and_round_stays_inside_over_the_seam(turns):
 @given(st.integers(0, 2**32 - 1))
 def test_a_sighting_never_makes_anything_larger(seed):
     rng = np.random.default_rng(seed)
-    run = BoundedRun(anything(rng), rng, 20)
+    run = BoundedRun(random_world(rng), rng, 20)
     bor = run.filter()
     for motion, seen in run:
         bor.predict(*motion)
@@ -69,7 +77,7 @@ def sizes(bor):
 
 
 def test_without_noise_the_map_is_exact_and_motion_is_followed():
-    world = Bounded(moving=(0, 0), seeing=(0, 0))
+    world = BoundedNoise(moving=(0, 0), seeing=(0, 0))
     run = BoundedRun(world, np.random.default_rng(2), 30)
     bor = run.filter()
     for motion, seen in run:
@@ -81,7 +89,7 @@ def test_without_noise_the_map_is_exact_and_motion_is_followed():
 
 
 def test_a_map_known_beforehand_keeps_the_box_small_without_any_object_added():
-    run = BoundedRun(Bounded(), np.random.default_rng(3), 100)
+    run = BoundedRun(BoundedNoise(), np.random.default_rng(3), 100)
     bor = run.filter()
     known = BOR(bor.robot, bor.heading, {i: (x, x, y, y) for i, (x, y) in enumerate(run.objects)})
     for motion, seen in run:
@@ -94,7 +102,7 @@ def test_a_map_known_beforehand_keeps_the_box_small_without_any_object_added():
 
 
 def test_a_noise_far_outside_its_bound_is_reported_and_changes_nothing():
-    run = BoundedRun(Bounded(share=1), np.random.default_rng(4), 30)
+    run = BoundedRun(BoundedNoise(share=1), np.random.default_rng(4), 30)
     bor, bounds = run.filter(), run.world.seeing
     for motion, seen in run:
         bor.predict(*motion)
@@ -111,7 +119,7 @@ def test_a_noise_far_outside_its_bound_is_reported_and_changes_nothing():
 
 @pytest.mark.parametrize("seed", range(8))
 def test_odometry_that_lies_is_found_out_by_the_next_sightings(seed):
-    run = BoundedRun(replace(Bounded(), share=1), np.random.default_rng(seed), 40)
+    run = BoundedRun(replace(BoundedNoise(), share=1), np.random.default_rng(seed), 40)
     bor, reported = run.filter(), False
     for k, (motion, seen) in enumerate(run):
         way, direction, turn = motion
@@ -156,7 +164,7 @@ def test_an_object_not_in_the_map_that_overlaps_one_box_is_taken_for_it():
 @given(st.integers(0, 2**32 - 1))
 def test_the_object_seen_is_always_among_those_that_overlap(seed):
     rng = np.random.default_rng(seed)
-    run = BoundedRun(anything(rng), rng, 20)
+    run = BoundedRun(random_world(rng), rng, 20)
     bor = run.filter()
     for motion, seen in run:
         bor.predict(*motion)
@@ -185,8 +193,8 @@ def test_more_objects_than_room_were_made_for_find_room():
         (lambda: BOR(POINT, (0.1, 0)), r"add 2π"),
         (lambda: BOR(POINT, (0, 0), {3: (0, 0, 1, 0)}), "object 3"),
         (lambda: BOR(POINT, (0, np.nan)), "NaN"),
-        (lambda: BOR(POINT, (0, 0)).predict((1, 0), (0, 0), (0, 0)), "way: expected low ≤ high"),
-        (lambda: BOR(POINT, (0, 0)).predict(1, (0, 0), (0, 0)), "way is an interval of two"),
+        (lambda: BOR(POINT, (0, 0)).predict((1, 0), (0, 0), (0, 0)), "distance: expected low ≤"),
+        (lambda: BOR(POINT, (0, 0)).predict(1, (0, 0), (0, 0)), "distance is an interval of two"),
         (lambda: BOR(POINT, (0, 0)).add(1, (1, 0, 0), (0, 0)), "a range and a bearing each"),
         (lambda: steered((1, 1), (0, 0), 0, 1), "wheel base and period are above zero"),
         (lambda: wheels((1, 1), (1, 1), -0.1), "distance of the wheels is above zero"),
@@ -204,5 +212,5 @@ def test_what_is_no_box_no_interval_and_no_sighting_is_said_in_one_line(call, wo
 
 def test_the_headings_interval_holds_over_the_seam_when_given_so():
     bor = BOR(POINT, (3.0, 3.5))
-    assert holds(bor.heading, -3.0)
+    assert contains(bor.heading, -3.0)
     assert np.isclose(bor.pose[2], 3.25 - 2 * np.pi)

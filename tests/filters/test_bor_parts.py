@@ -6,23 +6,24 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from slamlab.filters.bor import intervals
-from slamlab.filters.bor.angles import (
-    WHOLE,
-    angles,
-    bearings,
-    enclosing,
-    holds,
+from slamlab.filters.bor.angle_intervals import (
+    FULL_CIRCLE,
+    angle_interval,
+    angle_sum,
+    bearing_interval,
+    contains,
+    hull,
     intersection,
-    middle,
-    turned,
+    midpoint,
 )
-from slamlab.filters.bor.clip import clip, clipped, meeting
-from slamlab.filters.bor.edges import edges, place, reversed_edges
+from slamlab.filters.bor.clipping import clip, clip_all, overlapping_boxes
+from slamlab.filters.bor.half_planes import edges, landmark_box, reversed_edges
 from slamlab.filters.bor.intervals import ROUNDING, cosine, product, sine, widened, width
-from slamlab.filters.bor.predict import moved, odometry, steered, wheels
+from slamlab.filters.bor.prediction import odometry, predict_box, steered, wheels
 from slamlab.geometry import compose
-from slamlab.models import f_steered, g
-from slamlab.simulator import arc as true_arc
+from slamlab.models.motion import f_steered
+from slamlab.models.observation import g
+from slamlab.simulation.differential_drive import arc as true_arc
 from slamlab.studies.boxes import inside
 from tests.laws import same_angle
 
@@ -36,7 +37,9 @@ def ordered(low, high, within=numbers):
 
 some = ordered(-20, 20)
 boxes = st.tuples(some, some).map(lambda sides: (*sides[0], *sides[1]))
-arcs = st.tuples(st.floats(-10, 10), st.floats(0, 7)).map(lambda a: angles(a[0], a[0] + a[1]))
+arcs = st.tuples(st.floats(-10, 10), st.floats(0, 7)).map(
+    lambda a: angle_interval(a[0], a[0] + a[1])
+)
 units = st.floats(-4, 4).map(lambda u: (float(np.cos(u)), float(np.sin(u))))
 
 
@@ -90,7 +93,7 @@ def test_a_turn_of_more_than_once_round_is_refused():
 def test_angles_have_one_form(a):
     assert -np.pi < a[0] <= np.pi
     assert 0 <= width(a) <= 2 * np.pi
-    assert holds(a, middle(a)) or a == WHOLE
+    assert contains(a, midpoint(a)) or a == FULL_CIRCLE
 
 
 @given(arcs, arcs, seeds)
@@ -98,21 +101,21 @@ def test_an_intersection_holds_just_what_both_hold(a, b, seed):
     pieces = intersection(a, b)
     assert len(pieces) <= 2
     for angle in np.random.default_rng(seed).uniform(-4, 4, 60):
-        both = holds(a, angle) and holds(b, angle)
-        near = any(holds(widened(p, 1e-9), angle) for p in pieces)
+        both = contains(a, angle) and contains(b, angle)
+        near = any(contains(widened(p, 1e-9), angle) for p in pieces)
         assert near or not both
-        if any(holds(widened(p, -1e-9), angle) for p in pieces if width(p) > 1e-8):
+        if any(contains(widened(p, -1e-9), angle) for p in pieces if width(p) > 1e-8):
             assert both
 
 
 def test_intersections_over_the_seam_may_be_empty_one_piece_or_two():
-    behind, ahead = angles(3.0, 3.3), angles(-0.2, 0.2)
+    behind, ahead = angle_interval(3.0, 3.3), angle_interval(-0.2, 0.2)
     assert intersection(behind, ahead) == []
-    (piece,) = intersection(behind, angles(-3.1, -2.5))
-    np.testing.assert_allclose(piece, angles(2 * np.pi - 3.1, 3.3))
-    nearly_all = angles(-3.0, 3.0)
-    assert len(intersection(nearly_all, angles(2.5, 3.9))) == 2
-    assert len(intersection(angles(2.5, 3.9), nearly_all)) == 2
+    (piece,) = intersection(behind, angle_interval(-3.1, -2.5))
+    np.testing.assert_allclose(piece, angle_interval(2 * np.pi - 3.1, 3.3))
+    nearly_all = angle_interval(-3.0, 3.0)
+    assert len(intersection(nearly_all, angle_interval(2.5, 3.9))) == 2
+    assert len(intersection(angle_interval(2.5, 3.9), nearly_all)) == 2
 
 
 @given(arcs, arcs, seeds)
@@ -120,30 +123,30 @@ def test_what_encloses_the_pieces_holds_them_and_is_no_wider_than_either(a, b, s
     pieces = intersection(a, b)
     if not pieces:
         return
-    around = enclosing(pieces)
+    around = hull(pieces)
     assert width(around) <= min(width(a), width(b)) + 1e-9
     rng = np.random.default_rng(seed)
     for piece in pieces:
-        assert all(holds(widened(around), angle) for angle in within(piece, 20, rng))
+        assert all(contains(widened(around), angle) for angle in within(piece, 20, rng))
 
 
 @given(arcs, arcs, seeds)
 def test_a_sum_of_angles_holds_all_sums(a, b, seed):
     rng = np.random.default_rng(seed)
-    total = widened(turned(a, b))
+    total = widened(angle_sum(a, b))
     sums = within(a, 20, rng) + within(b, 20, rng)
-    assert total[1] - total[0] >= 2 * np.pi or all(holds(total, angle) for angle in sums)
+    assert total[1] - total[0] >= 2 * np.pi or all(contains(total, angle) for angle in sums)
 
 
 @given(boxes, boxes, seeds)
 def test_bearings_hold_every_direction_from_box_to_box(a, b, seed):
     rng = np.random.default_rng(seed)
-    found = bearings(a, b)
+    found = bearing_interval(a, b)
     d = in_box(b, 40, rng)[:, None] - in_box(a, 40, rng)[None]
     seen = np.arctan2(d[..., 1], d[..., 0])[np.hypot(d[..., 0], d[..., 1]) > 0]
-    assert found == WHOLE or all(holds(found, angle) for angle in seen.ravel())
+    assert found == FULL_CIRCLE or all(contains(found, angle) for angle in seen.ravel())
     apart = a[1] < b[0] - 1e-9 or b[1] < a[0] - 1e-9 or a[3] < b[2] - 1e-9 or b[3] < a[2] - 1e-9
-    assert (found == WHOLE) == (not apart)
+    assert (found == FULL_CIRCLE) == (not apart)
     if apart:
         assert width(found) <= np.pi + 1e-9
         ends = np.array(found)
@@ -189,13 +192,13 @@ def test_many_boxes_at_once_meet_a_region_when_each_edge_leaves_something(box, l
     region = (-10.0, 10.0, -10.0, 10.0)
     beside = box[0] > 10 or box[1] < -10 or box[2] > 10 or box[3] < -10
     alone = all(clip(box, line) is not None for line in lines)
-    found = meeting(np.array(box)[:, None], region, lines)
+    found = overlapping_boxes(np.array(box)[:, None], region, lines)
     assert (len(found) == 1) == (alone and not beside)
-    assert len(found) == 1 or beside or clipped(box, lines) is None
+    assert len(found) == 1 or beside or clip_all(box, lines) is None
 
 
 headings = st.tuples(st.floats(-3.2, 3.2), st.one_of(st.floats(0, 0.6), st.floats(0, 7))).map(
-    lambda a: angles(a[0], a[0] + a[1])
+    lambda a: angle_interval(a[0], a[0] + a[1])
 )
 ways = st.tuples(st.floats(-2, 2), st.floats(0, 1)).map(lambda a: (a[0] - a[1], a[0] + a[1]))
 turns = st.tuples(st.floats(-2, 2), st.floats(0, 1)).map(lambda a: (a[0] - a[1], a[0] + a[1]))
@@ -207,7 +210,7 @@ def assert_holds_poses(found, poses):
     x, y, theta = np.array(poses).T
     assert box[0] <= x.min() and x.max() <= box[1]
     assert box[2] <= y.min() and y.max() <= box[3]
-    assert all(holds(heading, angle) for angle in theta)
+    assert all(contains(heading, angle) for angle in theta)
 
 
 def starts(robot, heading, n, rng):
@@ -217,7 +220,7 @@ def starts(robot, heading, n, rng):
 @given(boxes, headings, ways, turns, seeds)
 def test_no_steered_robot_leaves_its_prediction(robot, heading, V, gamma, seed):
     rng, B, T = np.random.default_rng(seed), 0.4, 0.5
-    found = moved(robot, heading, *steered(V, gamma, B, T))
+    found = predict_box(robot, heading, *steered(V, gamma, B, T))
     poses = starts(robot, heading, 60, rng)
     controls = zip(within(V, 58, rng), rng.permutation(within(gamma, 58, rng)), strict=True)
     assert_holds_poses(found, [f_steered(x, u, B, T) for x, u in zip(poses, controls, strict=True)])
@@ -226,7 +229,7 @@ def test_no_steered_robot_leaves_its_prediction(robot, heading, V, gamma, seed):
 @given(boxes, headings, ways, ways, seeds)
 def test_no_robot_on_two_wheels_leaves_its_prediction(robot, heading, left, right, seed):
     rng, base = np.random.default_rng(seed), 1.5
-    found = moved(robot, heading, *wheels(left, right, base))
+    found = predict_box(robot, heading, *wheels(left, right, base))
     poses = starts(robot, heading, 60, rng)
     rolled = zip(within(left, 58, rng), rng.permutation(within(right, 58, rng)), strict=True)
     ends = [compose(x, true_arc(*u, base)) for x, u in zip(poses, rolled, strict=True)]
@@ -238,7 +241,7 @@ def test_no_robot_that_reads_its_odometry_leaves_its_prediction(robot, heading, 
     rng = np.random.default_rng(seed)
     told = (way[0] + way[1]) / 2, (turn[0] + turn[1]) / 2
     motion = true_arc(told[0] - told[1] / 2, told[0] + told[1] / 2, 1.0)
-    found = moved(robot, heading, *odometry(motion, width(way) / 2, width(turn) / 2))
+    found = predict_box(robot, heading, *odometry(motion, width(way) / 2, width(turn) / 2))
     poses = starts(robot, heading, 60, rng)
     driven = zip(within(way, 58, rng), rng.permutation(within(turn, 58, rng)), strict=True)
     ends = [
@@ -250,8 +253,8 @@ def test_no_robot_that_reads_its_odometry_leaves_its_prediction(robot, heading, 
 
 def test_odometry_that_is_no_arc_is_taken_as_it_is():
     motion = np.array([0.1, -0.3, 0.5])
-    robot, heading = (1.0, 1.0, 2.0, 2.0), angles(0.7, 0.7)
-    box, turned_to = moved(robot, heading, *odometry(motion, 0.0, 0.0))
+    robot, heading = (1.0, 1.0, 2.0, 2.0), angle_interval(0.7, 0.7)
+    box, turned_to = predict_box(robot, heading, *odometry(motion, 0.0, 0.0))
     end = compose(np.array([1.0, 2.0, 0.7]), motion)
     np.testing.assert_allclose(box, np.repeat(end[:2], 2), atol=1e-9)
     assert same_angle(np.array(turned_to), end[2], 1e-9)
@@ -260,7 +263,7 @@ def test_odometry_that_is_no_arc_is_taken_as_it_is():
 @given(boxes, headings, ways, turns)
 def test_a_steered_prediction_touches_the_exact_hull_on_every_side(robot, heading, V, gamma):
     B, T = 0.4, 0.5
-    box, _ = moved(robot, heading, *steered(V, gamma, B, T))
+    box, _ = predict_box(robot, heading, *steered(V, gamma, B, T))
     course = np.linspace(heading[0] + gamma[0], heading[1] + gamma[1], 4001)
     x, y = (T * np.outer(V, f(course)) for f in (np.cos, np.sin))
     exact = robot[0] + x.min(), robot[1] + x.max(), robot[2] + y.min(), robot[3] + y.max()
@@ -268,7 +271,9 @@ def test_a_steered_prediction_touches_the_exact_hull_on_every_side(robot, headin
 
 
 def test_the_corners_alone_would_be_too_narrow():
-    box, _ = moved((0, 0, 0, 0), angles(-0.5, 0.5), (1.0, 1.0), (0.0, 0.0), (0.0, 0.0))
+    box, _ = predict_box(
+        (0, 0, 0, 0), angle_interval(-0.5, 0.5), (1.0, 1.0), (0.0, 0.0), (0.0, 0.0)
+    )
     assert np.cos([-0.5, 0.5]).max() < 0.9 < box[1]
 
 
@@ -293,10 +298,10 @@ def test_every_place_that_may_be_seen_lies_within_the_edges_and_the_place(
     rng = np.random.default_rng(seed)
     poses, places = true_places(robot, heading, z, bounds, 60, rng)
     d_abs = bounds[1] + width(heading) / 2
-    direction = middle(heading) + z[1]
+    direction = midpoint(heading) + z[1]
     for a, b, c in edges(z, bounds, direction, d_abs, robot):
         assert (places @ [a, b] <= c).all()
-    assert all(inside(widened_box(place(robot, heading, z, bounds)), p) for p in places)
+    assert all(inside(widened_box(landmark_box(robot, heading, z, bounds)), p) for p in places)
     for (x, y, _), p in zip(poses, places, strict=True):
         target = (p[0], p[0], p[1], p[1])
         for a, b, c in reversed_edges(z, bounds, direction, d_abs, target):

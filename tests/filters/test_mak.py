@@ -172,7 +172,7 @@ def test_an_update_works_in_place_on_memory_allocated_ahead():
     drive(mak, rng)
     assert np.shares_memory(buffer, mak._P.lower)
     before = mak._P.lower.copy()
-    mak._P.subtract(np.asfortranarray(np.eye(15)[:, :2] * 0.01))
+    mak._P.downdate(np.asfortranarray(np.eye(15)[:, :2] * 0.01))
     assert not np.array_equal(mak._P.lower, before)  # dsyrk wrote here, not into a copy
 
 
@@ -201,7 +201,7 @@ def test_dropped_cross_terms_are_all_zero():
     ("call", "says"),
     [
         (lambda m: m.update([7], [[1, 0]], R), "[7] are not in the map"),
-        (lambda m: m.update([1, 1], [[1, 0], [1, 0]], R), "[1] stand more than once"),
+        (lambda m: m.update([1, 1], [[1, 0], [1, 0]], R), "[1] occur more than once"),
         (lambda m: m.update([], np.empty((0, 2)), R), "nothing was seen"),
         (lambda m: m.update([1], [[1, 0, 2]], R), "z has shape (1, 3)"),
         (lambda m: m.update([1], [["near", 0]], R), "z is not an array of numbers"),
@@ -211,7 +211,7 @@ def test_dropped_cross_terms_are_all_zero():
         (lambda m: m.update([1], [[1, 0]], [[1, 0.5], [0, 1]]), "R is no covariance"),
         (lambda m: m.update([1], [[1, 0]], np.eye(3)), "R has shape (3, 3)"),
         (lambda m: m.add([1], [[1, 0]], R), "[1] are in the map already"),
-        (lambda m: m.add([8, 8], [[1, 0], [1, 0]], R), "[8] stand more than once"),
+        (lambda m: m.add([8, 8], [[1, 0], [1, 0]], R), "[8] occur more than once"),
         (lambda m: m.remove([9]), "[9] are not in the map"),
         (lambda m: m.predict([0, 0], Q), "x has shape (2,)"),
         (lambda m: m.predict([0, 0, np.inf], Q), "x holds NaN or infinity"),

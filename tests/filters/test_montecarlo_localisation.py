@@ -1,4 +1,4 @@
-"""Clouds: what they say agrees with the Kalman filter where that is exact, and with plain loops."""
+"""Particle filters agree with the Kalman filter where that is exact, and with plain loops."""
 
 import math
 
@@ -8,15 +8,15 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from slamlab import models
-from slamlab.estimators.mak import Q_arc
-from slamlab.filters import linear
+from slamlab.estimators.mak_slam import Q_arc
+from slamlab.filters import linear_kalman
 from slamlab.filters.montecarlo import likelihood
-from slamlab.filters.montecarlo.cloud import Cloud, uniform
-from slamlab.filters.montecarlo.localisation import MCL
-from slamlab.filters.montecarlo.motion import moved
+from slamlab.filters.montecarlo.mcl import MCL
+from slamlab.filters.montecarlo.motion_sampling import sample_motion
+from slamlab.filters.montecarlo.particles import ParticleSet, uniform
 from slamlab.geometry import wrap
-from slamlab.hardware import RobotModel
-from slamlab.simulator import arc
+from slamlab.models.parameters import RobotModel
+from slamlab.simulation.differential_drive import arc
 from tests.filters.textbook import random_covariance
 from tests.laws import points, poses, sightings
 
@@ -43,7 +43,7 @@ def test_a_scan_is_as_likely_as_a_plain_loop_finds_it(x, p, z):
     assume(np.pi - np.abs(v[..., 1]).max() > 1e-6)
     plain = [sum(log_density(*pair) for pair in zip(row, noises, strict=True)) for row in v]
     np.testing.assert_allclose(likelihood.of_scan(x, p, z, noises), plain, rtol=1e-9, atol=1e-6)
-    pairs = sum(likelihood.of_pairs(x, p[j], z[j], noises[j]) for j in range(len(p)))
+    pairs = sum(likelihood.of_observation(x, p[j], z[j], noises[j]) for j in range(len(p)))
     np.testing.assert_allclose(pairs, plain, rtol=1e-9, atol=1e-6)
 
 
@@ -60,10 +60,10 @@ def test_without_names_one_landmark_is_a_named_one_and_more_are_a_mixture():
     rng = np.random.default_rng(1)
     x, z = rng.normal(size=(5, 3)) * 0.1, models.h(np.zeros(3), MAP[:1])
     named = likelihood.of_scan(x, MAP[:1], z, R[None])
-    nameless = likelihood.of_nameless(x, MAP[:1], z, R[None], stray=0)
+    nameless = likelihood.of_unassociated_scan(x, MAP[:1], z, R[None], clutter=0)
     np.testing.assert_allclose(nameless, named, rtol=1e-9)
     each = [likelihood.of_scan(x, MAP[j : j + 1], z, R[None]) for j in range(4)]
-    mixed = likelihood.of_nameless(x, MAP, z, R[None], stray=0)
+    mixed = likelihood.of_unassociated_scan(x, MAP, z, R[None], clutter=0)
     np.testing.assert_allclose(mixed, np.log(np.mean(np.exp(each), axis=0)), rtol=1e-9)
 
 
@@ -71,17 +71,17 @@ def test_the_posterior_of_a_linear_gaussian_case_is_the_kalman_filters():
     """Four steps in the plane; bounds are six standard errors of a cloud of its effective size."""
     rng, n = np.random.default_rng(2), 20_000
     F, Q, H, R = np.eye(2), random_covariance(rng, 2, 0.1), np.eye(2), random_covariance(rng, 2)
-    exact = linear.belief([0, 0], random_covariance(rng, 2))
-    cloud = Cloud.of(rng.multivariate_normal(exact.x, exact.P, n))
+    exact = linear_kalman.belief([0, 0], random_covariance(rng, 2))
+    cloud = ParticleSet.unweighted(rng.multivariate_normal(exact.x, exact.P, n))
     for _ in range(4):
         u, z = rng.normal(size=2), rng.normal(size=2)
-        exact = linear.predict(exact, F, Q, F, u)
-        cloud = Cloud(cloud.rows + u + rng.multivariate_normal([0, 0], Q, n), cloud.weights)
+        exact = linear_kalman.predict(exact, F, Q, F, u)
+        cloud = ParticleSet(cloud.rows + u + rng.multivariate_normal([0, 0], Q, n), cloud.weights)
         innovation, S = z - exact.x, exact.P + R
-        exact, _ = linear.update(exact, z, H, R)
-        cloud, evidence = cloud.weighed(likelihood.log_gauss(z - cloud.rows, R))
+        exact, _ = linear_kalman.update(exact, z, H, R)
+        cloud, evidence = cloud.reweighted(likelihood.log_gaussian(z - cloud.rows, R))
         assert abs(evidence - log_density(innovation, S)) < 0.05
-        sigmas, few = np.sqrt(np.diag(exact.P)), np.sqrt(cloud.effective)
+        sigmas, few = np.sqrt(np.diag(exact.P)), np.sqrt(cloud.effective_sample_size)
         assert (np.abs(cloud.moments.x - exact.x) < 6 * sigmas / few).all()
         off = np.abs(cloud.moments.P - exact.P) / np.outer(sigmas, sigmas)
         assert (off < 6 * np.sqrt(2) / few).all()
@@ -91,7 +91,7 @@ def test_the_posterior_of_a_linear_gaussian_case_is_the_kalman_filters():
 def test_moved_samples_spread_as_the_motions_covariance_says():
     rng, pose = np.random.default_rng(3), np.array([1.0, -2.0, 0.7])
     odometry = arc(0.15, 0.35, 0.4)
-    cloud = Cloud.of(moved(np.tile(pose, (40_000, 1)), odometry, ROBOT, rng))
+    cloud = ParticleSet.unweighted(sample_motion(np.tile(pose, (40_000, 1)), odometry, ROBOT, rng))
     Q = Q_arc(pose, odometry, ROBOT)
     scale = np.sqrt(np.outer(np.diag(Q), np.diag(Q)))
     np.testing.assert_allclose(cloud.moments.P / scale, Q / scale, atol=0.05)
@@ -100,15 +100,17 @@ def test_moved_samples_spread_as_the_motions_covariance_says():
 @given(poses)
 def test_who_stands_still_stays_and_a_perfect_robot_goes_where_odometry_says(pose):
     x, rng = np.tile(pose, (3, 1)), np.random.default_rng(0)
-    np.testing.assert_allclose(moved(x, np.zeros(3), ROBOT, rng), np.tile(pose, (3, 1)), atol=1e-12)
-    ends = moved(x, [0.3, -0.1, 0.2], STILL, rng)
+    np.testing.assert_allclose(
+        sample_motion(x, np.zeros(3), ROBOT, rng), np.tile(pose, (3, 1)), atol=1e-12
+    )
+    ends = sample_motion(x, [0.3, -0.1, 0.2], STILL, rng)
     assert np.ptp(ends, axis=0).max() == 0
 
 
 def test_the_mean_of_headings_round_the_seam_is_on_the_seam():
     rows = np.zeros((2, 3))
     rows[:, 2] = np.pi - 0.1, -np.pi + 0.1
-    b = Cloud.of(rows).moments
+    b = ParticleSet.unweighted(rows).moments
     assert np.isclose(abs(b.x[2]), np.pi)
     assert np.isclose(b.P[2, 2], 0.01)
 
@@ -116,7 +118,7 @@ def test_the_mean_of_headings_round_the_seam_is_on_the_seam():
 @given(st.integers(0, 2**32), st.floats(0, 1))
 def test_roughening_keeps_mean_and_covariance(seed, share):
     rng, n = np.random.default_rng(seed), 4000
-    cloud = Cloud.of(rng.multivariate_normal([3, -1], random_covariance(rng, 2), n))
+    cloud = ParticleSet.unweighted(rng.multivariate_normal([3, -1], random_covariance(rng, 2), n))
     after, before = cloud.roughened(share, rng).moments, cloud.moments
     sigmas = np.sqrt(np.diag(before.P))
     assert (np.abs(after.x - before.x) < 8 * sigmas / np.sqrt(n)).all()
@@ -128,7 +130,7 @@ def watch(mcl, truth, steps, rng, named=True):
     """Drive a square and look round; the distance of the mean from the truth [m]."""
     for _ in range(steps):
         odometry = arc(0.2, 0.3, 0.4)
-        truth = moved(truth[None], odometry, ROBOT, rng)[0]
+        truth = sample_motion(truth[None], odometry, ROBOT, rng)[0]
         z = models.h(truth, MAP) + rng.multivariate_normal([0, 0], R, len(MAP))
         mcl.predict(odometry, ROBOT)
         mcl.update(z, R, range(len(MAP)) if named else None)
@@ -155,12 +157,12 @@ def test_the_same_seed_gives_the_same_cloud_and_another_one_another():
 
 
 def test_a_cloud_of_one_sample_follows_odometry_and_keeps_its_weight():
-    mcl = MCL(Cloud.of(np.zeros((1, 3))), MAP, np.random.default_rng(0))
+    mcl = MCL(ParticleSet.unweighted(np.zeros((1, 3))), MAP, np.random.default_rng(0))
     mcl.predict([0.2, 0, 0.1], STILL)
     mcl.update(models.h(np.array([1.0, 1.0, 0.0]), MAP), R, range(4))
     np.testing.assert_allclose(mcl.cloud.rows, [[0.2, 0, 0.1]])
     assert mcl.cloud.weights.tolist() == [1]
-    assert mcl.impossible == mcl.starved == 0
+    assert mcl.unexplained == mcl.depleted == 0
 
 
 def test_a_scan_that_no_sample_can_explain_is_left_out_and_counted(monkeypatch):
@@ -169,22 +171,22 @@ def test_a_scan_that_no_sample_can_explain_is_left_out_and_counted(monkeypatch):
     monkeypatch.setattr(likelihood, "of_scan", lambda x, *_: np.full(len(x), -np.inf))
     assert mcl.update(models.h(np.zeros(3), MAP), R, range(4)) == -np.inf
     np.testing.assert_array_equal(mcl.cloud.rows, before.rows)
-    assert mcl.impossible == 1
+    assert mcl.unexplained == 1
 
 
-def test_a_cloud_where_one_sample_takes_all_is_counted_as_starved():
+def test_a_cloud_where_one_sample_takes_all_is_counted_as_depleted():
     rows = np.zeros((20, 3))
     rows[1:, 0] = 3.0
-    mcl = MCL(Cloud.of(rows), MAP, np.random.default_rng(0))
+    mcl = MCL(ParticleSet.unweighted(rows), MAP, np.random.default_rng(0))
     mcl.update(models.h(np.zeros(3), MAP), R * 1e-3, range(4))
-    assert mcl.starved == 1
+    assert mcl.depleted == 1
     assert (mcl.cloud.rows == 0).all()
 
 
-def test_strangers_take_places_and_the_weights_stay():
+def test_injected_particles_take_places_and_the_weights_stay():
     rng = np.random.default_rng(0)
-    mcl = MCL(Cloud.of(np.zeros((50, 3))), MAP, rng)
-    mcl.insert(Cloud.of(np.ones((7, 3))))
+    mcl = MCL(ParticleSet.unweighted(np.zeros((50, 3))), MAP, rng)
+    mcl.insert(ParticleSet.unweighted(np.ones((7, 3))))
     assert (mcl.cloud.rows == 1).all(axis=1).sum() == 7
     assert np.isclose(mcl.cloud.weights.sum(), 1)
 
@@ -199,13 +201,16 @@ def test_strangers_take_places_and_the_weights_stay():
         (lambda m: m.update([[1, 0]], np.diag([0.0, 1]), [0]), "R is singular"),
         (lambda m: m.update([[1, 0]], np.eye(2), [4]), "no landmark 4"),
         (lambda m: m.update([[1, 0]], np.eye(2), [-1]), "no landmark -1"),
-        (lambda m: MCL(Cloud.of(np.zeros((3, 2))), MAP, m.rng), "samples of its pose"),
-        (lambda m: Cloud.of(np.zeros((0, 3))), "samples have shape"),
-        (lambda m: Cloud.of([[0, np.inf]]), "samples hold NaN"),
+        (
+            lambda m: MCL(ParticleSet.unweighted(np.zeros((3, 2))), MAP, m.rng),
+            "samples of its pose",
+        ),
+        (lambda m: ParticleSet.unweighted(np.zeros((0, 3))), "samples have shape"),
+        (lambda m: ParticleSet.unweighted([[0, np.inf]]), "samples hold NaN"),
     ],
 )
 def test_bad_input_is_named_and_changes_nothing(call, says):
-    mcl = MCL(Cloud.of(np.zeros((5, 3))), MAP, np.random.default_rng(0))
+    mcl = MCL(ParticleSet.unweighted(np.zeros((5, 3))), MAP, np.random.default_rng(0))
     before = mcl.cloud
     with pytest.raises(ValueError, match=says):
         call(mcl)

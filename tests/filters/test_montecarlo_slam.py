@@ -6,15 +6,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from slamlab import models
-from slamlab.estimators.mak import Q_arc
+from slamlab.estimators.mak_slam import Q_arc
+from slamlab.filters.known_pose_mapping import KnownPoseMap
 from slamlab.filters.mak import MAK
-from slamlab.filters.mapping import KnownPoseMap
-from slamlab.filters.montecarlo.association import Expected, pair
 from slamlab.filters.montecarlo.fastslam import FastSLAM
-from slamlab.filters.montecarlo.sets import SampleSets
+from slamlab.filters.montecarlo.particle_association import ExpectedScan, associate
+from slamlab.filters.montecarlo.sample_sets import SampleSets
 from slamlab.geometry import compose
-from slamlab.hardware import RobotModel
-from slamlab.simulator import arc
+from slamlab.models.parameters import RobotModel
+from slamlab.simulation.differential_drive import arc
 
 R = np.array([[0.01, 0.0005], [0.0005, 0.001]])
 STILL = RobotModel(distance_error=0, turn_error=0, turn_per_metre=0)
@@ -65,7 +65,7 @@ def test_with_many_samples_fastslam_says_what_the_augmented_filter_says():
         z = models.h(mak.pose, OBJECTS) + 0.02 * rng.standard_normal((3, 2))
         for filter in (fast, mak):
             (filter.update if k else filter.add)(range(3), z, R)
-    few = np.sqrt(fast.robot.effective)
+    few = np.sqrt(fast.robot.effective_sample_size)
     sigmas = np.sqrt(np.diag(mak.P))
     assert (np.abs(fast.robot.moments.x - mak.pose) < 6 * sigmas[:3] / few).all()
     assert (np.abs(fast.landmarks().ravel() - mak.x[3:]) < 6 * sigmas[3:] / few).all()
@@ -194,17 +194,17 @@ def test_bad_input_is_named_and_changes_nothing(name, call, says):
 
 
 def test_the_nearest_pair_comes_first_and_the_doubtful_is_neither_paired_nor_new():
-    seen = Expected(np.array([[2.0, 0.0], [2.0, 3.1]]), np.zeros((2, 2, 2)))
+    seen = ExpectedScan(np.array([[2.0, 0.0], [2.0, 3.1]]), np.zeros((2, 2, 2)))
     far = np.array([[2.05, 0.0], [2.01, 0.0], [2.0, -3.1], [9.0, 1.0], [2.38, 0.0]])
-    pairs, new = pair(far, np.tile(np.diag([0.01, 0.01]), (5, 1, 1)), seen)
+    pairs, new = associate(far, np.tile(np.diag([0.01, 0.01]), (5, 1, 1)), seen)
     # row 0 lost its object to the nearer row 1; row 4 is four sigmas off
     assert pairs == {1: 0, 2: 1}
     assert new == [3]
 
 
 def test_where_nothing_is_known_everything_is_new():
-    seen = Expected(np.empty((0, 2)), np.empty((0, 2, 2)))
-    assert pair(np.ones((2, 2)), np.tile(R, (2, 1, 1)), seen) == ({}, [0, 1])
+    seen = ExpectedScan(np.empty((0, 2)), np.empty((0, 2, 2)))
+    assert associate(np.ones((2, 2)), np.tile(R, (2, 1, 1)), seen) == ({}, [0, 1])
 
 
 @pytest.mark.parametrize("name", MAKERS)
@@ -212,7 +212,7 @@ def test_a_filter_expects_objects_where_they_are(name):
     rng = np.random.default_rng(10)
     filter = MAKERS[name](rng)
     truth = drive(filter, 10, rng)
-    expected = filter.expected()
+    expected = filter.expected_scan()
     v = models.h(truth, OBJECTS) - expected.z
     assert np.abs(v).max() < 0.3
     assert np.linalg.eigvalsh(expected.S).min() > 0

@@ -2,8 +2,9 @@
 
 import numpy as np
 
-from slamlab import jacobians, models
+from slamlab import models
 from slamlab.geometry import wrap
+from slamlab.models import jacobians
 
 
 def predict(x, P, x_new, Q):

@@ -57,13 +57,13 @@ import ast; ast.parse = lambda *a, **k: None
     "the kernel's methods": "get_ipython().kernel.do_execute = lambda *a, **k: {'status': 'ok'}\n",
     # the worker's own machinery
     "the drives": """
-import slamlab.checks.drives as d
+import slamlab.exercises.drives as d
 d.numbers = lambda value, function: np.ones(2)
 d.StudentError = KeyError
 d.Drive.__call__ = lambda self, names, inputs: {'result': np.zeros(20), 'full': np.ones(1)}
 """,
     "the wire": """
-import slamlab.grading.wire as w
+import slamlab.grading.wire_protocol as w
 packed = w.pack
 w.pack = lambda head, arrays=None: packed(head | {'points': 99, 'full': True}, arrays)
 """,
@@ -189,13 +189,13 @@ SPIES = {
     "the secret": "tell(lambda: open(OUT + '/secret').read())\n",
     "the gradebook": "tell(lambda: open(OUT + '/grades.db', 'rb').read(16))\n",
     "other submissions": "import glob; tell(lambda: glob.glob(CLASS + '/*.ipynb')[0])\n",
-    "the solutions": "tell(lambda: open(ROOT + '/slamlab/checks/task.py').read(80))\n",
+    "the solutions": "tell(lambda: open(ROOT + '/slamlab/exercises/task.py').read(80))\n",
     "the answers as modules": """
 import sys; sys.path.insert(0, ROOT)
 for name in list(sys.modules):
     if name.startswith('slamlab'): del sys.modules[name]
 def act():
-    import slamlab.checks.task as t
+    import slamlab.exercises.task as t
     return t.__file__
 tell(act)
 """,

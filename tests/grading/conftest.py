@@ -5,22 +5,24 @@ import json
 
 import pytest
 
-from slamlab.checks import catalogue
-from slamlab.grading import isolation, jail
-from slamlab.grading.workers import Workers
+from slamlab.exercises import catalogue
+from slamlab.grading import isolation, sandbox
+from slamlab.grading.worker_pool import WorkerPool
 from tests.grading import fake
 
 
 @functools.cache
 def workers():
     """Workers as bounded as this machine can have them, shared by all tests of a process."""
-    return Workers(next(level for level in reversed(jail.LEVELS) if not lacks(level)), warm=False)
+    return WorkerPool(
+        next(level for level in reversed(sandbox.LEVELS) if not lacks(level)), warm=False
+    )
 
 
 @functools.cache
 def lacks(level):
     """What this machine lacks for a level, None for nothing."""
-    return None if level == jail.NONE else isolation.missing(level)
+    return None if level == sandbox.NONE else isolation.missing_requirement(level)
 
 
 @pytest.fixture(autouse=True, scope="session")

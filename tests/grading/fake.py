@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from slamlab.checks.exercise import Exercise
-from slamlab.checks.task import Diagnosis, Law, Task
+from slamlab.exercises.exercise import Exercise
+from slamlab.exercises.task import Diagnosis, Law, Task
 from tests.grading.fake_drives import DRIVES
 
 
@@ -83,7 +83,7 @@ EXERCISE = Exercise(
         ),
     ),
     drives="tests.grading.fake_drives",
-    allows=("slamlab.noise",),
+    allows=("slamlab.models.noise",),
     answers=("slamlab.geometry",),
 )
 

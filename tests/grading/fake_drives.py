@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from slamlab.checks.drives import Drive, numbers, rows
+from slamlab.exercises.drives import Drive, numbers, rows
 
 
 def _sums(functions, inputs):

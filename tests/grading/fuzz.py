@@ -5,9 +5,9 @@ import sys
 
 import numpy as np
 
-from slamlab.grading import wire
+from slamlab.grading import wire_protocol
 
-WHOLE = wire.pack({"turn": 3, "problem": "x"}, {"r": np.arange(4.0), "b": [True, False]})
+WHOLE = wire_protocol.pack({"turn": 3, "problem": "x"}, {"r": np.arange(4.0), "b": [True, False]})
 HOT = b'{}[]",:0123456789-.eE\\u\x00\xff fib'
 
 
@@ -35,8 +35,8 @@ def damaged(count, seed):
 def rejected_or_plain(data):
     """Whether some bytes are a frame; anything but a clean rejection or plain data is an error."""
     try:
-        got = wire.receive(io.BytesIO(data))
-    except wire.WireError:
+        got = wire_protocol.receive(io.BytesIO(data))
+    except wire_protocol.WireError:
         return False
     if got is not None:
         head, arrays = got

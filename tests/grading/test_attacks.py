@@ -9,11 +9,11 @@ from pathlib import Path
 import pytest
 
 from slamlab.cli import main
-from slamlab.grading import client, jail
+from slamlab.grading import sandbox, worker_client
 from slamlab.grading.gradebook import Gradebook
 from tests.grading import attacks, fake
 from tests.grading.conftest import know_the_fake, lacks, notebook
-from tests.grading.test_folder import processes_of
+from tests.grading.test_batch import processes_of
 
 ROOT = Path(__file__).resolve().parents[2]
 SECRET = "the canary sings"
@@ -38,9 +38,9 @@ def submissions():
     return made
 
 
-@pytest.fixture(scope="module", params=[jail.STRICT, jail.BASIC])
+@pytest.fixture(scope="module", params=[sandbox.STRICT, sandbox.BASIC])
 def graded(tmp_path_factory, request):
-    """The class as graded, with what to look at afterwards, at each level of walls."""
+    """The class as graded, with what to look at afterwards, at each isolation level."""
     level = request.param
     if lacks(level):
         pytest.skip(lacks(level))
@@ -64,7 +64,7 @@ def graded(tmp_path_factory, request):
                 content = content.replace("TOLD", head).encode()
             path.write_bytes(content)
         know_the_fake(patch)
-        patch.setattr(client, "CELL_SECONDS", 3.0)
+        patch.setattr(worker_client, "CELL_TIMEOUT", 3.0)
         patch.setattr("tempfile.tempdir", str(temporary))
         words = [str(folder), "--out", str(out), "--jobs", "2", "--exercise", "99"]
         code = main(["grade", *words, "--isolation", level])
@@ -74,7 +74,9 @@ def graded(tmp_path_factory, request):
         except TimeoutError:
             heard = False
     with Gradebook(f"sqlite:///{out / 'grades.db'}") as book:
-        records = {record.submission.removesuffix(".ipynb"): record for record in book.latest()}
+        records = {
+            record.submission.removesuffix(".ipynb"): record for record in book.latest_attempts()
+        }
     return {"code": code, "records": records, "out": out, "canary": canary, "heard": heard,
             "temporary": temporary, "level": level}  # fmt: skip
 

@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from slamlab.checks import catalogue
-from slamlab.checks.task import LARGEST, MOST_ROWS
+from slamlab.exercises import catalogue
+from slamlab.exercises.task import MAX_MAGNITUDE, MAX_ROWS
 from slamlab.grading import judge, notebooks
 from tests.grading.conftest import workers
 
@@ -20,7 +20,7 @@ def judged(folder, exercise, change=lambda cells: cells):
     data = (ROOT / folder / f"{exercise.notebook}.ipynb").read_bytes()
     notebook = notebooks.parse(data)
     assert notebook.exercise == exercise.id
-    return judge.judge(exercise, change(notebook.cells), b"a seed of the suite", workers())
+    return judge.judge_notebook(exercise, change(notebook.cells), b"a seed of the suite", workers())
 
 
 @pytest.mark.parametrize("id", EXERCISES)
@@ -38,11 +38,11 @@ def test_what_is_handed_out_earns_nothing_and_all_its_cells_run_in_a_worker(id):
     assert result["cells"] == {}
 
 
-CONSTANTS = [0.0, 1.0, -1.0, 5e-324, 1e3, -1e6, LARGEST, -LARGEST]
+CONSTANTS = [0.0, 1.0, -1.0, 5e-324, 1e3, -1e6, MAX_MAGNITUDE, -MAX_MAGNITUDE]
 
 
 @pytest.mark.parametrize("id", EXERCISES)
-@pytest.mark.parametrize("rows", [0, 1, MOST_ROWS])
+@pytest.mark.parametrize("rows", [0, 1, MAX_ROWS])
 def test_the_same_number_everywhere_solves_no_task(id, rows):
     for task in catalogue.exercise(id).tasks:
         inputs = task.draw(b"a seed of the suite")

@@ -12,13 +12,13 @@ from pathlib import Path
 
 import pytest
 
-from slamlab.checks.verdict import LawResult, Verdict
-from slamlab.grading import rows
-from slamlab.grading.gradebook import Gradebook, NoGradebook
+from slamlab.exercises.verdict import LawResult, Verdict
+from slamlab.grading import gradebook_rows
+from slamlab.grading.gradebook import Gradebook, GradebookError
 from slamlab.grading.records import Record
 from tests.grading import fake
 from tests.grading.conftest import notebook
-from tests.grading.test_folder import comes_true
+from tests.grading.test_batch import comes_true
 
 LAW = LawResult("twice", "is twice as large", 0.0, 2.0, 3, 20)
 VERDICT = Verdict("99-double", 1.0, 3.0, (LAW,), "square", "you squared")
@@ -72,75 +72,75 @@ def book(request, tmp_path):
     else:
         url = request.getfixturevalue("postgres")
     with Gradebook(url) as opened:
-        opened.forget([r.submission for r in opened.latest()])
+        opened.delete_attempts([r.submission for r in opened.latest_attempts()])
         yield opened
 
 
 def test_what_goes_in_comes_out(book):
     assert book.add(record())
-    assert book.latest() == [record()]
-    assert list(book.known().values()) == [record()]
+    assert book.latest_attempts() == [record()]
+    assert list(book.attempts().values()) == [record()]
 
 
 def test_the_same_content_with_the_same_inputs_stands_once(book):
     assert [book.add(record()), book.add(record())] == [True, False]
-    assert len(book.known()) == 1
+    assert len(book.attempts()) == 1
 
 
 def test_a_new_version_is_a_new_attempt_and_counts(book):
     newer = record(sha="c" * 64, verdicts=())
     book.add(record())
     book.add(newer)
-    assert len(book.known()) == 2
-    assert book.latest() == [newer]
+    assert len(book.attempts()) == 2
+    assert book.latest_attempts() == [newer]
 
 
 def test_an_older_version_handed_in_again_counts_and_stands_once(book):
     first, second = record(handed_in="2026-12-01T10:00:00+00:00"), record(sha="c" * 64)
     again = replace(first, handed_in="2026-12-03T10:00:00+00:00")
     assert [book.add(each) for each in (first, second, again, again)] == [True, True, False, False]
-    assert book.latest() == [again]
-    assert len(book.known()) == 2
+    assert book.latest_attempts() == [again]
+    assert len(book.attempts()) == 2
 
 
 def test_what_could_not_be_graded_is_known_by_its_reason(book):
     unread = Record("b.ipynb", "b", reason="not a notebook")
     book.add(unread)
     book.add(unread)
-    assert book.latest() == [unread]
+    assert book.latest_attempts() == [unread]
 
 
 def test_names_may_hold_anything(book):
     book.add(record(ODD, cells={1: ODD}))
-    (found,) = book.latest()
+    (found,) = book.latest_attempts()
     assert found.submission.startswith("Zoë \\x00 \\udce9")
-    assert book.adjust(ODD, "99", "99-double", 2, ODD) is None
-    assert (found.submission, "99-double") in book.adjustments()
+    assert book.override_points(ODD, "99", "99-double", 2, ODD) is None
+    assert (found.submission, "99-double") in book.overrides()
 
 
 def test_points_set_by_hand_outlive_grading_again(book):
     book.add(record())
-    book.adjust("anna.ipynb", "99", "99-double", 2, "half right")
-    book.adjust("anna.ipynb", "99", "99-double", 2.5, "more than half")
-    book.forget(["anna.ipynb"])
-    assert book.latest() == []
-    assert book.adjustments()["anna.ipynb", "99-double"] == (2.5, "more than half")
+    book.override_points("anna.ipynb", "99", "99-double", 2, "half right")
+    book.override_points("anna.ipynb", "99", "99-double", 2.5, "more than half")
+    book.delete_attempts(["anna.ipynb"])
+    assert book.latest_attempts() == []
+    assert book.overrides()["anna.ipynb", "99-double"] == (2.5, "more than half")
 
 
 def test_of_merged_books_the_newest_attempt_counts_whichever_comes_first(tmp_path, monkeypatch):
     older, newer = record(), record(sha="c" * 64)
     books = [Gradebook(f"sqlite:///{tmp_path / name}.db") for name in ("a", "b", "all")]
     for each, made, at in zip(books, (older, newer), ("2026-12-01", "2026-12-02"), strict=False):
-        monkeypatch.setattr(rows, "now", lambda at=at: at)
+        monkeypatch.setattr(gradebook_rows, "timestamp", lambda at=at: at)
         each.add(made)
     for each in (books[1], books[0]):
-        books[2].take(each)
-    assert books[2].latest() == [newer]
+        books[2].merge(each)
+    assert books[2].latest_attempts() == [newer]
 
 
 @pytest.mark.parametrize("url", ["nonsense", "sqlite:////nowhere/at/all.db", "oracle://x"])
 def test_a_database_that_cannot_be_opened_is_told_in_one_line(url):
-    with pytest.raises(NoGradebook, match="the gradebook cannot be opened") as told:
+    with pytest.raises(GradebookError, match="the gradebook cannot be opened") as told:
         Gradebook(url)
     assert "\n" not in str(told.value)
 
@@ -168,7 +168,7 @@ def test_a_grader_killed_at_any_moment_loses_nothing_and_doubles_nothing(tmp_pat
         grading.wait()
     assert subprocess.run(command, **run).returncode == 0
     with Gradebook(f"sqlite:///{out / 'grades.db'}") as opened:
-        assert [r.submission for r in opened.latest()] == names
-        assert len(opened.known()) == len(names)
+        assert [r.submission for r in opened.latest_attempts()] == names
+        assert len(opened.attempts()) == len(names)
     assert len((out / "grades.csv").read_text().splitlines()) == len(names) + 1
     assert len(list((out / "feedback").iterdir())) == len(names)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from slamlab.checks import catalogue
+from slamlab.exercises import catalogue
 
 TASKS = [task for id in catalogue.EXERCISES for task in catalogue.exercise(id).tasks]
 

@@ -8,7 +8,7 @@ import sys
 import pytest
 
 from slamlab.cli import main
-from slamlab.grading import bubblewrap, isolation, jail, landlock, probe, seccomp
+from slamlab.grading import bubblewrap, isolation, landlock, probe, sandbox, seccomp
 from tests.grading import fake
 from tests.grading.conftest import lacks, notebook
 
@@ -22,24 +22,24 @@ def had(level):
 
 
 @linux
-def test_without_walls_every_attempt_succeeds_but_those_that_limits_stop():
-    done = isolation.attempts(jail.NONE)
-    named = re.findall(r'^_attempt\("([^"]+)"', probe.ATTEMPTS, re.M)
+def test_without_a_sandbox_every_forbidden_action_succeeds_but_those_that_limits_stop():
+    done = isolation.self_test(sandbox.NONE)
+    named = re.findall(r'^_attempt\("([^"]+)"', probe.FORBIDDEN_ACTIONS, re.M)
     assert len(named) == 12
-    assert {name for name in named if name not in done} == set(probe.OPEN_AT_NONE)
+    assert {name for name in named if name not in done} == set(probe.LIMITED_AT_NONE)
 
 
-@pytest.mark.parametrize("level", [jail.BASIC, jail.STRICT])
-def test_with_walls_no_attempt_succeeds(level):
+@pytest.mark.parametrize("level", [sandbox.BASIC, sandbox.STRICT])
+def test_in_a_sandbox_no_forbidden_action_succeeds(level):
     had(level)
-    assert isolation.attempts(level) == ""
+    assert isolation.self_test(level) == ""
 
 
-def test_a_wall_with_a_hole_is_noticed_and_nothing_is_graded(monkeypatch):
-    had(jail.STRICT)
+def test_a_sandbox_with_a_hole_is_noticed_and_nothing_is_graded(monkeypatch):
+    had(sandbox.STRICT)
     monkeypatch.setattr(isolation.probe, "REPORT", "raise RuntimeError('read the answers')")
-    with pytest.raises(isolation.Refused, match=r"does not hold here.*read the answers"):
-        isolation.ensure(jail.STRICT)
+    with pytest.raises(isolation.IsolationError, match=r"does not hold here.*read the answers"):
+        isolation.ensure_level(sandbox.STRICT)
 
 
 def bwrap_that(tmp_path, monkeypatch, script):
@@ -49,7 +49,7 @@ def bwrap_that(tmp_path, monkeypatch, script):
     monkeypatch.setenv("PATH", f"{tmp_path}{os.pathsep}{os.environ['PATH']}")
 
 
-def refused(tmp_path, capsys, level=jail.STRICT):
+def refused(tmp_path, capsys, level=sandbox.STRICT):
     """What ``slamlab grade`` says when it refuses."""
     folder = tmp_path / "class"
     folder.mkdir()
@@ -67,7 +67,7 @@ def refused(tmp_path, capsys, level=jail.STRICT):
 def test_without_bubblewrap_the_command_refuses_and_says_how_to_get_it(
     tmp_path, monkeypatch, capsys
 ):
-    monkeypatch.setattr(bubblewrap, "program", lambda: None)
+    monkeypatch.setattr(bubblewrap, "executable", lambda: None)
     assert "apt install bubblewrap" in refused(tmp_path, capsys)
 
 
@@ -83,7 +83,7 @@ def test_where_ordinary_users_get_no_namespaces_the_way_out_is_named(tmp_path, m
 
 @linux
 def test_without_landlock_the_command_refuses(tmp_path, monkeypatch, capsys):
-    monkeypatch.setattr(landlock, "version", lambda: 0)
+    monkeypatch.setattr(landlock, "abi_version", lambda: 0)
     assert "Linux 5.13" in refused(tmp_path, capsys)
 
 
@@ -95,12 +95,12 @@ def test_on_a_machine_without_a_list_of_calls_the_command_refuses(tmp_path, monk
 
 @linux
 def test_root_gets_strict_or_nothing(tmp_path, monkeypatch, capsys):
-    monkeypatch.setattr(bubblewrap, "drops_root", lambda: True)
-    assert "ordinary user" in refused(tmp_path, capsys, jail.BASIC)
+    monkeypatch.setattr(bubblewrap, "drops_privileges", lambda: True)
+    assert "ordinary user" in refused(tmp_path, capsys, sandbox.BASIC)
 
 
 def test_elsewhere_the_documented_way_is_named(tmp_path, monkeypatch, capsys):
-    monkeypatch.setattr(isolation, "FORKS", False)
+    monkeypatch.setattr(isolation, "CAN_FORK", False)
     said = refused(tmp_path, capsys)
     assert "WSL2" in said
     assert "container" in said
@@ -112,8 +112,8 @@ def test_workers_share_nothing():
 
     first = "open('left', 'w').write('x'); import numpy; numpy.left = 1"
     second = "import os, numpy\nraise ValueError([os.listdir('.'), hasattr(numpy, 'left')])"
-    judge.judge(fake.EXERCISE, [(1, first)], b"seed", workers())
-    said = judge.judge(fake.EXERCISE, [(1, second)], b"seed", workers())["cells"][1]
+    judge.judge_notebook(fake.EXERCISE, [(1, first)], b"seed", workers())
+    said = judge.judge_notebook(fake.EXERCISE, [(1, second)], b"seed", workers())["cells"][1]
     assert said.startswith("ValueError: [[], False]")
 
 
@@ -129,7 +129,7 @@ def test_what_cannot_be_cleared_away_is_not_seen_by_the_next(cell):
     from tests.grading.conftest import workers
 
     for _ in range(2):
-        judge.judge(fake.EXERCISE, [(1, "import os\n" + cell)], b"seed", workers())
+        judge.judge_notebook(fake.EXERCISE, [(1, "import os\n" + cell)], b"seed", workers())
         spy = "import os\nraise ValueError(os.listdir('.'))"
-        said = judge.judge(fake.EXERCISE, [(1, spy)], b"seed", workers())["cells"][1]
+        said = judge.judge_notebook(fake.EXERCISE, [(1, spy)], b"seed", workers())["cells"][1]
         assert said.startswith("ValueError: []")

@@ -5,9 +5,9 @@ import time
 
 import pytest
 
-from slamlab.grading import client, forked, judge, place, submissions
+from slamlab.grading import forked_workers, judge, staging, submissions, worker_client
 from slamlab.grading.submissions import Submission
-from slamlab.grading.workers import CannotStart, Workers
+from slamlab.grading.worker_pool import WorkerPool, WorkerStartError
 from tests.grading import fake
 from tests.grading.conftest import notebook, workers
 
@@ -23,7 +23,7 @@ FULL = [3, 2, 1.5]
 
 
 def judged(*cells, exercise=fake.EXERCISE, by=None):
-    return judge.judge(exercise, list(enumerate(cells, 1)), b"seed", by or workers())
+    return judge.judge_notebook(exercise, list(enumerate(cells, 1)), b"seed", by or workers())
 
 
 def scores(*cells):
@@ -142,12 +142,12 @@ letters = lambda *values: 'leak' + ''.join(chr(ord(c) + 49) for c in str(values)
         "raise type(letters(*args), (Exception,), {})('x')",
         "exec(compile(f'def {letters(*args)}(): 1 / 0', '<cell 2>', 'exec')); locals()"
         "[letters(*args)]()",
-        "import slamlab.checks.drives as d; raise d.StudentError('malformed', letters(*args))",
-        "import slamlab.checks.drives as d; raise d.StudentError('missing', letters(*args)"
+        "import slamlab.exercises.drives as d; raise d.StudentError('malformed', letters(*args))",
+        "import slamlab.exercises.drives as d; raise d.StudentError('missing', letters(*args)"
         " + ' is not defined')",
-        "import slamlab.checks.drives as d; raise d.StudentError('not attempted', letters(*args)"
+        "import slamlab.exercises.drives as d; raise d.StudentError('not attempted', letters(*args)"
         " + ' is not attempted yet')",
-        "import slamlab.checks.drives as d; raise d.StudentError('malformed',"
+        "import slamlab.exercises.drives as d; raise d.StudentError('malformed',"
         " f'turn is of type {letters(*args)}, not a function')",
     ],
 )
@@ -158,14 +158,14 @@ def test_not_even_as_letters_do_inputs_come_out(body):
 
 
 def test_a_cell_that_hangs_is_left_out(monkeypatch):
-    monkeypatch.setattr(client, "CELL_SECONDS", 1.0)
+    monkeypatch.setattr(worker_client, "CELL_TIMEOUT", 1.0)
     result = judged("x = 1", "while True: pass", fake.SOLUTION)
     assert [verdict.points for verdict in result["verdicts"]] == FULL
     assert result["cells"] == {2: "still running after 1 s"}
 
 
 def test_time_runs_out_for_a_notebook_as_a_whole(monkeypatch):
-    monkeypatch.setattr(client, "TOTAL_SECONDS", 0.0)
+    monkeypatch.setattr(worker_client, "NOTEBOOK_TIMEOUT", 0.0)
     result = judged(fake.SOLUTION)["verdicts"]
     assert [verdict.kind for verdict in result] == ["time", "time", "needs"]
 
@@ -204,11 +204,11 @@ def test_a_function_under_a_timing_magic_counts():
         "np.isclose = np.allclose = np.array_equal = lambda *a, **k: np.True_\n",
         "import builtins; builtins.all = builtins.any = lambda *a: True\n",
         # the machinery in the worker
-        "import slamlab.checks.drives as d\nd.numbers = lambda v, f: np.ones(2)\n"
+        "import slamlab.exercises.drives as d\nd.numbers = lambda v, f: np.ones(2)\n"
         "d.StudentError = KeyError\n",
         "import sys\nfor m in list(sys.modules):\n    if 'slamlab' in m: del sys.modules[m]\n",
-        "import slamlab.grading.wire as w\nw.pack = lambda *a: b''\n",
-        "import slamlab.grading.wire as w\nold = w.pack\n"
+        "import slamlab.grading.wire_protocol as w\nw.pack = lambda *a: b''\n",
+        "import slamlab.grading.wire_protocol as w\nold = w.pack\n"
         "w.pack = lambda h, a=None: old(h | {'points': 99, 'full': True, 'problem': None}, a)\n",
         # the pipe itself
         "import os, struct\n"
@@ -226,18 +226,19 @@ def test_a_function_under_a_timing_magic_counts():
     ],
 )  # fmt: skip
 def test_wrong_functions_earn_no_more_whatever_else_a_submission_does(attack, monkeypatch):
-    monkeypatch.setattr(client, "CELL_SECONDS", 3.0)
+    monkeypatch.setattr(worker_client, "CELL_TIMEOUT", 3.0)
     # "double" keeps the sign, which is worth a point
     assert sum(scores(fake.SOLUTION + WRONG + attack)) <= 1
 
 
 @pytest.mark.parametrize(
     "module",
-    ["slamlab.geometry", "slamlab.checks.task", "slamlab.checks.tasks", "slamlab.grading.judge",
-     "slamlab.symbolic", "tests.grading.fake", "tests.grading.conftest"],
+    ["slamlab.geometry", "slamlab.exercises.task", "slamlab.exercises.tasks",
+     "slamlab.grading.judge",
+     "slamlab.models.symbolic", "tests.grading.fake", "tests.grading.conftest"],
 )  # fmt: skip
 def test_answers_and_the_judge_cannot_be_imported(module):
-    result = judged(f"from {module} import *", "import slamlab.noise")
+    result = judged(f"from {module} import *", "import slamlab.models.noise")
     assert "ModuleNotFoundError" in result["cells"].pop(1)
     assert result["cells"] == {}
 
@@ -246,7 +247,7 @@ def test_a_worker_knows_neither_the_project_nor_the_grader_by_its_paths_and_envi
     monkeypatch,
 ):
     monkeypatch.setenv("SLAMLAB_TOKEN", "known to the grader only")
-    monkeypatch.setenv("PYTHONPATH", str(place.__file__))
+    monkeypatch.setenv("PYTHONPATH", str(staging.__file__))
     spy = """
 import os, sys, slamlab
 here = os.path.dirname(slamlab.__path__[0])
@@ -265,7 +266,7 @@ def test_nothing_a_submission_started_outlives_it(tmp_path):
         "import os, time\nif os.fork() == 0:\n"
         f"    while True:\n        open({str(mark)!r}, 'w').close(); time.sleep(0.02)\n"
     )
-    with Workers() as unbounded:
+    with WorkerPool() as unbounded:
         result = judged(cell, fake.SOLUTION, by=unbounded)["verdicts"]
         assert [verdict.points for verdict in result] == FULL
         assert mark.exists()
@@ -275,9 +276,9 @@ def test_nothing_a_submission_started_outlives_it(tmp_path):
 
 
 def test_where_none_can_be_forked_each_worker_is_a_fresh_interpreter(monkeypatch, tmp_path):
-    monkeypatch.setattr("slamlab.grading.workers.FORKS", False)
+    monkeypatch.setattr("slamlab.grading.worker_pool.CAN_FORK", False)
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
-    with Workers() as fresh:
+    with WorkerPool() as fresh:
         result = judged(fake.SOLUTION, "import os; os._exit(0)", "print('x' * 10**6)", by=fresh)
     assert [verdict.points for verdict in result["verdicts"]] == FULL
     assert result["cells"] == {2: "ended the whole Python process"}
@@ -286,20 +287,20 @@ def test_where_none_can_be_forked_each_worker_is_a_fresh_interpreter(monkeypatch
 
 def test_temporary_files_are_gone_afterwards(monkeypatch, tmp_path):
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
-    with Workers(workers().level, warm=False) as own:
+    with WorkerPool(workers().level, warm=False) as own:
         cells = "open('here', 'w').write('x')", fake.SOLUTION, "import os; os._exit(0)"
         assert 1 not in judged(*cells, by=own)["cells"]
     assert list(tmp_path.iterdir()) == []
 
 
 def test_a_worker_that_does_not_start_is_the_graders_problem_and_not_a_score(monkeypatch, tmp_path):
-    monkeypatch.setattr(forked, "BOOT", "raise ImportError('no numpy here')")
+    monkeypatch.setattr(forked_workers, "BOOTSTRAP", "raise ImportError('no numpy here')")
     file = tmp_path / "anna.ipynb"
     file.write_text(notebook(fake.SOLUTION))
-    with Workers() as broken:
-        with pytest.raises(CannotStart, match="no numpy here"):
+    with WorkerPool() as broken:
+        with pytest.raises(WorkerStartError, match="no numpy here"):
             judged(fake.SOLUTION, by=broken)
-        record = judge.grade(Submission(file.name, "anna", file), b"s" * 16, broken)
+        record = judge.grade_submission(Submission(file.name, "anna", file), b"s" * 16, broken)
     assert record.score is None
     assert "no numpy here" in record.reason
 
@@ -308,7 +309,7 @@ def test_a_fault_of_the_graders_own_is_no_score_either(monkeypatch, tmp_path):
     monkeypatch.setattr(submissions, "parse", lambda data: 1 / 0)
     file = tmp_path / "anna.ipynb"
     file.write_text(notebook(fake.SOLUTION))
-    record = judge.grade(Submission(file.name, "anna", file), b"s" * 16, workers())
+    record = judge.grade_submission(Submission(file.name, "anna", file), b"s" * 16, workers())
     assert record.reason == "the grader failed: ZeroDivisionError: division by zero"
 
 
@@ -320,6 +321,6 @@ def test_where_the_package_is_installed_beside_other_libraries_the_worker_sees_o
     (site / "slamlab-0.1.0.dist-info").mkdir()
     (site / "other.py").write_text("")
     monkeypatch.setattr("sys.path", [str(site), str(tmp_path / "absent" / "site-packages")])
-    (view,), readable = place.libraries(tmp_path)
+    (view,), readable = staging.stage_libraries(tmp_path)
     assert [entry.name for entry in view.iterdir()] == ["other.py"]
     assert readable == [view, site / "other.py"]

@@ -7,11 +7,11 @@ from dataclasses import replace
 
 import pytest
 
-from slamlab.checks.verdict import Verdict
 from slamlab.cli import main
-from slamlab.grading import classreport, kinship, late, tables
+from slamlab.exercises.verdict import Verdict
+from slamlab.grading import class_report, grade_tables, late_policy, similarity
 from slamlab.grading.gradebook import Gradebook
-from slamlab.grading.late import WrongPolicy
+from slamlab.grading.late_policy import LatePolicyError
 from slamlab.grading.marks import mark
 from slamlab.grading.records import Record
 from tests.grading import fake
@@ -36,7 +36,7 @@ def record(name="anna.ipynb", when=None, **more):
 def policy(tmp_path):
     file = tmp_path / "policy.toml"
     file.write_text(POLICY)
-    return late.load(file)
+    return late_policy.load(file)
 
 
 @pytest.mark.parametrize(
@@ -53,7 +53,7 @@ def policy(tmp_path):
 )
 def test_lateness_costs_a_share_of_what_was_earned_for_every_day_begun(policy, when, taken):
     made = mark(record(when=when), policy=policy)
-    assert made.late == pytest.approx(taken)
+    assert made.late_penalty == pytest.approx(taken)
     assert made.total == pytest.approx(4 - taken)
 
 
@@ -73,13 +73,16 @@ def test_a_policy_that_cannot_be_used_is_told(tmp_path, text, said):
     file = tmp_path / "policy.toml"
     if text is not None:
         file.write_text(text)
-    with pytest.raises(WrongPolicy, match=said):
-        late.load(file)
+    with pytest.raises(LatePolicyError, match=said):
+        late_policy.load(file)
 
 
 def test_points_set_by_hand_count_in_place_of_the_judges_and_are_told():
-    by_hand = {("anna.ipynb", "99-turn"): (2.0, "right idea"), ("ben.ipynb", "99-double"): (0, "")}
-    made = mark(record(), by_hand)
+    overrides = {
+        ("anna.ipynb", "99-turn"): (2.0, "right idea"),
+        ("ben.ipynb", "99-double"): (0, ""),
+    }
+    made = mark(record(), overrides)
     assert made.points == {"99-double": 3, "99-turn": 2}
     assert "99-turn set to 2: right idea" in made.note
 
@@ -98,7 +101,7 @@ def read(path):
 
 def test_moodle_and_canvas_get_the_columns_they_take_in(tmp_path):
     kos, ivo = record("Ana Kos.ipynb", number="123"), record("=ivo.ipynb", number="77")
-    tables.write_tables(tmp_path, [mark(kos), mark(ivo)])
+    grade_tables.write_tables(tmp_path, [mark(kos), mark(ivo)])
     moodle = {row[0]: row for row in read(tmp_path / "moodle.csv")}
     assert moodle["Identifier"] == [
         "Identifier", "Full name", "Grade", "Maximum Grade", "Feedback comments",
@@ -114,7 +117,7 @@ def test_moodle_and_canvas_get_the_columns_they_take_in(tmp_path):
 
 def test_the_page_on_the_class_counts_names_mistakes_and_escapes_what_students_wrote(tmp_path):
     lost = record("<script>.ipynb", reason="<script>empty</script>", verdicts=())
-    classreport.write_report(tmp_path, [mark(record()), mark(record("b.ipynb")), mark(lost)])
+    class_report.write_report(tmp_path, [mark(record()), mark(record("b.ipynb")), mark(lost)])
     page = (tmp_path / "class.html").read_text("utf-8")
     assert "2 all, 0 some, 0 none" in page  # 99-double
     assert "0 all, 2 some, 0 none" in page  # 99-turn
@@ -133,7 +136,7 @@ def double(a):
 
 
 def prints(source):
-    return kinship.fingerprints([(1, source)], fake.EXERCISE).get("99-double")
+    return similarity.fingerprints([(1, source)], fake.EXERCISE).get("99-double")
 
 
 def test_solutions_alike_but_for_names_and_layout_are_found():
@@ -149,8 +152,8 @@ def test_solutions_alike_but_for_names_and_layout_are_found():
 def test_only_different_students_make_a_cluster():
     anna, ben = record(fingerprints={"99-double": "x"}), record("ben.ipynb")
     ben = replace(ben, fingerprints={"99-double": "x"})
-    assert kinship.clusters([anna, ben]) == [("99-double", [anna, ben])]
-    assert kinship.clusters([anna, replace(ben, student="anna")]) == []
+    assert similarity.clusters([anna, ben]) == [("99-double", [anna, ben])]
+    assert similarity.clusters([anna, replace(ben, student="anna")]) == []
 
 
 @pytest.fixture
@@ -202,7 +205,7 @@ def test_gradebooks_of_shards_are_merged_without_doubling(results, tmp_path, cap
     for _ in range(2):
         assert main(["grade", "merge", str(results), str(results), "--out", str(merged)]) == 0
     with Gradebook(f"sqlite:///{merged / 'grades.db'}") as book:
-        assert len(book.known()) == len(book.adjustments()) == 1
+        assert len(book.attempts()) == len(book.overrides()) == 1
     assert score(merged) == "5.5"
 
 
@@ -212,7 +215,7 @@ def test_nbgraders_gradebook_is_filled(results, tmp_path, capsys):
     lost = record("ben.ipynb", reason="empty", verdicts=(), exercise=None)
     with Gradebook(f"sqlite:///{results / 'grades.db'}") as book:
         book.add(lost)
-        book.adjust("ben.ipynb", "99", "99-turn", 1.5, "read on paper")
+        book.override_points("ben.ipynb", "99", "99-turn", 1.5, "read on paper")
     url = f"sqlite:///{tmp_path / 'gradebook.db'}"
     words = ["grade", "export", "--out", str(results), "--nbgrader-gradebook", url]
     assert main(words) == main(words) == 0
@@ -226,7 +229,7 @@ def test_nbgraders_gradebook_is_filled(results, tmp_path, capsys):
 def handed_in(folder):
     from slamlab.grading import submissions
 
-    (found,) = submissions.find(folder)
+    (found,) = submissions.find_submissions(folder)
     return found.handed_in
 
 
@@ -258,15 +261,15 @@ def test_a_note_on_the_time_that_the_student_may_have_written_is_not_believed(tm
 
 
 def test_every_submission_is_in_just_one_shard(tmp_path):
-    from slamlab.grading import folder
-    from slamlab.grading.submissions import Submission, Unreadable
+    from slamlab.grading import batch as folder
+    from slamlab.grading.submissions import Submission, SubmissionError
 
     found = [Submission(f"s{i}.ipynb", f"s{i}", tmp_path) for i in range(40)]
-    parts = [folder.shard(found, f"{i}/3") for i in (1, 2, 3)]
+    parts = [folder.select_shard(found, f"{i}/3") for i in (1, 2, 3)]
     assert sorted(s.name for part in parts for s in part) == sorted(s.name for s in found)
     for wrong in ("0/3", "4/3", "1", "a/b", "1/0"):
-        with pytest.raises(Unreadable, match="--shard is I/N"):
-            folder.shard(found, wrong)
+        with pytest.raises(SubmissionError, match="--shard is I/N"):
+            folder.select_shard(found, wrong)
 
 
 @pytest.mark.slow
@@ -285,7 +288,7 @@ def test_a_cluster_gives_the_marks_this_machine_gives(tmp_path, capsys):
         there = [*words, str(tmp_path / "there"), "--scheduler", cluster.scheduler_address]
         assert main(there) == 0
     books = [Gradebook(f"sqlite:///{tmp_path / name / 'grades.db'}") for name in ("here", "there")]
-    one, other = ([replace(r, seconds={}) for r in book.latest()] for book in books)
+    one, other = ([replace(r, seconds={}) for r in book.latest_attempts()] for book in books)
     assert one == other
     assert [r.graded for r in one] == [True, False]
 

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from benchmarks.grading import CONFIG, NAME, derived
-from slamlab.checks import catalogue
+from slamlab.exercises import catalogue
 from slamlab.grading import judge, notebooks, submissions
 from tests.grading.conftest import workers
 
@@ -63,7 +63,9 @@ def test_nbgrader_scores_each_task_as_the_judge_does(course, student):
 
     exercise = catalogue.exercise("04")
     file = course / "submitted" / student / NAME / f"{NAME}.ipynb"
-    result = judge.judge(exercise, notebooks.parse(file.read_bytes()).cells, b"nbgrader", workers())
+    result = judge.judge_notebook(
+        exercise, notebooks.parse(file.read_bytes()).cells, b"nbgrader", workers()
+    )
     ours = {verdict.task: verdict.points for verdict in result["verdicts"]}
     with Gradebook(f"sqlite:///{course / 'gradebook.db'}") as gradebook:
         submission = gradebook.find_submission(NAME, student)
@@ -88,7 +90,11 @@ def test_released_from_the_solution_the_functions_keep_their_heads(tmp_path):
 
 
 def test_its_folder_of_submissions_is_graded_as_it_is(course):
-    found = submissions.find(course)
+    found = submissions.find_submissions(course)
     assert {s.student for s in found} == {"solved", "untouched", "forgot"}
     shutil.rmtree(course / "release")
-    assert {s.student for s in submissions.find(course)} == {"solved", "untouched", "forgot"}
+    assert {s.student for s in submissions.find_submissions(course)} == {
+        "solved",
+        "untouched",
+        "forgot",
+    }

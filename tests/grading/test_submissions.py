@@ -7,7 +7,7 @@ import time
 import pytest
 
 from slamlab.grading import notebooks, submissions
-from slamlab.grading.submissions import Submission, Unreadable
+from slamlab.grading.submissions import Submission, SubmissionError
 from tests.grading.conftest import notebook
 
 
@@ -18,7 +18,9 @@ def lay(folder, *names, text="{}"):
 
 
 def found(folder, out=None):
-    return {s.name: s.student for s in submissions.find(folder, out) if s.problem is None}
+    return {
+        s.name: s.student for s in submissions.find_submissions(folder, out) if s.problem is None
+    }
 
 
 def test_flat_files_and_folders_of_students(tmp_path):
@@ -56,26 +58,26 @@ def test_results_checkpoints_and_hidden_folders_are_no_submissions(tmp_path):
     lay(tmp_path, "anna.ipynb", "out/x.ipynb", ".ipynb_checkpoints/anna-checkpoint.ipynb")
     lay(tmp_path, "__MACOSX/anna.ipynb", "._anna.ipynb")
     assert list(found(tmp_path, tmp_path / "out")) == ["anna.ipynb"]
-    assert all(s.name != "out" for s in submissions.find(tmp_path, tmp_path / "out"))
+    assert all(s.name != "out" for s in submissions.find_submissions(tmp_path, tmp_path / "out"))
 
 
 def test_a_folder_without_a_notebook_is_listed_with_its_reason(tmp_path):
     lay(tmp_path, "anna/report.pdf", "ben.ipynb/empty.txt", "ciro/99/x.ipynb")
-    problems = {s.name: s.problem for s in submissions.find(tmp_path)}
+    problems = {s.name: s.problem for s in submissions.find_submissions(tmp_path)}
     assert problems["anna"] == problems["ben.ipynb"] == "a folder without a notebook in it"
     assert problems["ciro/99/x.ipynb"] is None
-    with pytest.raises(Unreadable, match="without a notebook"):
-        submissions.read(submissions.find(tmp_path)[0])
+    with pytest.raises(SubmissionError, match="without a notebook"):
+        submissions.read_notebook(submissions.find_submissions(tmp_path)[0])
 
 
 def test_a_folder_that_is_none_is_refused(tmp_path):
-    with pytest.raises(Unreadable, match="is no folder"):
-        submissions.find(tmp_path / "nowhere")
+    with pytest.raises(SubmissionError, match="is no folder"):
+        submissions.find_submissions(tmp_path / "nowhere")
 
 
 def test_what_moodle_or_canvas_delivered_is_listed_whatever_it_is(tmp_path):
     lay(tmp_path, "Ben Ivo_102_assignsubmission_file_work.zip", "novak_1021_55031_x.pdf", "a.pdf")
-    listed = {s.student: s.problem for s in submissions.find(tmp_path)}
+    listed = {s.student: s.problem for s in submissions.find_submissions(tmp_path)}
     assert listed == {"Ben Ivo": "not a notebook", "novak": "not a notebook"}
 
 
@@ -86,7 +88,7 @@ def test_folders_in_folders_without_end_are_not_followed(tmp_path, monkeypatch):
         os.mkdir("ben")
         os.chdir("ben")
     try:
-        problems = {s.name: s.problem for s in submissions.find(tmp_path)}
+        problems = {s.name: s.problem for s in submissions.find_submissions(tmp_path)}
     finally:  # nor could pytest clear them away
         for _ in range(1500):
             os.chdir("..")
@@ -119,20 +121,20 @@ def test_names_of_any_kind_are_found(tmp_path):
     ids=lambda value: repr(value[:40]),
 )
 def test_what_is_no_notebook_is_refused_with_its_reason(data, reason):
-    with pytest.raises(Unreadable, match=reason):
+    with pytest.raises(SubmissionError, match=reason):
         notebooks.parse(data)
 
 
 def test_a_file_too_large_a_link_and_a_pipe_are_refused(tmp_path):
     large = tmp_path / "large.ipynb"
     with open(large, "wb") as file:
-        file.truncate(submissions.MOST_BYTES + 1)
+        file.truncate(submissions.MAX_NOTEBOOK_BYTES + 1)
     (tmp_path / "link.ipynb").symlink_to(large)
     os.mkfifo(tmp_path / "pipe.ipynb")
     for name, reason in [("large", "MB"), ("link", "a link"), ("pipe", "not a file")]:
         path = tmp_path / f"{name}.ipynb"
-        with pytest.raises(Unreadable, match=reason):
-            submissions.read(Submission(path.name, name, path))
+        with pytest.raises(SubmissionError, match=reason):
+            submissions.read_notebook(Submission(path.name, name, path))
 
 
 def test_cells_are_read_in_order_checks_left_out_odd_ones_ignored():
@@ -168,8 +170,8 @@ def test_a_cell_that_is_nearly_a_check_is_read_at_once(source):
 
 
 def test_more_cells_than_anybody_writes_are_refused():
-    cells = [{"cell_type": "code", "source": "1 / 0"}] * (notebooks.MOST_CELLS + 1)
-    with pytest.raises(Unreadable, match="1001 cells of code"):
+    cells = [{"cell_type": "code", "source": "1 / 0"}] * (notebooks.MAX_CODE_CELLS + 1)
+    with pytest.raises(SubmissionError, match="1001 cells of code"):
         notebooks.parse(json.dumps({"cells": cells}).encode())
 
 
@@ -197,13 +199,13 @@ def test_an_old_format_is_upgraded_and_other_encodings_are_read():
 
 def test_a_lesson_is_no_submission():
     text = notebook(exercise=None, metadata={"slamlab": {"lesson": "99"}})
-    with pytest.raises(Unreadable, match="a lesson, not an exercise"):
+    with pytest.raises(SubmissionError, match="a lesson, not an exercise"):
         notebooks.parse(text.encode())
 
 
 def exercise(name, text, default=None):
     submission = Submission(name, "anna", None)
-    return submissions.exercise_of(submission, notebooks.parse(text.encode()), default).id
+    return submissions.identify_exercise(submission, notebooks.parse(text.encode()), default).id
 
 
 def test_the_exercise_is_told_by_the_metadata_else_the_name_else_the_default():
@@ -216,5 +218,5 @@ def test_the_exercise_is_told_by_the_metadata_else_the_name_else_the_default():
     assert exercise("99.ipynb", notebook(exercise="77")) == "99"
     for metadata in (5, {"slamlab": 5}, {"slamlab": {"exercise": []}}):
         assert exercise("99.ipynb", notebook(exercise=None, metadata=metadata)) == "99"
-    with pytest.raises(Unreadable, match="--exercise"):
+    with pytest.raises(SubmissionError, match="--exercise"):
         exercise("anna 1999.ipynb", silent)

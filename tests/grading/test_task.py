@@ -6,9 +6,9 @@ import re
 import numpy as np
 import pytest
 
-from slamlab.checks.drives import Drive, StudentError
-from slamlab.checks.exercise import Exercise
-from slamlab.checks.task import Law
+from slamlab.exercises.drives import Drive, StudentError
+from slamlab.exercises.exercise import Exercise
+from slamlab.exercises.task import Law
 from tests.grading import fake
 
 TURN = fake.EXERCISE.task("99-turn")

@@ -10,8 +10,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
-from slamlab.grading import wire
-from slamlab.grading.wire import WireError
+from slamlab.grading import wire_protocol
+from slamlab.grading.wire_protocol import WireError
 from tests.grading.fuzz import damaged, rejected_or_plain
 
 PLAIN = st.recursive(
@@ -36,7 +36,7 @@ def frame(header, payload=b""):
 
 
 def received(data):
-    return wire.receive(io.BytesIO(data))
+    return wire_protocol.receive(io.BytesIO(data))
 
 
 def depth(value):
@@ -49,7 +49,7 @@ def depth(value):
     st.dictionaries(st.text(max_size=20), ARRAY, max_size=3),
 )
 def test_what_is_sent_is_what_is_received(head, arrays):
-    got_head, got = received(wire.pack(head, arrays))
+    got_head, got = received(wire_protocol.pack(head, arrays))
     assert got_head == head
     assert set(got) == set(arrays)
     for name, array in arrays.items():
@@ -60,7 +60,7 @@ def test_what_is_sent_is_what_is_received(head, arrays):
 
 def test_a_stream_that_ends_before_a_frame_is_told_from_one_that_ends_within():
     assert received(b"") is None
-    whole = wire.pack({"a": 1}, {"x": np.arange(3.0)})
+    whole = wire_protocol.pack({"a": 1}, {"x": np.arange(3.0)})
     for length in range(1, len(whole)):
         with pytest.raises(WireError, match="ended within"):
             received(whole[:length])
@@ -101,8 +101,8 @@ def test_a_stream_that_ends_before_a_frame_is_told_from_one_that_ends_within():
         frame({"head": {}, "arrays": [[1, "f8", [1]]]}, b"12345678"),
         frame({"head": {}, "arrays": [["x", "b1", [1]]] * 2}, b"12"),
         frame({"head": {}, "arrays": [[str(n), "b1", [0]] for n in range(65)]}),
-        struct.pack("<II", wire.MOST_HEADER + 1, 0),
-        struct.pack("<II", 2, wire.MOST_PAYLOAD + 1),
+        struct.pack("<II", wire_protocol.MAX_HEADER + 1, 0),
+        struct.pack("<II", 2, wire_protocol.MAX_PAYLOAD + 1),
         struct.pack("<II", 2**32 - 1, 2**32 - 1),
     ],
     ids=lambda data: repr(data[8:40]),
@@ -117,8 +117,8 @@ def test_what_is_no_frame_is_rejected(data):
     [
         ({"a": object()}, {}),
         ({"a": float("nan")}, {}),
-        ({"a": "x" * wire.MOST_HEADER}, {}),
-        ({}, {"x": np.zeros(wire.MOST_PAYLOAD // 8 + 1)}),
+        ({"a": "x" * wire_protocol.MAX_HEADER}, {}),
+        ({}, {"x": np.zeros(wire_protocol.MAX_PAYLOAD // 8 + 1)}),
         ({}, {"x": np.array([1j])}),
         ({}, {"x": np.array(["text"])}),
         ({}, {"x": np.array([object()])}),
@@ -126,7 +126,7 @@ def test_what_is_no_frame_is_rejected(data):
 )
 def test_what_fits_no_frame_is_not_sent(head, arrays):
     with pytest.raises(WireError):
-        wire.pack(head, arrays)
+        wire_protocol.pack(head, arrays)
 
 
 def test_bytes_that_are_no_truth_values_become_ones():

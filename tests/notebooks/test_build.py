@@ -7,9 +7,9 @@ import nbformat
 import pytest
 
 from course import build as tool
-from course.exercise import STUB, SolutionError, regions, strip
+from course.exercise import STUB, SolutionError, solution_regions, strip_solutions
 from course.source import CourseError
-from slamlab.checks import catalogue
+from slamlab.exercises import catalogue
 
 HEAD = """\
 # %% [markdown] slideshow={"slide_type": "slide"}
@@ -67,7 +67,7 @@ def total(numbers):
         # done
         ### END SOLUTION
     return s'''
-    assert strip(cell) == (
+    assert strip_solutions(cell) == (
         'def total(numbers):\n    """Their sum."""\n    s = 0\n    for n in numbers:\n'
         f"        {STUB}\n    return s"
     )
@@ -97,7 +97,7 @@ def total(numbers):
 )
 def test_a_solution_that_is_marked_wrongly_is_refused(cell, says):
     with pytest.raises(SolutionError, match=says):
-        regions(cell)
+        solution_regions(cell)
 
 
 # -- an exercise of the course, whichever it is
@@ -114,7 +114,7 @@ def test_exercise_and_solution_differ_in_solutions_and_checked_outputs_only(exer
     for unsolved, solved in zip(*(notebook.cells for notebook in exercise), strict=True):
         assert unsolved.id == solved.id
         if "BEGIN SOLUTION" in solved.source:
-            assert unsolved.source == strip(solved.source)
+            assert unsolved.source == strip_solutions(solved.source)
             assert unsolved.metadata.nbgrader.solution
         else:
             assert unsolved.source == solved.source
@@ -292,7 +292,7 @@ def test_a_missing_a_foreign_and_a_cleared_notebook_are_told(root):
     nbformat.write(derived.notebook, derived.path)
     assert tool.differences(path, root) == ["notebooks/90_sums.ipynb: was not run"]
     nbformat.write(derived.notebook, root / "notebooks" / "91_mine.ipynb")
-    assert tool.strangers(root) == ["notebooks/91_mine.ipynb"]
+    assert tool.orphans(root) == ["notebooks/91_mine.ipynb"]
 
 
 def test_an_unknown_name_is_told_without_a_traceback(capsys):

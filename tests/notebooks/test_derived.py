@@ -10,11 +10,11 @@ import pytest
 from nbgrader.nbgraderformat import MetadataValidator
 from nbgrader.preprocessors import CheckCellMetadata
 
-from course.build import differences, strangers
+from course.build import differences, orphans
 from course.derive import derive
 from course.exercise import solution_lines
 from course.source import ID, ROOT, read
-from slamlab.checks import catalogue
+from slamlab.exercises import catalogue
 from tests.notebooks import (
     EXERCISES,
     LESSONS,
@@ -40,7 +40,7 @@ def test_a_stored_notebook_is_what_its_source_derives(path):
 
 
 def test_every_notebook_has_a_source():
-    assert strangers() == []
+    assert orphans() == []
 
 
 def test_every_exercise_of_the_catalogue_has_a_source():

@@ -8,10 +8,15 @@ import numpy as np
 import pytest
 
 from course.source import ROOT, read
-from slamlab.filters import linear
+from slamlab.filters import linear_kalman
 
 LESSONS = ROOT / "course" / "lessons"
-ROOMS = ("geometry", "models", "jacobians", "noise")
+MODULES = {
+    "geometry": ["slamlab.geometry"],
+    "models": ["slamlab.models.motion", "slamlab.models.observation"],
+    "jacobians": ["slamlab.models.jacobians"],
+    "noise": ["slamlab.models.noise"],
+}
 ANY_LENGTH = 5  # what the table calls n
 
 
@@ -46,7 +51,8 @@ ARGUMENTS |= {"W": (3, 2), "C": (2, 2), "T": (3, 3), "points": (ANY_LENGTH, 2)}
 @pytest.mark.parametrize(("code", "size"), FUNCTIONS, ids=[code for code, _ in FUNCTIONS])
 def test_a_symbol_of_the_notation_is_a_function_that_returns_its_shape(code, size):
     room, name, names = re.fullmatch(r"(\w+)\.(\w+)\((.*)\)", code).groups()
-    function = getattr(importlib.import_module(f"slamlab.{room}"), name)
+    modules = map(importlib.import_module, MODULES[room])
+    (function,) = (getattr(module, name) for module in modules if hasattr(module, name))
     names = names.split(", ")
     assert names == list(inspect.signature(function).parameters)[: len(names)] or room == "geometry"
     rng = np.random.default_rng(1)
@@ -59,16 +65,16 @@ def test_a_symbol_of_the_notation_is_a_function_that_returns_its_shape(code, siz
 def test_a_symbol_of_the_filter_is_a_field_of_that_shape():
     sizes = {"n": 3, "m": 2}
     root = np.random.default_rng(2).standard_normal((3, 5))
-    before = linear.belief(np.ones(3), root @ root.T)
-    b = linear.predict(before, np.eye(3), np.eye(3))
-    b, step = linear.update(b, np.ones(2), root[:2, :3], np.eye(2))
+    before = linear_kalman.belief(np.ones(3), root @ root.T)
+    b = linear_kalman.predict(before, np.eye(3), np.eye(3))
+    b, step = linear_kalman.update(b, np.ones(2), root[:2, :3], np.eye(2))
     rows = tables("notation")[1]
     assert len(rows) == 8
     for _, code, size, _ in rows:
         owner, _, field = code.strip("`").partition(".")
         if owner == "linear":
             function, names = re.fullmatch(r"(\w+)\((.*)\)", field).groups()
-            parameters = list(inspect.signature(getattr(linear, function)).parameters)
+            parameters = list(inspect.signature(getattr(linear_kalman, function)).parameters)
             assert names.split(", ") == parameters[: names.count(",") + 1]
             continue
         want = tuple(sizes[letter] for letter in re.findall("[nm]", size))
@@ -85,11 +91,11 @@ def test_a_symbol_of_the_graph_is_a_function_that_returns_its_shape():
         assert np.shape(function(*rng.uniform(0.5, 1.5, (3, 3)))) == shape(size)
 
 
-@pytest.mark.parametrize("room", ROOMS)
+@pytest.mark.parametrize("room", MODULES)
 def test_every_function_of_the_models_stands_in_the_notation(room):
-    module = importlib.import_module(f"slamlab.{room}")
     public = {
         f"{room}.{name}"
+        for module in map(importlib.import_module, MODULES[room])
         for name, value in vars(module).items()
         if inspect.isfunction(value)
         and value.__module__ == module.__name__

@@ -3,7 +3,7 @@
 import pytest
 from packaging.requirements import Requirement
 
-from slamlab import setup_check
+from slamlab.checks import setup_check
 
 
 def test_this_machine_is_fit_for_the_course(capsys):

@@ -7,7 +7,7 @@ import numpy as np
 from slamlab.layers import Points, Poses
 from slamlab.readings import Reading, Trajectory
 from slamlab.sources.base import Source
-from slamlab.views.live.screen import Screen
+from slamlab.views.live.back_pressure import Screen
 
 
 class Walk(Source):
@@ -67,14 +67,14 @@ class Sum:
         return [Points("map", np.array(self._track)[:, :2]), Poses("corrected", self.pose[None])]
 
 
-class Shown(Screen):
-    """A screen that keeps what it was sent; drawn by hand, or at once."""
+class FakeScreen(Screen):
+    """Screen that records the scenes it was sent; acknowledged by hand, or at once."""
 
     def __init__(self, at_once=True):
         super().__init__(acknowledged=True)
         self.scenes, self.most, self.at_once = [], 0, at_once
 
-    def _put(self, scene):
+    def _send_frame(self, scene):
         self.scenes.append(scene)
         self.most = max(self.most, self.sent - self.drawn)
         if self.at_once:
@@ -86,7 +86,7 @@ class Shown(Screen):
 
     def open(self):
         """The browser is ready."""
-        self._begun()
+        self._client_ready()
 
 
 async def until(done, patience=20):

@@ -8,14 +8,14 @@ import ipywidgets
 import pytest
 
 from slamlab import estimators, sources, views
-from slamlab.views.live import loop as loops
-from slamlab.views.live import show
+from slamlab.views.live import live_view
+from slamlab.views.live import run_loop as loops
 from slamlab.views.live.canvas import LiveCanvas
 from slamlab.views.live.controls import Controls
-from slamlab.views.live.loop import Loop
-from slamlab.views.live.pair import Pair
 from slamlab.views.live.raster import RasterScreen
-from tests.views.live_fakes import Car, Shown, Sum, Walk
+from slamlab.views.live.run_loop import RunLoop
+from slamlab.views.live.stepper import Stepper
+from tests.views.live_fakes import Car, FakeScreen, Sum, Walk
 
 ALT = "a robot walks"
 WIDGET = "application/vnd.jupyter.widget-view+json"
@@ -25,7 +25,7 @@ WIDGET = "application/vnd.jupyter.widget-view+json"
 def stored(monkeypatch):
     """What the cells of a notebook store."""
     shown = []
-    monkeypatch.setattr(show, "display", lambda data, **rest: shown.append((data, rest)))
+    monkeypatch.setattr(live_view, "display", lambda data, **rest: shown.append((data, rest)))
     yield shown
     loops.stop()
 
@@ -71,12 +71,12 @@ def test_the_still_is_the_same_bytes_each_time(stored):
 
 
 def test_the_still_has_a_panel_for_each_group_of_curves():
-    pair = Pair(
+    pair = Stepper(
         Walk, lambda source: Sum(), curves={"way [m]": {"corrected": lambda pair: pair.time}}
     )
     pair.reset(0)
     pair.step()
-    above, below = show.still(pair.scene(), "A walk", (720, 480)).axes
+    above, below = live_view.still_picture(pair.scene(), "A walk", (720, 480)).axes
     assert (above.get_title(), below.get_ylabel()) == ("A walk", "way [m]")
     (line,) = below.lines
     assert line.get_xydata().tolist() == [[0, 0], [1, 1]]
@@ -142,13 +142,13 @@ class Heard(LiveCanvas):
         self.widget.send = lambda content, buffers: self.messages.append((content, buffers))
 
     def say(self, **content):
-        self._hear(None, content, [])
+        self._on_message(None, content, [])
 
 
 def test_the_canvas_speaks_only_when_the_browser_is_ready_and_waits_for_its_word(stored):
-    pair = Pair(Walk, lambda source: Sum())
+    pair = Stepper(Walk, lambda source: Sum())
     pair.reset(0)
-    loop = Loop(pair, Heard())
+    loop = RunLoop(pair, Heard())
     canvas = loop.screen
     loop.step()
     assert canvas.messages == []
@@ -170,9 +170,9 @@ def test_the_canvas_speaks_only_when_the_browser_is_ready_and_waits_for_its_word
 
 def test_a_view_that_is_gone_pauses_and_is_shown_anew_as_it_was(stored):
     async def watch():
-        pair = Pair(Walk, lambda source: Sum())
+        pair = Stepper(Walk, lambda source: Sum())
         pair.reset(0)
-        loop = Loop(pair, Heard())
+        loop = RunLoop(pair, Heard())
         loop.screen.say(kind="ready")
         loop.run()
         loop.screen.say(kind="gone")
@@ -184,9 +184,9 @@ def test_a_view_that_is_gone_pauses_and_is_shown_anew_as_it_was(stored):
 
 
 def test_a_browser_on_the_same_machine_gets_no_short_messages(stored):
-    pair = Pair(Walk, lambda source: Sum())
+    pair = Stepper(Walk, lambda source: Sum())
     pair.reset(0)
-    canvas = Loop(pair, Heard()).screen
+    canvas = RunLoop(pair, Heard()).screen
     for near in (True, False):
         canvas.say(kind="ready", near=near)
     (_, (long,)), (_, (short,)) = canvas.messages
@@ -197,18 +197,18 @@ def test_a_browser_on_the_same_machine_gets_no_short_messages(stored):
 @pytest.mark.parametrize("message", [None, [], {}, {"kind": "drawn"}, {"kind": "key", "name": {}}])
 def test_what_no_browser_of_ours_says_is_ignored(message):
     canvas = LiveCanvas()
-    pair = Pair(Walk, lambda source: Sum())
+    pair = Stepper(Walk, lambda source: Sum())
     pair.reset(0)
-    Loop(pair, canvas)
-    canvas._hear(None, message, [])
+    RunLoop(pair, canvas)
+    canvas._on_message(None, message, [])
     assert pair.count == 1
 
 
 def test_a_closed_widget_ends_the_loop():
     async def watch():
-        pair = Pair(Walk, lambda source: Sum())
+        pair = Stepper(Walk, lambda source: Sum())
         pair.reset(0)
-        loop = Loop(pair, LiveCanvas())
+        loop = RunLoop(pair, LiveCanvas())
         loop.run()
         loop.screen.widget.comm.handle_close({})
         assert not loop.running
@@ -218,9 +218,9 @@ def test_a_closed_widget_ends_the_loop():
 
 @pytest.fixture
 def controls():
-    pairs = {"Walk": Pair(Walk, lambda source: Sum()), "Car": Pair(Car, lambda source: Sum())}
+    pairs = {"Walk": Stepper(Walk, lambda source: Sum()), "Car": Stepper(Car, lambda source: Sum())}
     pairs["Walk"].reset(0)
-    return Controls(Loop(pairs["Walk"], Shown()), pairs)
+    return Controls(RunLoop(pairs["Walk"], FakeScreen()), pairs)
 
 
 def visible(controls):
@@ -230,9 +230,9 @@ def visible(controls):
 def test_buttons_for_driving_are_there_when_there_is_something_to_drive(controls):
     async def watch():
         assert not visible(controls)
-        controls.which[1].click()
+        controls.source_buttons[1].click()
         assert visible(controls)
-        assert [b.button_style for b in controls.which] == ["", "info"]
+        assert [b.button_style for b in controls.source_buttons] == ["", "info"]
         controls.drive[1].click()
         assert controls.loop.pair.source.commands == [(0.4, 0.0)]
 

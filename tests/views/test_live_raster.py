@@ -1,4 +1,4 @@
-"""The picture without JavaScript: pixels stand where the numbers say."""
+"""Rasterisation without JavaScript: pixels stand where the numbers say."""
 
 import asyncio
 import io
@@ -9,8 +9,8 @@ from PIL import Image
 
 from slamlab.layers import Boxes, Ellipses, Points, Poses, Samples, Segments
 from slamlab.views import COLOURS
-from slamlab.views.live.packing import Scene
-from slamlab.views.live.raster import GAP, RasterScreen, paint, png
+from slamlab.views.live.frame_packing import Scene
+from slamlab.views.live.raster import FRAME_PERIOD, RasterScreen, png, rasterise
 
 SIZE = (200, 100)
 
@@ -23,7 +23,7 @@ def coloured(picture, name):
 
 def test_scales_are_equal_and_y_points_up():
     dots = [Points("map", [[0.0, 0.0]]), Points("scan", [[4.0, 0.0]]), Points("truth", [[0.0, 4]])]
-    picture = paint(Scene(dots), SIZE)
+    picture = rasterise(Scene(dots), SIZE)
     origin, right, up = (coloured(picture, name).mean(axis=0) for name in ("map", "scan", "truth"))
     assert right[0] - origin[0] == pytest.approx(origin[1] - up[1], abs=1)
     assert right[1] == pytest.approx(origin[1], abs=1)
@@ -31,7 +31,7 @@ def test_scales_are_equal_and_y_points_up():
 
 
 def test_all_is_within_the_picture():
-    picture = paint(Scene([Points("map", [[-50.0, 3.0], [70.0, -9.0]])]), SIZE)
+    picture = rasterise(Scene([Points("map", [[-50.0, 3.0], [70.0, -9.0]])]), SIZE)
     assert len(coloured(picture, "map")) == 2 * 5 * 5
 
 
@@ -46,22 +46,22 @@ def test_all_is_within_the_picture():
     ],
 )
 def test_every_kind_of_layer_leaves_its_mark(layer):
-    assert len(coloured(paint(Scene([layer]), SIZE), "map")) > 20
+    assert len(coloured(rasterise(Scene([layer]), SIZE), "map")) > 20
 
 
 def test_a_line_has_no_gaps():
-    at = coloured(paint(Scene([Segments("map", [[0.0, 0, 3, 1]])]), SIZE), "map")
+    at = coloured(rasterise(Scene([Segments("map", [[0.0, 0, 3, 1]])]), SIZE), "map")
     assert set(np.diff(np.unique(at[:, 0]))) == {1}
 
 
 @pytest.mark.parametrize("layers", [[], [Points("map", np.empty((0, 2)))], [Poses("map", [])]])
 def test_nothing_is_an_empty_picture(layers):
-    assert paint(Scene(layers), SIZE).shape == (100, 200, 3)
+    assert rasterise(Scene(layers), SIZE).shape == (100, 200, 3)
 
 
 def test_what_is_not_finite_is_left_out():
     rows = [[np.nan, 0, 1, 1], [0.0, 0, 1, 1]]
-    picture = paint(Scene([Segments("map", rows), Points("scan", [[np.inf, 1.0]])]), SIZE)
+    picture = rasterise(Scene([Segments("map", rows), Points("scan", [[np.inf, 1.0]])]), SIZE)
     assert len(coloured(picture, "map")) and not len(coloured(picture, "scan"))
 
 
@@ -82,6 +82,6 @@ def test_the_screen_is_free_again_after_a_while():
     screen = RasterScreen(size=SIZE)
     screen.offer(Scene([]))
     assert not screen.free
-    asyncio.run(screen.until_drawn())
+    asyncio.run(screen.wait_until_drawn())
     assert screen.free
-    assert GAP <= 0.2
+    assert FRAME_PERIOD <= 0.2

@@ -1,6 +1,13 @@
-"""eMIR, the faculty's robot: its frames of text, and a driver that adds up its way."""
+"""eMIR driver: the faculty's wheeled robot, its text protocol and wheel odometry.
 
-from slamlab.devices.emir.odometry import Calibration
-from slamlab.devices.emir.robot import Emir
+Read in this order:
+
+- ``frames``: text frames with a checksum; ``commands``, ``status``: what they hold
+- ``wheel_odometry``: counters unwrapped to a pose; ``receiver``: frames to status and odometry
+- ``session``: one connection, with its keep-alive; ``driver``: Emir, with its watchdog
+"""
+
+from slamlab.devices.emir.driver import Emir
+from slamlab.devices.emir.wheel_odometry import Calibration
 
 __all__ = ["Calibration", "Emir"]

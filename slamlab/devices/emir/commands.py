@@ -1,14 +1,14 @@
-"""What eMIR can be told, each as the frame that goes over the line."""
+"""Commands of eMIR, each encoded as the frame that goes over the line."""
 
 from slamlab.devices.emir.frames import frame
 
 STOP, MOVE, TRANSLATE, ROTATE, BEEP, SENSORS, OUTPUT = range(7)
 INFO, MIN_DISTANCE, MAX_SPEED, MAX_ROTATION, RESET_AZIMUTH, RESET_COUNTERS = range(0x10, 0x16)
-OFF = 0xFF
+OFF = 0xFF  # opcodes of the protocol
 
 
 def command(opcode, a=0, b=0):
-    """A command with two arguments, −128 to 255 each.
+    """Encode a command with two arguments, −128 to 255 each.
 
     Returns
     -------
@@ -18,12 +18,12 @@ def command(opcode, a=0, b=0):
 
 
 def stop():
-    """Stand still."""
+    """Command to stop."""
     return command(STOP)
 
 
 def move(v, omega):
-    """Drive on and on.
+    """Command to drive with a speed and turn rate, until the next one.
 
     Parameters
     ----------
@@ -33,11 +33,11 @@ def move(v, omega):
     -------
     bytes
     """
-    return command(MOVE, _limited(v, -100, 100), _limited(omega, -100, 100))
+    return command(MOVE, _clipped(v, -100, 100), _clipped(omega, -100, 100))
 
 
 def translate(way, speed=50):
-    """Drive a way and stand still.
+    """Command to drive a distance and stop.
 
     Parameters
     ----------
@@ -48,11 +48,11 @@ def translate(way, speed=50):
     -------
     bytes
     """
-    return command(TRANSLATE, _limited(100 * way, -100, 100), _limited(speed, 10, 100))
+    return command(TRANSLATE, _clipped(100 * way, -100, 100), _clipped(speed, 10, 100))
 
 
 def rotate(degrees, speed=50):
-    """Turn by an angle and stand still.
+    """Command to rotate by an angle and stop.
 
     Parameters
     ----------
@@ -63,61 +63,61 @@ def rotate(degrees, speed=50):
     -------
     bytes
     """
-    return command(ROTATE, _limited(degrees / 2, -90, 90), _limited(speed, 10, 100))
+    return command(ROTATE, _clipped(degrees / 2, -90, 90), _clipped(speed, 10, 100))
 
 
 def beep(seconds):
-    """Beep, for 0 to 25.5 s."""
-    return command(BEEP, _limited(10 * seconds, 0, 255))
+    """Command to beep for 0 to 25.5 s."""
+    return command(BEEP, _clipped(10 * seconds, 0, 255))
 
 
 def sensors(on):
-    """Switch the distance sensors on or off."""
+    """Command to switch the distance sensors on or off."""
     return command(SENSORS, int(on))
 
 
 def output(bit, on):
-    """Set one of the digital outputs, 0 to 3; 4 is all of them."""
-    return command(OUTPUT, _limited(bit, 0, 4), int(on))
+    """Command to set a digital output, 0 to 3; 4 is all of them."""
+    return command(OUTPUT, _clipped(bit, 0, 4), int(on))
 
 
 def info(on):
-    """Begin or end the stream of status frames."""
+    """Command to start or stop the stream of status frames."""
     return command(INFO, int(on))
 
 
 def min_distance(metres):
-    """How near an obstacle may come before the robot stops by itself, 0 to 0.5 m."""
-    return command(MIN_DISTANCE, _limited(100 * metres, 0, 50))
+    """Command to set the obstacle distance at which the robot stops by itself, 0 to 0.5 m."""
+    return command(MIN_DISTANCE, _clipped(100 * metres, 0, 50))
 
 
 def max_speed(percent):
-    """Limit the speed, 10 to 100 %."""
-    return command(MAX_SPEED, _limited(percent, 10, 100))
+    """Command to limit the speed, 10 to 100 %."""
+    return command(MAX_SPEED, _clipped(percent, 10, 100))
 
 
 def max_rotation(percent):
-    """Limit the turn rate, 10 to 100 %."""
-    return command(MAX_ROTATION, _limited(percent, 10, 100))
+    """Command to limit the turn rate, 10 to 100 %."""
+    return command(MAX_ROTATION, _clipped(percent, 10, 100))
 
 
 def reset_azimuth():
-    """Call the present heading 0."""
+    """Command to reset the azimuth: the present heading is 0."""
     return command(RESET_AZIMUTH)
 
 
 def reset_counters():
-    """Set path and angle to 0."""
+    """Command to reset the path and angle counters to 0."""
     return command(RESET_COUNTERS)
 
 
 def power_off():
-    """Switch the robot off."""
+    """Command to switch the robot off."""
     return command(OFF)
 
 
-def _limited(value, low, high):
-    """The nearest whole number within limits."""
+def _clipped(value, low, high):
+    """Clip to limits and round to a whole number."""
     if value != value:  # not a number: rather stand still
         return max(low, 0)
     return round(min(max(value, low), high))

@@ -1,4 +1,4 @@
-"""Frames of eMIR: bytes as pairs of hexadecimal digits between two marks, the last a checksum.
+"""Framing of eMIR's protocol: bytes as hexadecimal digits between two marks, with a checksum.
 
 To the robot ``#OOAABBCC/``: opcode, two arguments, checksum; from it ``*``, 17 bytes, ``/``. All
 bytes of a frame, its checksum too, add up to 0 modulo 256.
@@ -7,13 +7,13 @@ bytes of a frame, its checksum too, add up to 0 modulo 256.
 import re
 from collections import Counter
 
-COMMAND, STATUS = b"#", b"*"
+COMMAND, STATUS = b"#", b"*"  # start marks
 LENGTHS = {COMMAND: 4, STATUS: 17}  # bytes, the checksum included
-END = b"/"
+END = b"/"  # end mark
 
 
 def checksum(data):
-    """The byte that makes the sum 0: (−Σ) mod 256.
+    """Checksum of a frame, the byte that makes the sum 0: (−Σ) mod 256.
 
     Parameters
     ----------
@@ -27,7 +27,7 @@ def checksum(data):
 
 
 def frame(data, mark=COMMAND):
-    """Bytes as a frame, with their checksum.
+    """Encode bytes as a frame, with marks and checksum.
 
     Parameters
     ----------
@@ -42,7 +42,7 @@ def frame(data, mark=COMMAND):
 
 
 class Framer:
-    """Finds frames in a stream of characters; however it is cut, the same frames come.
+    """Framer: finds frames in a byte stream and checks their checksum; any cut gives the same.
 
     Parameters
     ----------
@@ -59,7 +59,7 @@ class Framer:
         self.damage: Counter[str] = Counter()
 
     def feed(self, data):
-        """Take bytes in.
+        """Search bytes as they come.
 
         Parameters
         ----------

@@ -1,16 +1,16 @@
-"""What eMIR says of itself, by name; only seven of its bytes have a sign (the thesis: all)."""
+"""Status frames of eMIR: sensors, battery, counters; six bytes are signed (the thesis: all)."""
 
 from dataclasses import dataclass
 
 from slamlab.devices.emir.frames import LENGTHS, STATUS, frame
 
-SIGNED = {7, 8, 9, 10, 14, 15}
-CHARGING = 0x80
+SIGNED = {7, 8, 9, 10, 14, 15}  # bytes with a sign
+CHARGING = 0x80  # bit of the battery's byte
 
 
 @dataclass(frozen=True)
 class Status:
-    """One status frame, numbers as they came.
+    """Status of the robot as one frame tells it, numbers as they came.
 
     Parameters
     ----------
@@ -39,7 +39,7 @@ class Status:
 
     @classmethod
     def unpack(cls, data):
-        """From a status frame's 16 bytes, the checksum taken off.
+        """Decode a status frame's 16 bytes, the checksum taken off.
 
         Raises
         ------
@@ -51,7 +51,7 @@ class Status:
         return cls(tuple(values[:6]), *values[6:])
 
     def pack(self):
-        """The frame that says this.
+        """Encode the status as a frame.
 
         Returns
         -------
@@ -63,10 +63,10 @@ class Status:
 
     @property
     def volts(self):
-        """float, of the battery [V]"""
+        """Battery voltage [V], float."""
         return 9 + (self.battery & ~CHARGING) / 17
 
     @property
     def charging(self):
-        """bool"""
+        """Whether the battery is charging, bool."""
         return bool(self.battery & CHARGING)

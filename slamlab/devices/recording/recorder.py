@@ -1,4 +1,4 @@
-"""Write down what goes over the ports of devices while programs use them."""
+"""Recorder: logs every byte that goes over the ports of devices while programs use them."""
 
 import contextlib
 import gzip
@@ -9,16 +9,16 @@ from pathlib import Path
 
 from slamlab import __version__
 from slamlab.devices.clock import Clock
-from slamlab.devices.closing import closed_at_exit
 from slamlab.devices.errors import ConnectionLost
-from slamlab.devices.recording.records import EVENT, LONGEST, RX, TX, Record, header_line
+from slamlab.devices.recording.recording_file import EVENT, MAX_RECORD, RX, TX, Record, header_line
+from slamlab.devices.shutdown import close_at_exit
 from slamlab.devices.transport import Transport, open_port
 
-FLUSH = 1.0  # so much is lost at most when the machine fails [s]
+FLUSH_INTERVAL = 1.0  # between flushes to disk: what is lost at most in a crash [s]
 
 
 class Recorder:
-    """A raw recording that is being made; only ever appended to.
+    """Recorder of a raw recording; its file is append-only.
 
     Where the name ends in .gz the file is packed when it is closed, and has no .gz until then.
 
@@ -38,9 +38,9 @@ class Recorder:
     def __init__(self, path, devices, clock=None):
         path = Path(path)
         self.clock, self.error, self.received = clock or Clock(), None, 0
-        self._packed = path if path.suffix == ".gz" else None
-        self.path = path.with_suffix("") if self._packed else path
-        if self._packed and path.exists():
+        self._gzip_path = path if path.suffix == ".gz" else None
+        self.path = path.with_suffix("") if self._gzip_path else path
+        if self._gzip_path and path.exists():
             raise FileExistsError(17, "File exists", str(path))
         self._file, self._lock = self.path.open("xb"), threading.RLock()
         self._flushed = self.clock.now()
@@ -52,10 +52,10 @@ class Recorder:
         }
         self._file.write(header_line(header))
         self._file.flush()
-        closed_at_exit(self)
+        close_at_exit(self)
 
     def opener(self, channel, opener=open_port):
-        """What opens a port so that all that goes over it is recorded.
+        """Wrap an opener of ports, so that all that goes over them is recorded.
 
         Parameters
         ----------
@@ -75,11 +75,11 @@ class Recorder:
         return opened
 
     def event(self, channel, text):
-        """Write down that something happened."""
-        self.put(EVENT, channel, text.encode())
+        """Record an event, such as a lost connection."""
+        self.write(EVENT, channel, text.encode())
 
-    def put(self, kind, channel, data):
-        """Write down bytes, of now.
+    def write(self, kind, channel, data):
+        """Record bytes with the time now.
 
         Parameters
         ----------
@@ -92,28 +92,28 @@ class Recorder:
                 return
             self.received += len(data) if kind == RX else 0
             try:
-                for at in range(0, len(data) or 1, LONGEST):
-                    record = Record(kind, channel, self._now(), data[at : at + LONGEST])
+                for at in range(0, len(data) or 1, MAX_RECORD):
+                    record = Record(kind, channel, self._now(), data[at : at + MAX_RECORD])
                     self._file.write(record.pack())
-                if self.clock.now() - self._flushed >= FLUSH:
+                if self.clock.now() - self._flushed >= FLUSH_INTERVAL:
                     self._file.flush()
                     self._flushed = self.clock.now()
             except OSError as error:
                 self.error = error
 
     def close(self):
-        """End the recording; may be called again."""
+        """Close the recording; may be called again."""
         with self._lock:
             file, self._file = self._file, None
             if file is None:
                 return
             try:
                 file.close()
-                if self._packed is not None:
-                    with self.path.open("rb") as plain, gzip.open(self._packed, "xb") as packed:
+                if self._gzip_path is not None:
+                    with self.path.open("rb") as plain, gzip.open(self._gzip_path, "xb") as packed:
                         shutil.copyfileobj(plain, packed)
                     self.path.unlink()
-                    self.path = self._packed
+                    self.path = self._gzip_path
             except OSError as error:
                 self.error = self.error or error
 
@@ -128,7 +128,7 @@ class Recorder:
 
 
 class RecordedPort(Transport):
-    """A port of which every byte is written down, in the pieces in which it was read.
+    """Transport whose every byte is recorded, in the pieces in which it was read.
 
     Parameters
     ----------
@@ -143,16 +143,16 @@ class RecordedPort(Transport):
 
     def read(self, n, timeout):
         """See :meth:`Transport.read`."""
-        with self._watched():
+        with self._record_gaps():
             data = self._port.read(n, timeout)
         if data:
-            self._recorder.put(RX, self._channel, data)
+            self._recorder.write(RX, self._channel, data)
         return data
 
     def write(self, data):
         """See :meth:`Transport.write`."""
-        self._recorder.put(TX, self._channel, bytes(data))  # before it: answers come after
-        with self._watched():
+        self._recorder.write(TX, self._channel, bytes(data))  # before it: answers come after
+        with self._record_gaps():
             self._port.write(data)
 
     def set_dtr(self, on):
@@ -165,7 +165,7 @@ class RecordedPort(Transport):
         self._recorder.event(self._channel, "closed")
 
     @contextlib.contextmanager
-    def _watched(self):
+    def _record_gaps(self):
         try:
             yield
         except ConnectionLost as error:

@@ -1,5 +1,14 @@
-"""Slamtec's RPLIDAR: its protocol, and a driver that gives whole turns."""
+"""RPLIDAR driver and protocol of Slamtec's laser scanner; ``RPLidar`` gives whole revolutions.
 
-from slamlab.devices.rplidar.lidar import Lidar
+Read in this order:
 
-__all__ = ["Lidar"]
+- ``requests``, ``responses``; ``request_parser`` and ``response_finder`` find them in a stream
+- ``link``: ask and answer; ``identification``: the handshake; ``scan_modes``: which there are
+- ``measurement_nodes``, ``capsules``: decoders; ``timestamping``: when each point was measured
+- ``revolutions``: points to whole scans; ``scan_stream``: bytes to scans
+- ``session``: one connection; ``driver``: RPLidar
+"""
+
+from slamlab.devices.rplidar.driver import Lidar, RPLidar
+
+__all__ = ["Lidar", "RPLidar"]

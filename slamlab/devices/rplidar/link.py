@@ -1,34 +1,34 @@
-"""Talk with an RPLIDAR that does not scan: ask, and find the answer in whatever else comes."""
+"""Request and response over a port to an RPLIDAR that does not scan: send, wait, drain, reset."""
 
-from slamlab.devices.rplidar.finder import Finder
 from slamlab.devices.rplidar.requests import Command, request
+from slamlab.devices.rplidar.response_finder import ResponseFinder
 
-SILENCE = 0.1  # so long nothing came: the line is empty [s]
-DRAIN = 2.0  # the longest wait for that [s]
-BOOT = 0.5  # after a RESET it is silent for a while before its boot text [s]
-MOST = 4096  # bytes read at a time
+QUIET_TIME = 0.1  # without data after which the line counts as drained [s]
+DRAIN_TIMEOUT = 2.0  # longest wait for that [s]
+BOOT_TIME = 0.5  # after a RESET it is silent for a while before its boot text [s]
+READ_SIZE = 4096  # bytes read at a time
 
 
 class Link:
-    """Requests and answers over a port.
+    """Request/response link over a port.
 
     Parameters
     ----------
     port : Transport
     clock : Clock
 
-    ``heard`` is the last that came in, up to 64 bytes, for saying what the device may be.
+    ``last_bytes`` are the last 64 received, to tell in an error what the device may be.
     """
 
     def __init__(self, port, clock):
-        self.port, self.clock, self.heard = port, clock, b""
+        self.port, self.clock, self.last_bytes = port, clock, b""
 
     def send(self, data):
-        """Send a request that has no answer."""
+        """Send a request that has no response."""
         self.port.write(data)
 
-    def quiet(self):
-        """Stop a scan and drop what is still on its way.
+    def stop_and_drain(self):
+        """Stop a scan and drain what is still on its way.
 
         Returns
         -------
@@ -38,7 +38,7 @@ class Link:
         return self.drain()
 
     def drain(self, at_least=0.0):
-        """Drop what comes until the line is silent.
+        """Drain the line: discard what comes until nothing does.
 
         Parameters
         ----------
@@ -49,32 +49,32 @@ class Link:
         bool, whether it fell silent in time
         """
         begin = self.clock.now()
-        while self.clock.now() - begin < DRAIN:
-            if not self._read(SILENCE) and self.clock.now() - begin >= at_least:
+        while self.clock.now() - begin < DRAIN_TIMEOUT:
+            if not self._read(QUIET_TIME) and self.clock.now() - begin >= at_least:
                 return True
         return False
 
     def reset(self):
-        """Start the device anew and drop the text that it boots with."""
+        """Reset the device and discard the text that it boots with."""
         self.send(request(Command.RESET))
-        self.drain(BOOT)
+        self.drain(BOOT_TIME)
 
-    def ask(self, data, type, timeout, loop=False, length=None):
-        """Send a request and wait for its answer.
+    def query(self, data, type, timeout, loop=False, length=None):
+        """Send a request and wait for its response, at most until the timeout.
 
         Parameters
         ----------
         data : bytes, the request
-        type : Answer, or a collection of those that will do
+        type : AnswerType, or a collection of those that will do
         timeout : float [s]
         loop : bool, whether an endless answer is wanted
         length : int, of the payload, or None where that is free
 
         Returns
         -------
-        Finder and (Descriptor, payload), or Finder and None when it did not come
+        ResponseFinder and (Descriptor, payload), or ResponseFinder and None when it did not come
         """
-        finder = Finder(type, loop, length)
+        finder = ResponseFinder(type, loop, length)
         self.send(data)
         end = self.clock.now() + timeout
         while (left := end - self.clock.now()) > 0:
@@ -84,6 +84,6 @@ class Link:
         return finder, None
 
     def _read(self, timeout):
-        data = self.port.read(MOST, timeout)
-        self.heard = (self.heard + data)[-64:]
+        data = self.port.read(READ_SIZE, timeout)
+        self.last_bytes = (self.last_bytes + data)[-64:]
         return data

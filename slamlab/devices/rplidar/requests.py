@@ -1,4 +1,4 @@
-"""What a host asks an RPLIDAR: A5, a command, and where the command has its top bit set a payload.
+"""Requests (commands) to an RPLIDAR: A5, command; where its top bit is set, payload, checksum.
 
 Slamtec's protocol document; all numbers are little endian.
 """
@@ -8,12 +8,12 @@ from enum import IntEnum
 from functools import reduce
 from operator import xor
 
-SYNC = 0xA5
-WITH_PAYLOAD = 0x80  # the bit of a command
+SYNC = 0xA5  # first byte of every request
+WITH_PAYLOAD = 0x80  # bit of a command that has a payload
 
 
 class Command(IntEnum):
-    """The commands of the A series."""
+    """Command codes of the A series."""
 
     EXPRESS_SCAN = 0x82
     FORCE_SCAN = 0x21
@@ -28,13 +28,13 @@ class Command(IntEnum):
     STOP = 0x25
 
 
-SCANS = {Command.SCAN, Command.FORCE_SCAN, Command.EXPRESS_SCAN}
-GOES_ON = {Command.SET_MOTOR_PWM, Command.GET_ACC_BOARD_FLAG}
-"""Requests during which a scan goes on; any other ends it."""
+SCAN_COMMANDS = {Command.SCAN, Command.FORCE_SCAN, Command.EXPRESS_SCAN}  # start a scan
+NON_INTERRUPTING = {Command.SET_MOTOR_PWM, Command.GET_ACC_BOARD_FLAG}
+"""Requests that do not interrupt a scan; any other ends it."""
 
 
 class Conf(IntEnum):
-    """What GET_LIDAR_CONF can be asked for; those from US_PER_SAMPLE on, of one mode."""
+    """Configuration keys of GET_LIDAR_CONF; those from US_PER_SAMPLE on belong to one scan mode."""
 
     DESIRED_ROTATION = 0x01
     MODE_COUNT = 0x70
@@ -46,7 +46,7 @@ class Conf(IntEnum):
 
 
 def checksum(data):
-    """All bytes XORed.
+    """Checksum of a request: all bytes XORed.
 
     Parameters
     ----------
@@ -60,7 +60,7 @@ def checksum(data):
 
 
 def request(command, payload=b""):
-    """A request as it goes over the line.
+    """Encode a request, with payload and checksum, as it goes over the line.
 
     Parameters
     ----------
@@ -86,7 +86,7 @@ def request(command, payload=b""):
 
 
 def express(mode):
-    """The request to scan in a mode other than the standard one.
+    """Request of an express scan: a mode other than the standard one.
 
     Parameters
     ----------
@@ -100,7 +100,7 @@ def express(mode):
 
 
 def motor_pwm(pwm):
-    """The request to turn the motor.
+    """Request that sets the motor's PWM (duty cycle), and with it the scan rate.
 
     Parameters
     ----------
@@ -120,7 +120,7 @@ def motor_pwm(pwm):
 
 
 def conf(what, mode=None):
-    """The request for one value of the configuration.
+    """Request for one value of the lidar's configuration.
 
     Parameters
     ----------

@@ -1,6 +1,16 @@
-"""BOR, the bounded filter: boxes that hold the truth as long as every noise is bounded."""
+"""BOR: set-membership SLAM (bounded-error estimation); boxes hold the truth if noise is bounded.
 
-from slamlab.filters.bor.filter import BOR
-from slamlab.filters.bor.sharpen import EmptyIntersection
+Read in this order:
 
-__all__ = ["BOR", "EmptyIntersection"]
+- ``intervals``, ``angle_intervals``: interval arithmetic
+- ``prediction``: the box after a motion
+- ``half_planes``: the region an observation allows; ``clipping``: its bounding box
+- ``contraction``: constraint propagation over landmark, robot and heading; ``bor``: the filter
+"""
+
+from slamlab._lazy import exports
+
+__getattr__, __dir__, __all__ = exports(
+    __name__,
+    {".bor": ["BOR"], ".contraction": ["EmptyIntersection"]},
+)

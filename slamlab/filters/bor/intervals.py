@@ -1,4 +1,4 @@
-"""Intervals (low, high) of numbers: all that a quantity may be, and what arithmetic makes of it.
+"""Interval arithmetic: intervals (low, high) of all values that a quantity may take.
 
 Each result holds every value that some choice from the arguments gives, and none besides: it is
 exact as long as no quantity enters a formula twice.
@@ -7,43 +7,43 @@ exact as long as no quantity enters a formula twice.
 from math import cos, pi, sin
 
 ROUNDING = 1e-10
-"""What is added outwards so that rounding never cuts off the truth [m] or [rad]."""
+"""Outward rounding: what bounds are widened by against rounding errors [m] or [rad]."""
 
 
 def add(a, b):
-    """The sum: (a_low + b_low, a_high + b_high)."""
+    """Interval sum: (a_low + b_low, a_high + b_high)."""
     return a[0] + b[0], a[1] + b[1]
 
 
 def scaled(factor, a):
-    """A number times an interval; a negative factor turns it round."""
+    """Interval scaled by a number; a negative factor swaps its ends."""
     ends = factor * a[0], factor * a[1]
     return min(ends), max(ends)
 
 
 def product(a, b):
-    """The product: the smallest and the largest of the four products of the ends."""
+    """Interval product: the smallest and the largest of the four products of the ends."""
     products = a[0] * b[0], a[0] * b[1], a[1] * b[0], a[1] * b[1]
     return min(products), max(products)
 
 
 def around(middle, bound):
-    """All within a bound of a number: (middle − bound, middle + bound)."""
+    """Interval from midpoint and error bound: (middle − bound, middle + bound)."""
     return middle - bound, middle + bound
 
 
 def widened(a, by=ROUNDING):
-    """The interval, pushed out at both ends."""
+    """Interval widened (inflated) at both ends, by default by the outward rounding."""
     return a[0] - by, a[1] + by
 
 
 def width(a):
-    """How wide: high − low."""
+    """Width of an interval: high − low."""
     return a[1] - a[0]
 
 
 def cosine(a):
-    """The cosine over an interval of angles: its extremes may lie inside, not at the ends.
+    """Interval cosine: the range of cos over an interval; its extremes may lie inside.
 
     1 where a multiple of 2π lies inside, −1 where π and whole turns do, else the larger and the
     smaller of cos low and cos high.
@@ -58,22 +58,22 @@ def cosine(a):
     """
     ends = cos(a[0]), cos(a[1])
     return (
-        -1.0 if _meets(a, pi) else min(ends),
-        1.0 if _meets(a, 0.0) else max(ends),
+        -1.0 if _contains_angle(a, pi) else min(ends),
+        1.0 if _contains_angle(a, 0.0) else max(ends),
     )
 
 
 def sine(a):
-    """The sine over an interval of angles, see :func:`cosine`."""
+    """Interval sine: the range of sin over an interval, see :func:`cosine`."""
     ends = sin(a[0]), sin(a[1])
     return (
-        -1.0 if _meets(a, -pi / 2) else min(ends),
-        1.0 if _meets(a, pi / 2) else max(ends),
+        -1.0 if _contains_angle(a, -pi / 2) else min(ends),
+        1.0 if _contains_angle(a, pi / 2) else max(ends),
     )
 
 
 def chord(turn):
-    """Chord over arc length, sin(Δθ/2) / (Δθ/2), over an interval of turns: it falls with |Δθ|.
+    """Interval of chord over arc length, sin(Δθ/2) / (Δθ/2), which falls with |Δθ|.
 
     Parameters
     ----------
@@ -91,13 +91,14 @@ def chord(turn):
     least = 0.0 if turn[0] <= 0 <= turn[1] else min(abs(turn[0]), abs(turn[1]))
     if most > 2 * pi:
         raise ValueError(f"a step turns by up to {most:.1f} rad, more than once round: cut it")
-    return _chord(most), _chord(least)
+    return _chord_ratio(most), _chord_ratio(least)
 
 
-def _chord(turn):
-    return sin(turn / 2) / (turn / 2) if turn else 1.0
+def _chord_ratio(turn):
+    half = turn / 2  # 0 for the smallest of numbers, too
+    return sin(half) / half if half else 1.0
 
 
-def _meets(a, angle):
-    """Whether an angle, or it and whole turns, lies in the interval."""
+def _contains_angle(a, angle):
+    """Whether an interval contains an angle, or the angle and whole turns."""
     return (angle - a[0]) % (2 * pi) <= a[1] - a[0]

@@ -1,15 +1,15 @@
-"""How likely samples find what was seen: logarithms of Gaussian densities, over all at once."""
+"""Observation likelihood (measurement model): Gaussian log-likelihoods of all particles."""
 
 import numpy as np
 
 from slamlab.geometry import wrap
-from slamlab.models import h
+from slamlab.models.observation import h
 
-BLOCK = 2048  # samples at a time: what is worked on stays in the processor's cache
+BLOCK = 2048  # particles at a time, so that the work stays in the processor's cache
 
 
-def log_gauss(v, S):
-    """Logarithm of the density N(v; 0, S) = exp(−vᵀ S⁻¹ v / 2) / (2π √det S).
+def log_gaussian(v, S):
+    """Gaussian log-density: log N(v; 0, S), N = exp(−vᵀ S⁻¹ v / 2) / (2π √det S).
 
     Parameters
     ----------
@@ -27,13 +27,13 @@ def log_gauss(v, S):
     return -0.5 * (squared + np.log(det)) - np.log(2 * np.pi)
 
 
-def of_pairs(x, p, z, R):
-    """log p(z | x, p) of one sighting for pairs of a pose and a place.
+def of_observation(x, p, z, R):
+    """Log-likelihood log p(z | x, p) of one observation, for pairs of a pose and a landmark.
 
     Parameters
     ----------
     x : (..., 3) poses [m, m, rad]
-    p : (..., 2) places of the landmark, broadcast against the poses [m]
+    p : (..., 2) positions of the landmark, broadcast against the poses [m]
     z : (2,) range [m] and bearing [rad]
     R : (2, 2)
 
@@ -43,11 +43,11 @@ def of_pairs(x, p, z, R):
     """
     v = z - h(x, p)
     v[..., 1] = wrap(v[..., 1])
-    return log_gauss(v, R)
+    return log_gaussian(v, R)
 
 
 def of_scan(x, p, z, R):
-    """log p(z | x) of a scan of known landmarks, for every pose: Σ_j log N(z_j; h(x, p_j), R_j).
+    """Log-likelihood of a scan, known data association: Σ_j log N(z_j; h(x, p_j), R_j).
 
     A landmark seen along its measured bearing lies at (a, b) with b = 0, so that the innovation is
     r − √(a² + b²) and −atan2(b, a), wrapped already. (a, b) of all poses and landmarks is one
@@ -87,11 +87,11 @@ def of_scan(x, p, z, R):
     return logs - 0.5 * np.log(R[:, 0, 0] * D).sum() - m * np.log(2 * np.pi)
 
 
-def of_nameless(x, p, z, R, stray=1e-3):
-    """log p(z | x) of a scan that does not say which landmark is which, for every pose.
+def of_unassociated_scan(x, p, z, R, clutter=1e-3):
+    """Log-likelihood log p(z | x) of a scan of unknown data association, for every pose.
 
-    Σ_k log( (1/m) Σ_j N(z_k; h(x, p_j), R_k) + stray ): each pose has a pairing of its own, and
-    what is no landmark of the map costs every pose alike.
+    Σ_k log( (1/m) Σ_j N(z_k; h(x, p_j), R_k) + clutter ): each pose has its own association, and
+    clutter, which is no landmark of the map, costs every pose alike.
 
     Parameters
     ----------
@@ -99,7 +99,7 @@ def of_nameless(x, p, z, R, stray=1e-3):
     p : (m, 2) landmarks [m]
     z : (k, 2) range [m] and bearing [rad]
     R : (k, 2, 2)
-    stray : float, density of sightings of nothing [1/(m rad)]
+    clutter : float, density of false observations [1/(m rad)]
 
     Returns
     -------
@@ -107,6 +107,6 @@ def of_nameless(x, p, z, R, stray=1e-3):
     """
     total = np.zeros(len(x))
     for one, noise in zip(z, R, strict=True):
-        density = np.exp(of_pairs(x[:, None], p, one, noise))
-        total += np.log(density.mean(axis=1) + stray)
+        density = np.exp(of_observation(x[:, None], p, one, noise))
+        total += np.log(density.mean(axis=1) + clutter)
     return total

@@ -1,10 +1,10 @@
-"""Drawing samples by their weights: n tickets of a lottery, or one turn of a comb."""
+"""Resampling of particles by their weights: multinomial, or systematic (low-variance)."""
 
 import numpy as np
 
 
 def multinomial(weights, n, rng):
-    """n independent draws, sample i with probability w_i.
+    """Multinomial resampling: n independent draws, sample i with probability w_i.
 
     Parameters
     ----------
@@ -16,13 +16,13 @@ def multinomial(weights, n, rng):
     -------
     (n,) int rows drawn, in the order of the draws
     """
-    edges = np.cumsum(weights)
+    cumulative = np.cumsum(weights)
     # rounding may leave the last edge below one, and a last sample of no weight is never drawn
-    return np.searchsorted(edges, rng.random(n) * edges[-1], side="right")
+    return np.searchsorted(cumulative, rng.random(n) * cumulative[-1], side="right")
 
 
-def comb(weights, n, u):
-    """The samples that the n teeth (u + k)/n of a comb fall on, k = 0 … n−1.
+def systematic_at(weights, n, u):
+    """Systematic resampling at a given offset u: a comb of teeth (u + k)/n, k = 0 … n−1.
 
     Sample i gets ⌊n w_i⌋ or ⌈n w_i⌉ copies, and n w_i on average over u.
 
@@ -36,15 +36,15 @@ def comb(weights, n, u):
     -------
     (n,) int rows, ascending
     """
-    edges = np.cumsum(weights)
+    cumulative = np.cumsum(weights)
     # teeth before an edge: (u + k)/n < edge
-    before = np.ceil(edges * (n / edges[-1]) - u).clip(0, n).astype(int)
-    before[edges >= edges[-1]] = n
-    return np.repeat(np.arange(len(edges)), np.diff(before, prepend=0))
+    before = np.ceil(cumulative * (n / cumulative[-1]) - u).clip(0, n).astype(int)
+    before[cumulative >= cumulative[-1]] = n
+    return np.repeat(np.arange(len(cumulative)), np.diff(before, prepend=0))
 
 
 def systematic(weights, n, rng):
-    """Low-variance resampling: a comb with one random number for all its teeth.
+    """Systematic (low-variance) resampling: one random number for a comb of n teeth.
 
     Parameters
     ----------
@@ -56,4 +56,4 @@ def systematic(weights, n, rng):
     -------
     (n,) int rows drawn, ascending
     """
-    return comb(weights, n, rng.random())
+    return systematic_at(weights, n, rng.random())

@@ -1,12 +1,12 @@
-"""Weights of samples, kept as logarithms until they are normalised."""
+"""Importance weights of particles: log-likelihoods, normalised; effective sample size."""
 
 import numpy as np
 
 
 def normalise(logs):
-    """Weights that sum to one: w_i = exp(l_i − log Σ exp l_j), the largest taken out first.
+    """Normalise log weights (log-sum-exp): w_i = exp(l_i − log Σ exp l_j), sum one.
 
-    Taking the largest out is what keeps likelihoods of e⁻¹⁰⁰⁰⁰⁰ apart from zero.
+    Taking the largest out first is what keeps likelihoods of e⁻¹⁰⁰⁰⁰⁰ apart from zero.
 
     Parameters
     ----------
@@ -35,8 +35,8 @@ def normalise(logs):
     return weights / total, float(top + np.log(total))
 
 
-def effective_size(weights):
-    """How many equal samples a weighted cloud is worth: 1 / Σ w_i², from 1 to n.
+def effective_sample_size(weights):
+    """Effective sample size (effective number of particles): 1 / Σ w_i², from 1 to n.
 
     Parameters
     ----------
@@ -48,3 +48,6 @@ def effective_size(weights):
     """
     weights = np.asarray(weights, dtype=float)
     return float(1 / (weights @ weights))
+
+
+effective_size = effective_sample_size  # name in the first edition

@@ -1,6 +1,12 @@
-"""A world edited in the notebook: by its rows, and by dragging what they stand for."""
+"""World editor (map editor) in a notebook: walls and circles by their numbers or by dragging.
 
-from slamlab.views.editor.show import edit_world
-from slamlab.views.editor.state import WorldEditor
+Read in this order:
+
+- ``edit_history``: the world being edited, with undo; ``board``: the drawing that is dragged
+- ``editor_view``: both in a notebook
+"""
+
+from slamlab.views.editor.edit_history import WorldEditor
+from slamlab.views.editor.editor_view import edit_world
 
 __all__ = ["WorldEditor", "edit_world"]

@@ -1,9 +1,9 @@
-// A world in the browser: its points are handles, to be dragged or moved by the arrow keys. What is
-// moved is drawn at once; the kernel hears of it and answers with what a scanner sees then.
+// World editor in the browser: points are handles, dragged (drag and drop) or moved by the arrow
+// keys. What is moved is drawn at once; the kernel gets it and answers with the scan of it.
 
-const SNAP = 0.05, FREE = 0.01; // [m] from a place to the next; with Shift
-const MOST = 200; // handles; more would hide the world
-const PAUSE = 1000; // [ms] between two keys that are two changes
+const SNAP = 0.05, FINE_SNAP = 0.01; // grid spacing [m]; with Shift
+const MAX_HANDLES = 200; // more would hide the world
+const EDIT_PAUSE = 1000; // [ms] between two keys that are two changes, undone one by one
 const ARROWS = { ArrowUp: [0, 1], ArrowDown: [0, -1], ArrowLeft: [-1, 0], ArrowRight: [1, 0] };
 const HINT = "drag a point, or choose it by Tab and move it by the arrow keys; "
   + `grid ${SNAP} m, finer with Shift; Ctrl+Z: undo`;
@@ -100,7 +100,7 @@ function render({ model, el }) {
     due = true;
   };
 
-  const say = ({ ends }) => {
+  const showPosition = ({ ends }) => {
     const [x, y] = place(world, ends);
     status.textContent = `${named(ends)}: x ${x}, y ${y} m`;
   };
@@ -110,14 +110,14 @@ function render({ model, el }) {
     world = next;
     model.set("world", world);
     model.save_changes(); // waits by itself until the kernel has taken the one before
-    say(handle);
+    showPosition(handle);
     repaint();
   };
 
   // one handle a point; points that came to lie on each other are one from now on
   const arrange = () => {
     const now = points(world), key = (ends) => ends.map(({ kind, row, at }) => `${kind}${row}.${at}`).join();
-    if (now.length > MOST) now.length = 0;
+    if (now.length > MAX_HANDLES) now.length = 0;
     status.textContent = now.length ? HINT : "too many points to drag: change the rows";
     if (now.map(key).join(";") != handles.map(({ ends }) => key(ends)).join(";")) {
       handles.forEach(({ button }) => button.remove());
@@ -141,7 +141,7 @@ function render({ model, el }) {
     });
     button.addEventListener("pointermove", (event) => {
       if (dragged != made) return;
-      const box = canvas.getBoundingClientRect(), step = event.shiftKey ? FREE : SNAP;
+      const box = canvas.getBoundingClientRect(), step = event.shiftKey ? FINE_SNAP : SNAP;
       const x = camera.wx(event.clientX - box.left), y = camera.wy(event.clientY - box.top);
       put(made, [snapped(x, step), snapped(y, step)], edit);
     });
@@ -155,8 +155,8 @@ function render({ model, el }) {
       if (!(event.key in ARROWS) || event.ctrlKey || event.altKey || event.metaKey) return;
       event.preventDefault();
       event.stopPropagation();
-      const now = Date.now(), step = event.shiftKey ? FREE : SNAP;
-      if (now - last > PAUSE) edit = now;
+      const now = Date.now(), step = event.shiftKey ? FINE_SNAP : SNAP;
+      if (now - last > EDIT_PAUSE) edit = now;
       last = now;
       const at = place(world, ends).map((value, axis) => {
         const way = ARROWS[event.key][axis];
@@ -164,7 +164,7 @@ function render({ model, el }) {
       });
       put(made, at, edit);
     });
-    button.addEventListener("focus", () => say(made));
+    button.addEventListener("focus", () => showPosition(made));
     // after the focus has gone to where it goes
     button.addEventListener("blur", () => setTimeout(settle));
     sheet.append(button);
@@ -174,7 +174,7 @@ function render({ model, el }) {
     if (!sheet.contains(document.activeElement)) arrange();
   };
 
-  const told = () => {
+  const worldChanged = () => {
     if (model.get("world") === world) return;
     world = model.get("world");
     arrange();
@@ -185,13 +185,13 @@ function render({ model, el }) {
     event.stopPropagation();
     model.send({ kind: "undo" });
   });
-  model.on("change:world", told);
+  model.on("change:world", worldChanged);
   model.on("change:scan", repaint);
   const resized = new ResizeObserver(repaint);
   resized.observe(canvas);
   arrange();
   return () => {
-    model.off("change:world", told);
+    model.off("change:world", worldChanged);
     model.off("change:scan", repaint);
     resized.disconnect();
   };

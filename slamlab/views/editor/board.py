@@ -1,4 +1,4 @@
-"""The drawing on which the ends of walls and the centres of circles are dragged."""
+"""Canvas widget with handles (drag and drop): ends of walls and centres of circles are moved."""
 
 from pathlib import Path
 
@@ -13,10 +13,10 @@ HERE = Path(__file__).parent
 
 
 class Board(anywidget.AnyWidget):
-    """A world in the browser: points are dragged, or chosen by Tab and moved by the arrow keys.
+    """World in the browser: points are dragged, or chosen by Tab and moved by the arrow keys.
 
-    They snap to a grid of 0.05 m; with Shift they are free. What is moved is drawn at once and told
-    to the kernel as fast as it listens.
+    They snap to a grid of 0.05 m; with Shift they are free. What is moved is drawn at once and sent
+    to the kernel as fast as it listens (back-pressure).
 
     Parameters
     ----------
@@ -39,8 +39,8 @@ class Board(anywidget.AnyWidget):
     height = traitlets.Int(450).tag(sync=True)
 
 
-def rows_of(world):
-    """A world as the browser gets it.
+def world_message(world):
+    """Message with a world (walls, circles) for the browser.
 
     Parameters
     ----------
@@ -53,8 +53,8 @@ def rows_of(world):
     return {"walls": world.walls.tolist(), "circles": world.circles.tolist(), "edit": 0}
 
 
-def bytes_of(points):
-    """Points as the browser gets them.
+def points_bytes(points):
+    """Bytes of points for the browser: float32, little-endian.
 
     Parameters
     ----------

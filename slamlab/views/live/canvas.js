@@ -1,6 +1,7 @@
-// The browser's side of the live view: keeps the rows that frames bring, draws them on a canvas in
-// equal scale, answers each frame with its number when it is drawn.
+// Canvas of the live view in the browser: keeps the rows that frames bring, draws them in equal
+// scale, acknowledges each frame by its number when it is drawn (back-pressure), sends driving keys.
 
+// keyboard driving (teleoperation): key to command
 const KEYS = {
   ArrowUp: "forward", ArrowDown: "back", ArrowLeft: "left", ArrowRight: "right", " ": "stop",
 };
@@ -13,11 +14,11 @@ export default () => {
   return {
     initialize({ model }) {
       const { header, rows } = model.get("frame");
-      layers.take(header, rows);
+      layers.receive(header, rows);
       drawn = header.number; // came with the widget: nobody waits for an answer
       model.on("msg:custom", (header, buffers) => {
         if (header?.kind != "frame") return;
-        layers.take(header, buffers[0]);
+        layers.receive(header, buffers[0]);
         for (const view of views) view();
       });
     },
@@ -44,9 +45,9 @@ export default () => {
       el.append(root);
 
       const camera = new Camera(model.get("width"), model.get("height"));
-      let due = false;
+      let scheduled = false;
       const paint = () => {
-        due = false;
+        scheduled = false;
         const wide = canvas.clientWidth || model.get("width");
         camera.width = wide;
         camera.height = Math.round(wide * model.get("height") / model.get("width"));
@@ -63,8 +64,8 @@ export default () => {
         }
       };
       const repaint = () => {
-        if (!due) requestAnimationFrame(paint);
-        due = true;
+        if (!scheduled) requestAnimationFrame(paint);
+        scheduled = true;
       };
 
       if (!views.size) {
@@ -74,13 +75,13 @@ export default () => {
       views.add(repaint);
       const resized = new ResizeObserver(repaint);
       resized.observe(canvas);
-      const place = (event) => {
+      const position = (event) => {
         const box = canvas.getBoundingClientRect();
         return [event.clientX - box.left, event.clientY - box.top];
       };
       canvas.addEventListener("wheel", (event) => {
         event.preventDefault();
-        camera.zoom(Math.exp(-0.0015 * event.deltaY), ...place(event));
+        camera.zoom(Math.exp(-0.0015 * event.deltaY), ...position(event));
         repaint();
       }, { passive: false });
       canvas.addEventListener("pointerdown", (event) => {
@@ -94,13 +95,13 @@ export default () => {
         camera.pan(event.movementX, event.movementY);
         repaint();
       });
-      const all = () => {
+      const fitAll = () => {
         camera.fitted = true;
         camera.fit(layers.bounds());
         repaint();
       };
-      canvas.addEventListener("dblclick", all);
-      fit.addEventListener("click", all);
+      canvas.addEventListener("dblclick", fitAll);
+      fit.addEventListener("click", fitAll);
       canvas.addEventListener("keydown", (event) => {
         if (!(event.key in KEYS) || event.ctrlKey || event.altKey || event.metaKey) return;
         event.preventDefault();

@@ -1,4 +1,4 @@
-"""The picture that moves in the browser: an anywidget that draws frames and acknowledges them."""
+"""Canvas widget in the browser (anywidget, JavaScript): draws frames and acknowledges each one."""
 
 from functools import cached_property, partial
 from pathlib import Path
@@ -6,17 +6,17 @@ from pathlib import Path
 import anywidget
 import traitlets
 
-from slamlab.views.live.packing import Packer, Scene
-from slamlab.views.live.screen import Screen
+from slamlab.views.live.back_pressure import Screen
+from slamlab.views.live.frame_packing import FramePacker, Scene
 from slamlab.views.live.scripts import script
 
 # Jupyter's server lets TCP hold a short message back until the one before is acknowledged, which a
 # browser on the same machine does 40 ms later; a message of two of loopback's packets is not held
-LOOPBACK = 2 * 65536  # [bytes]
+MIN_MESSAGE = 2 * 65536  # [bytes]
 
 
 class CanvasWidget(anywidget.AnyWidget):
-    """The browser's side: a canvas in equal scale; wheel and drag move the view.
+    """Widget with a canvas in equal scale, the browser's side; mouse wheel zooms, dragging pans.
 
     Parameters
     ----------
@@ -36,10 +36,10 @@ class CanvasWidget(anywidget.AnyWidget):
 
 
 class LiveCanvas(Screen):
-    """A screen that draws in the browser, told of each frame that was drawn.
+    """Screen that draws in the browser; each frame drawn is acknowledged (back-pressure).
 
-    A frame is a message of a header and float32 bytes (:mod:`slamlab.views.live.packing`); the
-    browser answers with its number. Before the browser says that it is ready nothing is sent.
+    A frame is a message of a header and float32 bytes (:mod:`slamlab.views.live.frame_packing`);
+    the browser answers with its number. Before the browser says that it is ready nothing is sent.
 
     Parameters
     ----------
@@ -54,31 +54,32 @@ class LiveCanvas(Screen):
         super().__init__(acknowledged=True)
         width, height = map(int, size)
         self._make = partial(CanvasWidget, alt=alt, title=title, width=width, height=height)
-        self._packer, self._opened, self._least, self._newest = Packer(), False, 0, Scene([])
+        self._packer, self._latest_scene = FramePacker(), Scene([])
+        self._browser_ready, self._min_bytes = False, 0
 
     @cached_property
     def widget(self):
         """CanvasWidget; a browser gets it with the scene that was offered last before."""
-        widget = self._make(frame=self._whole)
-        widget.on_msg(self._hear)
+        widget = self._make(frame=self._full_frame)
+        widget.on_msg(self._on_message)
         widget.comm.on_close(lambda *_: self.on_closed())
         return widget
 
     def offer(self, scene):
-        """See :meth:`Screen.offer`; where no browser is ready a scene is only kept."""
-        self._newest = scene
-        if self._opened:
+        """Offer a scene, see :meth:`Screen.offer`; where no browser is ready it is only kept."""
+        self._latest_scene = scene
+        if self._browser_ready:
             super().offer(scene)
 
-    def _put(self, scene):
-        header, rows = self._frame(scene, self._packer)
-        self.widget.send(header, [rows.ljust(self._least, b"\0")])
+    def _send_frame(self, scene):
+        header, rows = self._pack_frame(scene, self._packer)
+        self.widget.send(header, [rows.ljust(self._min_bytes, b"\0")])
 
-    def _whole(self):
-        header, rows = self._frame(self._newest, Packer())
+    def _full_frame(self):
+        header, rows = self._pack_frame(self._latest_scene, FramePacker())
         return {"header": header, "rows": rows}
 
-    def _frame(self, scene, packer):
+    def _pack_frame(self, scene, packer):
         layers, rows = packer.pack(scene.drawables)
         header = {
             "kind": "frame",
@@ -91,15 +92,15 @@ class LiveCanvas(Screen):
         }
         return header, rows
 
-    def _hear(self, _, content, buffers):
+    def _on_message(self, _, content, buffers):
         if not isinstance(content, dict):
             return
         match content.get("kind"):
             case "ready":
-                self._packer.forget()
-                self._opened = True
-                self._least = LOOPBACK if content.get("near") is True else 0
-                self._begun()
+                self._packer.reset()
+                self._browser_ready = True
+                self._min_bytes = MIN_MESSAGE if content.get("near") is True else 0
+                self._client_ready()
             case "gone":
                 self.on_closed()
             case "drawn" if isinstance(content.get("number"), int):

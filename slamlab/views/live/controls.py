@@ -1,25 +1,28 @@
-"""The buttons of a live view: run, pause, step, reset, speed, seed, which source, drive, a line."""
+"""Control panel of a live view: run, pause, step, reset, speed, seed, source, teleoperation."""
 
 import ipywidgets
 
-SPEEDS = [1, 2, 5, 10, 20, 50, 100]  # steps a second
-ARROWS = {"left": "◀ left", "forward": "▲ forward", "back": "▼ back", "right": "right ▶"}
-HINT = "or click the picture, then arrow keys; space stops"
-TYPED = "distance, angle"
+SPEEDS = [1, 2, 5, 10, 20, 50, 100]  # choices of the slider [steps/s]
+# labels of the buttons by drive command
+DRIVE_BUTTONS = {"left": "◀ left", "forward": "▲ forward", "back": "▼ back", "right": "right ▶"}
+KEYBOARD_HINT = "or click the picture, then arrow keys; space stops"  # keyboard driving
+MOVE_LABEL = "distance, angle"  # of a typed move
 
 
 class Controls:
-    """Widgets that tell a loop what to do and show what it does.
+    """Widgets (buttons, sliders, text field) that control a run loop and show its state.
 
     Parameters
     ----------
-    loop : Loop
-    pairs : dict, title to Pair; one button each where there are several
+    loop : RunLoop
+    steppers : dict, title to Stepper; one button each where there are several
     """
 
-    def __init__(self, loop, pairs):
-        self.loop, self._pairs = loop, pairs
-        self.which = [_button(title, "start with this one", self._chosen(title)) for title in pairs]
+    def __init__(self, loop, steppers):
+        self.loop, self._steppers = loop, steppers
+        self.source_buttons = [
+            _button(title, "start with this one", self._select_source(title)) for title in steppers
+        ]
         self.run = _button("▶ run", "step after step", self._run, "8em")
         self.step = _button("step", "one step, then pause", loop.step, "5em")
         self.reset = _button("reset", "from the start, with this seed", self._reset, "5em")
@@ -39,29 +42,31 @@ class Controls:
             style={"description_width": "initial"},
         )
         self.drive = [
-            _button(text, "one step, or where to while it runs", self._driven(name))
-            for name, text in ARROWS.items()
+            _button(text, "one step, or where to while it runs", self._drive_command(name))
+            for name, text in DRIVE_BUTTONS.items()
         ]
-        self.drive.append(_button("■ stop", "stand still", self._driven("stop")))
-        self.speed.observe(self._faster, "value")
-        loop.on_change = self._changed
-        hint = [ipywidgets.Label(HINT)] if loop.screen.keys else []
+        self.drive.append(_button("■ stop", "stand still", self._drive_command("stop")))
+        self.speed.observe(self._set_speed, "value")
+        loop.on_change = self._refresh
+        hint = [ipywidgets.Label(KEYBOARD_HINT)] if loop.screen.keys else []
         self.typed = ipywidgets.Text(
-            placeholder=f"{TYPED} [m, °] | reset | exit",
-            description=TYPED,
+            placeholder=f"{MOVE_LABEL} [m, °] | reset | exit",
+            description=MOVE_LABEL,
             continuous_update=False,
             layout={"width": "25em"},
             style={"description_width": "initial"},
         )
         self.answer = ipywidgets.Label()
-        self.typed.observe(self._told, "value")
+        self.typed.observe(self._submit_line, "value")
         rows = ([*self.drive, *hint], [self.typed, self.answer])
-        self._wheel = ipywidgets.VBox([ipywidgets.HBox(row, layout=_WRAPPED) for row in rows])
-        first = ipywidgets.HBox(self.which, layout=_WRAPPED if len(pairs) > 1 else _GONE)
+        self._drive_box = ipywidgets.VBox([ipywidgets.HBox(row, layout=_WRAPPED) for row in rows])
+        first = ipywidgets.HBox(
+            self.source_buttons, layout=_WRAPPED if len(steppers) > 1 else _GONE
+        )
         second = [self.run, self.step, self.reset, self.speed, self.seed]
         second = ipywidgets.HBox(second, layout=_WRAPPED)
-        self.widget = ipywidgets.VBox([first, second, self._wheel])
-        self._changed()
+        self.widget = ipywidgets.VBox([first, second, self._drive_box])
+        self._refresh()
 
     def _run(self):
         if self.loop.running:
@@ -72,29 +77,29 @@ class Controls:
     def _reset(self):
         self.loop.reset(self.seed.value)
 
-    def _faster(self, change):
+    def _set_speed(self, change):
         self.loop.speed = change["new"]
 
-    def _told(self, change):
+    def _submit_line(self, change):
         if not change["new"].strip():
             return
         try:
-            self.answer.value = self.loop.wheel.tell(change["new"])
+            self.answer.value = self.loop.drive_control.execute(change["new"])
         except ValueError as error:
             self.answer.value = str(error)
         self.typed.value = ""
 
-    def _chosen(self, title):
-        return lambda: self.loop.reset(self.seed.value, self._pairs[title])
+    def _select_source(self, title):
+        return lambda: self.loop.reset(self.seed.value, self._steppers[title])
 
-    def _driven(self, name):
+    def _drive_command(self, name):
         return lambda: self.loop.drive(name)
 
-    def _changed(self):
+    def _refresh(self):
         self.run.description = "❚❚ pause" if self.loop.running else "▶ run"
-        self._wheel.layout.display = "flex" if self.loop.pair.drivable else "none"
-        for button, pair in zip(self.which, self._pairs.values(), strict=True):
-            button.button_style = "info" if pair is self.loop.pair else ""
+        self._drive_box.layout.display = "flex" if self.loop.pair.drivable else "none"
+        for button, stepper in zip(self.source_buttons, self._steppers.values(), strict=True):
+            button.button_style = "info" if stepper is self.loop.pair else ""
 
 
 _WRAPPED = {"flex_flow": "row wrap", "align_items": "center"}

@@ -1,4 +1,4 @@
-// Drawing layers on a canvas, in the colours that frames bring.
+// Drawing (rendering) of layers on a canvas: grid, point cloud, track, covariance ellipses, legend.
 
 const PAPER = "#ffffff", INK = "#333333", GRID = "#e4e4e4", AXIS = "#9a9a9a";
 const FONT = "12px system-ui, sans-serif", LINE = 18; // [px]
@@ -51,8 +51,8 @@ function grid(g, camera) {
   g.restore();
 }
 
-// many points: written as pixels, which takes a few ms for 100 000
-function cloud(image, camera, ratio, layer) {
+// point cloud, rasterised: written as pixels, which takes a few ms for 100 000 points
+function pointCloud(image, camera, ratio, layer) {
   const pixels = new Uint32Array(image.data.buffer), { width, height } = image;
   const rgb = parseInt(layer.colour.slice(1), 16);
   const value = ((255 << 24) | ((rgb & 255) << 16) | (rgb & 0xff00) | (rgb >> 16)) >>> 0;
@@ -67,7 +67,7 @@ function cloud(image, camera, ratio, layer) {
   }
 }
 
-const FEW = 300; // points up to so many are drawn as discs that can be told apart
+const FEW_POINTS = 300; // up to so many are drawn as discs that can be told apart
 
 const DRAW = {
   points(g, camera, { rows, colour }) {
@@ -193,7 +193,7 @@ function draw(canvas, camera, layers) {
   const entries = legend(g, camera, layers.list);
   grid(g, camera);
   const [w, h] = camera.inner();
-  const many = ({ kind, rows }) => kind == "points" && rows.length > 2 * FEW;
+  const many = ({ kind, rows }) => kind == "points" && rows.length > 2 * FEW_POINTS;
   const clouds = layers.list.filter(many);
   g.save();
   g.beginPath();
@@ -203,7 +203,7 @@ function draw(canvas, camera, layers) {
   const paint = () => {
     painted = true;
     const image = new ImageData(wide, high);
-    for (const layer of clouds) cloud(image, camera, ratio, layer);
+    for (const layer of clouds) pointCloud(image, camera, ratio, layer);
     const sheet = new OffscreenCanvas(wide, high);
     sheet.getContext("2d").putImageData(image, 0, 0);
     g.drawImage(sheet, 0, 0, camera.width, full);

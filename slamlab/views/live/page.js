@@ -1,4 +1,4 @@
-// Elements of a page, as all widgets make them. Nothing is asked of a network.
+// HTML elements of a page, as all widgets make them. No network request is made.
 
 const TEXT = { font: "13px system-ui, sans-serif", color: "var(--jp-ui-font-color1, #333)" };
 

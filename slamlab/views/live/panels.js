@@ -1,4 +1,4 @@
-// Panels of curves over time, below the map.
+// Time plots (panels of curves over time), below the map.
 
 const PANEL = 92; // height of a panel of curves [px]
 

@@ -1,4 +1,4 @@
-// What frames bring, and which part of the plane is seen.
+// Layers that frames bring (decoded incrementally), and the camera: world to pixels, zoom, pan.
 
 const MARGIN = { left: 46, right: 10, bottom: 34 }; // [px]; above stands the legend
 
@@ -8,7 +8,8 @@ class Layers {
     this.header = null;
   }
 
-  take(header, view) {
+  // decode a frame: keep old rows, add those that follow
+  receive(header, view) {
     const end = view.byteOffset + view.byteLength; // a copy, for a start at a multiple of four
     const brought = new Float32Array(view.buffer.slice(view.byteOffset, end));
     const before = new Map(this.list.map((layer) => [layer.key, layer]));
@@ -59,6 +60,7 @@ function widen(box, x, y) {
   if (y > box[3]) box[3] = y;
 }
 
+// view transform from metres to pixels
 class Camera {
   constructor(width, height) {
     Object.assign(this, { width, height, top: 25, x: 0, y: 0, scale: 50, fitted: true, run: null });

@@ -1,4 +1,4 @@
-"""The picture where no JavaScript of ours runs: NumPy paints pixels, an Image widget shows them."""
+"""Rasterisation (rasterization) without JavaScript: NumPy draws the pixels of a PNG image."""
 
 import html
 import struct
@@ -8,15 +8,15 @@ import ipywidgets
 import numpy as np
 
 from slamlab.views.figures import COLOURS
-from slamlab.views.live.screen import Screen
+from slamlab.views.live.back_pressure import Screen
 
-GAP = 0.1  # [s] between two pictures: an image acknowledges nothing, so nothing may pile up
-CHORDS = 32  # of an ellipse
+FRAME_PERIOD = 0.1  # [s] between two frames: an image acknowledges nothing, no queue may build up
+ELLIPSE_CHORDS = 32  # straight pieces that an ellipse is drawn of
 MARGIN = 0.06  # of the picture, free on each side
 
 
 class RasterScreen(Screen):
-    """A screen of plain ipywidgets: the map, always fitted, a grid line each metre; no curves.
+    """Screen of plain ipywidgets: raster image of the map, fitted, grid line each metre, no curves.
 
     Parameters
     ----------
@@ -26,7 +26,7 @@ class RasterScreen(Screen):
     """
 
     def __init__(self, alt="", title="", size=(720, 480)):
-        super().__init__(acknowledged=False, gap=GAP)
+        super().__init__(acknowledged=False, frame_period=FRAME_PERIOD)
         self._size = tuple(map(int, size))
         self._image = ipywidgets.Image(
             format="png", layout={"width": f"{self._size[0]}px", "max_width": "100%"}
@@ -35,8 +35,8 @@ class RasterScreen(Screen):
         self._alt, self._title = alt, title
         self.widget = ipywidgets.VBox([self._image, self._words])
 
-    def _put(self, scene):
-        self._image.value = png(paint(scene, self._size))
+    def _send_frame(self, scene):
+        self._image.value = png(rasterise(scene, self._size))
         names = {each.name: each.colour for each in scene.drawables if each.kind != "curve"}
         legend = " ".join(
             f'<span style="color:{colour}">■</span> {html.escape(name)}'
@@ -49,8 +49,8 @@ class RasterScreen(Screen):
         self._words.value = f'<div aria-label="{alt}">{title}{legend}<br>{status}</div>'
 
 
-def paint(scene, size):
-    """A scene as pixels.
+def rasterise(scene, size):
+    """Rasterise a scene: an RGB image of its layers.
 
     Parameters
     ----------
@@ -63,8 +63,8 @@ def paint(scene, size):
     """
     width, height = size
     picture = np.full((height, width, 3), 255, np.uint8)
-    strokes = [(each, *_strokes(each, scene.radius)) for each in scene.drawables]
-    corner, scale = _fitted([place for _, dots, lines in strokes for place in (dots, lines)], size)
+    primitives = [(each, *_primitives(each, scene.radius)) for each in scene.drawables]
+    corner, scale = _fit_view([xy for _, *both in primitives for xy in both], size)
 
     def pixels(xy):
         return (xy - corner) * scale * [1, -1] + [0, height]
@@ -75,16 +75,16 @@ def paint(scene, size):
         ends = np.repeat(across, 2).reshape(-1, 1, 2).swapaxes(1, 2)
         far = np.broadcast_to([corner[1 - axis], high[1 - axis]], (len(across), 2))[..., None]
         grid = np.concatenate([ends, far] if axis == 0 else [far, ends], axis=2).reshape(-1, 2, 2)
-        _stamp(picture, _along(pixels(grid)), COLOURS["guide"], 1)
-    for drawable, dots, lines in strokes:
+        _paint_squares(picture, _rasterise_lines(pixels(grid)), COLOURS["guide"], 1)
+    for drawable, dots, lines in primitives:
         few = len(dots) <= 300
-        _stamp(picture, pixels(dots), drawable.colour, 5 if few else 2)
-        _stamp(picture, _along(pixels(lines)), drawable.colour, 2)
+        _paint_squares(picture, pixels(dots), drawable.colour, 5 if few else 2)
+        _paint_squares(picture, _rasterise_lines(pixels(lines)), drawable.colour, 2)
     return picture
 
 
 def png(picture):
-    """Pixels as PNG, quickly packed.
+    """Encode an RGB image as PNG, with the fastest compression.
 
     Parameters
     ----------
@@ -106,8 +106,8 @@ def png(picture):
     return b"\x89PNG\r\n\x1a\n" + b"".join(packed)
 
 
-def _strokes(drawable, radius):
-    """(n, 2) dots and (m, 2, 2) lines that make a layer up [m]."""
+def _primitives(drawable, radius):
+    """(n, 2) dots and (m, 2, 2) lines that make a layer up: its primitives [m]."""
     rows = drawable.rows.astype(float)
     no_dots, no_lines = np.empty((0, 2)), np.empty((0, 2, 2))
     match drawable.kind:
@@ -118,31 +118,31 @@ def _strokes(drawable, radius):
         case "boxes":
             corners = rows[:, [0, 2, 1, 2, 1, 3, 0, 3, 0, 2]].reshape(-1, 5, 2)
         case "ellipses":
-            corners = _rims(*rows.T)
+            corners = _ellipse_outlines(*rows.T)
         case "poses" if len(rows):
             x, y, theta = rows[-1]
             nose = [[x, y], [x + 1.5 * radius * np.cos(theta), y + 1.5 * radius * np.sin(theta)]]
-            body = _chain(_rims(*np.array([[x, y, radius, radius, 0]]).T))
-            return no_dots, np.concatenate([_chain(rows[None, :, :2]), body, [nose]])
+            body = _outline_segments(_ellipse_outlines(*np.array([[x, y, radius, radius, 0]]).T))
+            return no_dots, np.concatenate([_outline_segments(rows[None, :, :2]), body, [nose]])
         case _:
             return no_dots, no_lines
-    return no_dots, _chain(corners)
+    return no_dots, _outline_segments(corners)
 
 
-def _rims(x, y, a, b, angle):
-    """(n, CHORDS + 1, 2) closed outlines of ellipses."""
-    t = np.linspace(0, 2 * np.pi, CHORDS + 1)
+def _ellipse_outlines(x, y, a, b, angle):
+    """(n, ELLIPSE_CHORDS + 1, 2) closed outlines of ellipses, as polygons."""
+    t = np.linspace(0, 2 * np.pi, ELLIPSE_CHORDS + 1)
     u, v = a[:, None] * np.cos(t), b[:, None] * np.sin(t)
     c, s = np.cos(angle)[:, None], np.sin(angle)[:, None]
     return np.stack([x[:, None] + c * u - s * v, y[:, None] + s * u + c * v], axis=2)
 
 
-def _chain(corners):
+def _outline_segments(corners):
     """(m, 2, 2) lines from each corner to the next, of (n, k, 2) outlines."""
     return np.stack([corners[:, :-1], corners[:, 1:]], axis=2).reshape(-1, 2, 2)
 
 
-def _fitted(places, size):
+def _fit_view(places, size):
     """(2,) what stands at the lower left corner [m] and the scale [pixels/m] that show all."""
     all_ = np.concatenate([np.zeros((0, 2)), *(place.reshape(-1, 2) for place in places)])
     all_ = all_[np.isfinite(all_).all(axis=1)]
@@ -151,21 +151,21 @@ def _fitted(places, size):
     return (low + high) / 2 - np.array(size) / scale / 2, scale
 
 
-def _along(lines):
-    """(k, 2) places along lines without a gap; all places in pixels."""
+def _rasterise_lines(lines):
+    """(k, 2) points along lines without a gap (line rasterisation); all in pixels."""
     lines = lines[np.isfinite(lines).all(axis=(1, 2))]
     if not len(lines):
         return np.empty((0, 2))
-    way = lines[:, 1] - lines[:, 0]
+    extent = lines[:, 1] - lines[:, 0]
     # closer than a pixel, so that rounding leaves no gap
-    counts = np.ceil(1.5 * np.abs(way).max(axis=1)).astype(int) + 1
+    counts = np.ceil(1.5 * np.abs(extent).max(axis=1)).astype(int) + 1
     which = np.repeat(np.arange(len(lines)), counts)
     first = np.repeat(np.cumsum(counts) - counts, counts)
     share = (np.arange(len(which)) - first) / np.maximum(counts - 1, 1)[which]
-    return lines[which, 0] + share[:, None] * way[which]
+    return lines[which, 0] + share[:, None] * extent[which]
 
 
-def _stamp(picture, places, colour, size):
+def _paint_squares(picture, places, colour, size):
     """Paint squares of so many pixels round places; what lies outside is left out."""
     height, width, _ = picture.shape
     places = places[np.isfinite(places).all(axis=1)]

@@ -1,4 +1,4 @@
-"""The browser's scripts: what the widgets share, and each one's own, as one piece."""
+"""JavaScript of the widgets: shared files and each widget's own, joined to one module."""
 
 from pathlib import Path
 
@@ -7,7 +7,7 @@ SHARED = ("page.js", "plane.js", "panels.js", "drawing.js")
 
 
 def script(path):
-    """A widget's script.
+    """JavaScript module of a widget, with the shared files in front.
 
     Parameters
     ----------

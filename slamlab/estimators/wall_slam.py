@@ -1,0 +1,173 @@
+"""EKF-SLAM with line landmarks: walls of a scan, observed as (ρ, α), in the MAK filter.
+
+Smolec's system with its landmark mended: a wall's distance and direction as seen from the robot are
+a measurement of their own, whereas the foot of the perpendicular is computed through the pose.
+"""
+
+import numpy as np
+
+from slamlab.estimators.base import Estimator
+from slamlab.estimators.mak_slam import predict
+from slamlab.filters.data_association import squared_distances
+from slamlab.filters.landmark_models import LINES
+from slamlab.filters.mak import MAK
+from slamlab.geometry import transform
+from slamlab.landmarks.downsampling import DownsampledPoints
+from slamlab.landmarks.ransac import lines
+from slamlab.landmarks.tentative_walls import TentativeWalls, extent, overlap
+from slamlab.landmarks.wall_segments import split_at_gaps, union
+from slamlab.layers import Ellipses, Points, Poses, Segments
+from slamlab.models.observation import g_line
+
+GATE = 13.8  # χ² gate, 2 degrees of freedom: a true pairing fails it once in a thousand
+AMBIGUITY_GATE = 4 * GATE  # χ²: beyond the gate and below this ambiguous, neither used nor new
+
+
+class WallSlam(Estimator):
+    """EKF-SLAM (MAK) on line landmarks: the walls that RANSAC finds in each scan.
+
+    Parameters
+    ----------
+    robot : RobotModel
+    sensor : SensorModel
+    rng : numpy.random.Generator, for RANSAC
+    ransac : Ransac, its defaults when None
+    sightings : int, observations that confirm a tentative landmark; the first scan's are at once
+    lives : int, how many scans a tentative landmark survives unseen
+    first_estimates : bool, see :class:`MAK`; without, a map of lines soon believes it knows north
+    """
+
+    def __init__(self, robot, sensor, rng, ransac=None, sightings=3, lives=3, first_estimates=True):
+        super().__init__()
+        self.robot, self.sensor, self.rng, self.ransac = robot, sensor, rng, ransac
+        self.filter = MAK(
+            np.zeros(3), np.zeros((3, 3)), kind=LINES, first_estimates=first_estimates
+        )
+        self.tentative = TentativeWalls(sightings, lives)
+        self.extents: dict[int, np.ndarray] = {}  # stretches of each wall, along its line [m]
+        self.points = DownsampledPoints()
+        self.ambiguous = 0
+        self._started = False
+
+    def step(self, reading):
+        """Process a reading: predict by odometry, correct by confirmed walls, queue tentative ones.
+
+        Parameters
+        ----------
+        reading : Reading
+        """
+        predict(self.filter, reading, self.robot)
+        if reading.scan is None or not reading.scan.valid.any():
+            self.skipped += 1
+        else:
+            found = lines(reading.scan, self.sensor, self.rng, self.ransac)
+            known, new = self._associate(found)
+            if self._started and new and not known:  # the robot may have been carried
+                self.counts["scans of only new walls"] += 1
+            self._update(reading.scan, known, new)
+            self.points.add(transform(self.filter.pose, reading.scan.points()))
+        self.pose = self.filter.pose
+        self.record(reading.time)
+        self.status = self.status_line(
+            f"{len(self.filter.ids)} walls, {len(self.tentative.tentative)} tentative",
+            f"{self.ambiguous} ambiguous observations",
+        )
+
+    def layers(self):
+        """Points, walls as far as seen, the trajectory, the robot's 95 % covariance ellipse."""
+        P_rr, _, _ = self.filter.blocks()
+        return [
+            Points("scan", self.points.xy),
+            Segments("landmark", self.walls()),
+            Poses("corrected", self.trajectory().poses),
+            Ellipses("robot", self.pose[None, :2], P_rr[None, :2, :2]),
+        ]
+
+    def walls(self):
+        """(k, 4) line segments of the map, where walls were seen, doors open: x1 y1 x2 y2 [m]."""
+        rows = []
+        for i, (rho, alpha) in self._map_lines().items():
+            normal, way = (np.array([np.cos(a), np.sin(a)]) for a in (alpha, alpha + np.pi / 2))
+            rows += [
+                [*(rho * normal + a * way), *(rho * normal + b * way)] for a, b in self.extents[i]
+            ]
+        return np.array(rows).reshape(-1, 4)
+
+    def _map_lines(self):
+        """The line landmarks of the map as estimated now: id to (ρ, α)."""
+        return dict(zip(self.filter.ids, self.filter.landmarks(), strict=True))
+
+    def _associate(self, found):
+        """Data association: observations of confirmed walls, as id to Line, and the others."""
+        if not found or not self.filter.ids:
+            return {}, found
+        z, R = (np.array([getattr(line, name) for line in found]) for name in "zR")
+        d2 = squared_distances(self.filter, z, R)
+        walls, known, new = self._map_lines(), {}, []
+        for line, row in sorted(zip(found, d2, strict=True), key=lambda pair: pair[1].min()):
+            ends = transform(self.filter.pose, line.ends)
+            near = [
+                (distance, i)
+                for distance, i in zip(row, walls, strict=True)
+                if distance < AMBIGUITY_GATE
+                and overlap(_hull(self.extents[i]), extent(walls[i], ends))
+            ]
+            distance, i = min(near, default=(np.inf, None))
+            if i is None:
+                new.append(line)
+            elif distance <= GATE and i not in known:
+                known[i] = line
+            else:  # a second piece of the wall, or one that fits it badly
+                self.ambiguous += 1
+        return known, new
+
+    def _update(self, scan, known, new):
+        """Correct by known walls, augment by newly confirmed ones, extend what was seen of each."""
+        if known:
+            z, R = (np.array([getattr(line, name) for line in known.values()]) for name in "zR")
+            self.filter.update(list(known), z, R)
+        pose = self.filter.pose
+        placed = [(g_line(pose, line.z), transform(pose, line.ends)) for line in new]
+        # the first scan lays the map's frame: what it shows is surest there, without any drift
+        first, self._started = not self._started, True
+        for line, due in zip(new, self.tentative.sight(placed), strict=True):
+            if due or first:
+                i = len(self.extents)
+                self.filter.add([i], line.z[None], line.R)
+                known[i], self.extents[i] = line, np.empty((0, 2))
+        walls = self._map_lines()
+        for i, line in known.items():
+            r, beta = scan.ranges[line.beams], scan.angles[line.beams] + pose[2]
+            hits = pose[:2] + r[:, None] * np.column_stack([np.cos(beta), np.sin(beta)])
+            along = hits @ [-np.sin(walls[i][1]), np.cos(walls[i][1])]
+            self.extents[i] = union(self.extents[i], split_at_gaps(along))
+
+
+def _hull(parts):
+    """(2,) from the first to the last of some pieces [m]."""
+    return np.array([parts[0, 0], parts[-1, 1]]) if len(parts) else np.array([np.inf, -np.inf])
+
+
+def for_source(slam, source, rng=None):
+    """Make an EKF-SLAM estimator with walls for a source.
+
+    Parameters
+    ----------
+    slam : WallSlam or FootSlam, the class
+    source : Source
+    rng : numpy.random.Generator, seed 0 when None
+
+    Returns
+    -------
+    Estimator
+
+    Raises
+    ------
+    ValueError : no reading holds a scan
+    """
+    if len(source) and all(reading.scan is None for reading in source):
+        raise ValueError(f"{source.name} holds no scans, which walls need; sim:situation-1 does")
+    return slam(source.robot, source.sensor, rng or np.random.default_rng(0))
+
+
+DOUBT = AMBIGUITY_GATE  # name in the first edition

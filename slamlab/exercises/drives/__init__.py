@@ -1,0 +1,191 @@
+"""Drives (test drivers): call a student's functions on given inputs, the worker's side of a task.
+
+No truth and no answer stands here or in the modules beside this one: a worker that runs student
+code holds nothing else of the checks.
+"""
+
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from traceback import walk_tb
+
+import numpy as np
+
+Arrays = Mapping[str, np.ndarray]
+
+MAX_NUMBERS = 500_000
+"""Most numbers of one output: more are no honest answer, and would not fit the pipe."""
+
+_CELL = re.compile(r"<cell |<ipython-input|[/\\](ipykernel|xpython)_")
+
+
+class StudentError(Exception):
+    """A student's function is missing, fails, or returns nothing that can be judged.
+
+    Parameters
+    ----------
+    kind : str, one of "missing", "not attempted", "raised", "malformed", "time", "died", "needs"
+    message : str, what happened, in words for the student
+    """
+
+    def __init__(self, kind, message):
+        super().__init__(message)
+        self.kind, self.message = kind, message
+
+
+def numbers(value, function):
+    """Convert what a student's function returned to a float array.
+
+    Parameters
+    ----------
+    value : anything
+    function : str, the function's name, for the message
+
+    Returns
+    -------
+    float array
+
+    Raises
+    ------
+    StudentError : "malformed" when it is not made of real numbers
+    """
+    if value is None:
+        raise StudentError(
+            "malformed", f"{function} returned nothing: is there a return at its end?"
+        )
+    try:
+        if isinstance(value, str | bytes):  # which astype would read as numbers
+            raise TypeError
+        array = np.asarray(value)
+        if array.dtype.kind == "c":  # of which astype would take the half
+            raise StudentError(
+                "malformed", f"{function} returned complex numbers: a root of something negative?"
+            )
+        if array.dtype.kind not in "biufO":
+            raise TypeError
+        if array.size > MAX_NUMBERS:
+            raise StudentError("malformed", f"{function} returned {array.size} numbers: too many")
+        return array.astype(float)
+    except StudentError:
+        raise
+    except Exception:  # an object may raise anything while it is being converted
+        raise StudentError(
+            "malformed",
+            f"{function} returned {type(value).__name__}, which is no array of real numbers",
+        ) from None
+
+
+def rows(inputs: Arrays):
+    """Yield the arguments of each call: row i of each array, scalars as float, arrays as copies."""
+    count = min(len(a) for a in inputs.values())
+    for i in range(count):
+        yield [float(a[i]) if a.ndim == 1 else np.array(a[i]) for a in inputs.values()]
+
+
+def call_each(functions: Mapping[str, Callable], inputs: Arrays) -> dict[str, np.ndarray]:
+    """Call the first function once per row of the inputs and stack what it returns as "result".
+
+    Parameters
+    ----------
+    functions : name to function, in the task's order
+    inputs : name to (n, ...) array, in the order of the function's arguments
+
+    Returns
+    -------
+    {"result": (n, ...)}
+
+    Raises
+    ------
+    StudentError : "malformed" when the results are no numbers or differ in shape
+    """
+    name, function = next(iter(functions.items()))
+    results = [numbers(function(*row), name) for row in rows(inputs)]
+    shapes = sorted({r.shape for r in results})
+    if len(shapes) > 1:
+        raise StudentError(
+            "malformed", f"{name} returned arrays of different shapes: {shapes[0]}, {shapes[1]}"
+        )
+    return {"result": np.array(results)}
+
+
+@dataclass(frozen=True)
+class Drive:
+    """A drive (test driver): how a task calls a student's functions.
+
+    Parameters
+    ----------
+    functions : names the student must define, in order
+    run : (functions by name, inputs) -> arrays
+    seconds : float, timeout (wall clock) of one run [s]
+    """
+
+    functions: tuple[str, ...]
+    run: Callable[[Mapping[str, Callable], Arrays], dict[str, np.ndarray]] = call_each
+    seconds: float = 10.0
+
+    def __call__(self, namespace: Mapping, inputs: Arrays) -> dict[str, np.ndarray]:
+        """Find the functions in a namespace and run them.
+
+        Parameters
+        ----------
+        namespace : the student's names
+        inputs : name to array
+
+        Returns
+        -------
+        name to array
+
+        Raises
+        ------
+        StudentError : when a function is missing, not attempted, fails, or returns no numbers
+        KeyboardInterrupt : when the person at the keyboard, or a time limit, stopped it
+        """
+        functions = {}
+        for name in self.functions:
+            if name not in namespace:
+                raise StudentError("missing", f"{name} is not defined")
+            if not callable(namespace[name]):
+                what = type(namespace[name]).__name__
+                raise StudentError("malformed", f"{name} is of type {what}, not a function")
+            functions[name] = namespace[name]
+        try:
+            return self.run(functions, inputs)
+        except (StudentError, KeyboardInterrupt):
+            raise
+        except NotImplementedError as error:
+            raise StudentError("not attempted", self._unsolved(error)) from None
+        except BaseException as error:  # SystemExit too: sys.exit() in a function is a mistake
+            raise StudentError("raised", describe(error)) from None
+
+    def _unsolved(self, error):
+        """That something is not attempted yet; of several functions, which."""
+        passed = [frame.f_code.co_name for frame, _ in walk_tb(error.__traceback__)]
+        which = [name for name in passed if name in self.functions]
+        named = f"{which[-1]} is " if which and len(self.functions) > 1 else ""
+        return f"{named}not attempted yet"
+
+
+def describe(error: BaseException) -> str:
+    """Describe an exception in one line, with the last line of student code in its traceback.
+
+    Parameters
+    ----------
+    error : BaseException
+
+    Returns
+    -------
+    str
+    """
+    where, traceback = "", error.__traceback__
+    while traceback is not None:
+        code = traceback.tb_frame.f_code
+        # cells have no file of their own: "<cell 3>" in the worker, "/tmp/ipykernel_…" in a kernel
+        if _CELL.search(code.co_filename):
+            inside = "" if code.co_name == "<module>" else f", in {code.co_name}"
+            where = f" (line {traceback.tb_lineno} of the cell{inside})"
+        traceback = traceback.tb_next
+    try:
+        text = str(error)[:1000].strip().splitlines()
+    except Exception:  # an exception class of the student's own may fail at this, too
+        text = []
+    return f"{type(error).__name__}: {text[0][:300] if text else 'no message'}{where}"

@@ -1,0 +1,41 @@
+"""Drives of exercise 01: one call per input, but for the number of steps, which is an int."""
+
+import numpy as np
+
+from slamlab.exercises.drives import Drive, StudentError, numbers
+
+
+def whole_steps(functions, inputs):
+    """Call the function once per input, its first argument an int.
+
+    Parameters
+    ----------
+    functions : the one function
+    inputs : steps n, length d [m], heading error sigma [rad], (k,) each
+
+    Returns
+    -------
+    {"result": (k,) [m]}
+
+    Raises
+    ------
+    StudentError : "malformed" when a call does not return one number
+    """
+    ((name, function),) = functions.items()
+    results = [
+        numbers(function(int(n), float(d), float(sigma)), name)
+        for n, d, sigma in zip(*inputs.values(), strict=True)
+    ]
+    wrong = next((r.shape for r in results if r.size != 1), None)
+    if wrong is not None:
+        raise StudentError("malformed", f"{name} returned shape {wrong}, expected one number")
+    return {"result": np.array([r.item() for r in results])}
+
+
+DRIVES = {
+    "01-next-pose": Drive(("next_pose",)),
+    "01-track": Drive(("track",)),
+    "01-place": Drive(("place",)),
+    "01-seen-from": Drive(("seen_from",)),
+    "01-drift": Drive(("drift",), run=whole_steps),
+}

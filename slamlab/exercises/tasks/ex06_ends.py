@@ -1,0 +1,82 @@
+"""How the ends of many runs of a filter are judged: by the truth, and by least squares."""
+
+import numpy as np
+
+from slamlab.exercises.tasks.ex06_runs import LANDMARKS, RUNS, least_squares, truth
+from slamlab.evaluation import band, nees
+from slamlab.filters.landmark_models import LINES
+from slamlab.geometry import wrap
+
+MAP = slice(3, None)
+HONEST = 1 - 5e-7  # a right filter lies inside a band in this share of gradings
+SLACK = 1.15  # the Jacobians are taken at estimates: bands are this much wider
+
+
+def whole(inputs, outputs):
+    """Whether the map holds each landmark once, so that it can be looked at."""
+    ids, met = outputs["ids"], np.unique(inputs["seen"][inputs["seen"] >= 0])
+    fits = ids.shape == (RUNS, LANDMARKS) and outputs["x"].shape == (RUNS, 3 + 2 * LANDMARKS)
+    return bool(fits and (np.sort(ids, axis=1) == met).all())
+
+
+class Ends:
+    """The ends of runs among landmarks of one kind.
+
+    Parameters
+    ----------
+    kind : Kind of the landmarks
+    sure : (low, high) what variances may be in units of those of least squares
+    """
+
+    def __init__(self, kind, sure):
+        self.kind, self.sure_within = kind, sure
+
+    def in_order(self, inputs, x, P, ids):
+        """x (r, n), P (r, n, n) with the landmarks in the order of meeting."""
+        met = list(truth(inputs, self.kind)[3])
+        x, P = x.copy(), P.copy()
+        for r, mine in enumerate(ids.tolist()):
+            first = 3 + 2 * np.array([mine.index(i) for i in met])
+            rows = np.concatenate([[0, 1, 2], np.column_stack([first, first + 1]).ravel()])
+            x[r], P[r] = x[r, rows], P[r][np.ix_(rows, rows)]
+        return x, P
+
+    def of(self, inputs, outputs):
+        """x and P that the runs ended with, landmarks in the order of meeting."""
+        return self.in_order(inputs, outputs["x"], outputs["P"], outputs["ids"])
+
+    def wrapped(self, error):
+        """(..., n) errors of states, their angles wrapped."""
+        error[..., 2] = wrap(error[..., 2])
+        if self.kind is LINES:
+            error[..., 4::2] = wrap(error[..., 4::2])
+        return error
+
+    def errors(self, inputs, x):
+        """(r, n) estimate minus truth."""
+        _, _, way, landmarks = truth(inputs, self.kind)
+        return self.wrapped(x - np.concatenate([way[-1], *landmarks.values()]))
+
+    def honest(self, part):
+        """A law: a part of the state errs as much as P says."""
+
+        def holds(inputs, outputs):
+            if not whole(inputs, outputs):
+                return False
+            x, P = self.of(inputs, outputs)
+            error = self.errors(inputs, x)[:, part]
+            # the runs' common mean costs one of them
+            low, high = band(error.shape[1], RUNS - 1, HONEST)
+            return low / SLACK <= nees(error, P[:, part, part]).mean() <= high * SLACK
+
+        return holds
+
+    def sure(self, inputs, outputs):
+        """A law: the mean of P has the variances of least squares, in every direction."""
+        if not whole(inputs, outputs):
+            return False
+        P = self.of(inputs, outputs)[1]
+        root = np.linalg.inv(np.linalg.cholesky(least_squares(inputs, self.kind)))
+        ratios = np.linalg.eigvalsh(root @ P.mean(axis=0) @ root.T)
+        low, high = self.sure_within
+        return low <= ratios.min() and ratios.max() <= high

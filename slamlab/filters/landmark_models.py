@@ -1,0 +1,49 @@
+"""Landmark models: point landmarks (range and bearing) and line landmarks (walls).
+
+Each gives the observation model h, its inverse g and both Jacobians; two numbers a landmark.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from slamlab.models import jacobians, observation
+
+
+@dataclass(frozen=True)
+class LandmarkModel:
+    """Observation model of a kind of landmark: h, inverse g, and their Jacobians H and J.
+
+    Parameters
+    ----------
+    h : (x, p) -> (..., 2) expected observation from a pose; its second component is an angle
+    g : (x, z) -> (..., 2) inverse observation model: the landmarks so observed
+    H : (x, p) -> (..., 2, 3), (..., 2, 2) Jacobians of h by the pose and the landmark
+    J : (x, z) -> (..., 2, 3), (..., 2, 2) Jacobians of g by the pose and the observation
+    """
+
+    h: Callable
+    g: Callable
+    H: Callable
+    J: Callable
+
+
+def _point_jacobians(x, p):
+    H_r = jacobians.H_robot(x, p)
+    return H_r, -H_r[..., :2]
+
+
+POINTS = LandmarkModel(
+    observation.h,
+    observation.g,
+    _point_jacobians,
+    lambda x, z: (jacobians.J_xr(x, z), jacobians.J_z(x, z)),
+)
+LINES = LandmarkModel(
+    observation.h_line,
+    observation.g_line,
+    lambda x, line: (jacobians.H_robot_line(x, line), jacobians.H_line(x, line)),
+    lambda x, z: (jacobians.J_xr_line(x, z), jacobians.J_z_line(x, z)),
+)
+
+
+Kind = LandmarkModel  # name in the first edition

@@ -1,0 +1,138 @@
+"""Batch grading: a folder's submissions, each stored when graded, so that it can resume."""
+
+import re
+import threading
+from concurrent.futures import ThreadPoolExecutor, as_completed, wait
+from hashlib import sha256
+from pathlib import Path
+
+from slamlab.grading import class_report, feedback, grade_tables, judge, late_policy, submissions
+from slamlab.grading.marks import mark
+from slamlab.grading.submissions import SubmissionError
+
+
+def prepare_grading(folder: Path, out: Path, secret: Path | None = None):
+    """Find the submissions, load the secret seed and make the folder of results.
+
+    Parameters
+    ----------
+    folder : Path, of submissions
+    out : Path, made where it is missing
+    secret : Path or None, the file of the secret; None: ``out/secret``, made where it is missing
+
+    Returns
+    -------
+    (list of Submission, bytes)
+
+    Raises
+    ------
+    SubmissionError : when one of them cannot be used
+    """
+    if out.resolve() == folder.resolve():
+        raise SubmissionError("the results need another folder than the submissions'")
+    found = submissions.find_submissions(folder, out)
+    if not found:
+        raise SubmissionError(f"there is no notebook in {folder}")
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise SubmissionError(f"{out} cannot be made: {error.strerror}") from None
+    return found, judge.load_secret(secret or out / "secret", make=secret is None)
+
+
+def select_shard(found, part):
+    """Select one shard of the submissions, the same on every machine: for batch systems.
+
+    Parameters
+    ----------
+    found : list of Submission
+    part : str, "i/n": the i-th of n parts
+
+    Returns
+    -------
+    list of Submission
+
+    Raises
+    ------
+    SubmissionError : not such a part
+    """
+    match = re.fullmatch(r"(\d+)/(\d+)", part)
+    i, n = (int(number) for number in match.groups()) if match else (0, 0)
+    if not 1 <= i <= n:
+        raise SubmissionError(f"--shard is I/N such as 2/8, with I from 1 to N, not {part}")
+    mine = [s for s in found if int(sha256(s.name.encode()).hexdigest(), 16) % n == i - 1]
+    if not mine:
+        raise SubmissionError(f"part {part} of {len(found)} submissions is empty")
+    return mine
+
+
+def grade_locally(found, secret, workers, default=None, known=None, jobs=1):
+    """Grade submissions in parallel on this machine and yield records as they are done.
+
+    Parameters
+    ----------
+    found : list of Submission
+    secret : bytes
+    workers : WorkerPool, closed in the end
+    default : str or None, the exercise of notebooks that do not tell it
+    known : attempt's key to Record; these attempts are not graded again
+    jobs : int, how many at once
+
+    Yields
+    ------
+    Record
+    """
+    stop = threading.Event()
+    with ThreadPoolExecutor(jobs) as pool:
+        futures = [
+            pool.submit(judge.grade_submission, s, secret, workers, default, known, stop)
+            for s in found
+        ]
+        try:
+            yield from (future.result() for future in as_completed(futures))
+        finally:
+            stop.set()
+            for future in futures:
+                future.cancel()
+            wait(futures)
+            workers.close()  # before the threads end that they would die with
+
+
+def store_records(graded, out, book, default=None, policy=late_policy.NO_PENALTY):
+    """Store each record in the gradebook with its feedback page, and all tables at the end.
+
+    Parameters
+    ----------
+    graded : iterable of Record
+    out : Path
+    book : Gradebook
+    default : str or None, an exercise whose columns stand in the table in any case
+    policy : LatePolicy
+
+    Yields
+    ------
+    Record, written
+    """
+    done, overrides = [], book.overrides()
+    try:
+        for record in graded:
+            done.append(mark(record, overrides, policy))
+            if not record.failed:
+                book.add(record)
+            feedback.write_feedback_page(out, done[-1])
+            yield record
+    finally:
+        write_results(out, done, default)
+
+
+def write_results(out, marks, default=None):
+    """Write the tables of grades and the class report.
+
+    Parameters
+    ----------
+    out : Path
+    marks : list of Mark
+    default : str or None, an exercise whose columns stand in the table in any case
+    """
+    grade_tables.write_tables(out, marks, default)
+    class_report.write_report(out, marks)

@@ -1,0 +1,73 @@
+"""Class report: the scores of each task, the commonest mistakes, the similarity report."""
+
+from collections import Counter
+from dataclasses import dataclass
+
+from slamlab.exercises import catalogue
+from slamlab.grading import similarity
+from slamlab.grading.feedback import TEMPLATES
+from slamlab.grading.records import write_atomically
+
+MOST_COMMON = 5  # mistakes (diagnoses, problems) shown of a task
+
+
+@dataclass(frozen=True)
+class TaskReport:
+    """Statistics of one task over the class.
+
+    Parameters
+    ----------
+    id, title : str
+    shares : (3,) of the submissions with all, some and no points [1]
+    counts : (3,) how many they are
+    mistakes : list of (str, how often), the commonest first
+    """
+
+    id: str
+    title: str
+    shares: tuple
+    counts: tuple
+    mistakes: list
+
+
+def write_report(out, marks):
+    """Write the class report ``class.html``.
+
+    Parameters
+    ----------
+    out : Path
+    marks : list of Mark
+    """
+    records = [mark.record for mark in marks]
+    graded = [record for record in records if record.graded]
+    exercises = {}
+    for id in sorted({record.exercise for record in graded}):
+        of_this = [record for record in graded if record.exercise == id]
+        mine = [m for m in marks if m.record.graded and m.record.exercise == id]
+        totals = sorted(m.total for m in mine if m.total is not None)
+        exercises[id] = {
+            "exercise": catalogue.exercise(id),
+            "count": len(of_this),
+            "median": totals[len(totals) // 2],
+            "tasks": [_task(task, of_this) for task in catalogue.exercise(id).tasks],
+        }
+    page = TEMPLATES.get_template("class.html").render(
+        exercises=exercises,
+        ungraded=[record for record in records if not record.graded],
+        levels=sorted({record.isolation for record in graded if record.isolation}),
+        similar=similarity.clusters(graded),
+    )
+    write_atomically(out / "class.html", page)
+
+
+def _task(task, records):
+    verdicts = [v for record in records for v in record.verdicts if v.task == task.id]
+    counts = [
+        sum(verdict.full for verdict in verdicts),
+        sum(v.points > 0 and not v.full for v in verdicts),
+        sum(v.points == 0 and not v.full for v in verdicts),
+    ]
+    mistakes = Counter(v.hint or v.problem for v in verdicts if v.hint or v.problem)
+    most = max(1, len(verdicts))
+    shares = tuple(count / most for count in counts)
+    return TaskReport(task.id, task.title, shares, tuple(counts), mistakes.most_common(MOST_COMMON))

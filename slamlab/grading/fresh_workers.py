@@ -1,0 +1,67 @@
+"""Spawned workers: a fresh interpreter each, where a process cannot safely fork (no sandbox)."""
+
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+from slamlab.grading import staging
+
+POSIX = os.name == "posix"
+BOOTSTRAP = (
+    "import sys; sys.path.insert(0, sys.argv[2]); sys.path += sys.argv[3:]; "
+    "from slamlab.grading import worker; worker.main(sys.argv[1])"
+)
+
+
+class FreshWorker:
+    """A spawned worker; :attr:`receiving` and :attr:`sending` are the judge's ends of its pipes.
+
+    A process of its own, no sandbox: only resource limits, where the system has them.
+
+    Parameters
+    ----------
+    exercise : Exercise
+    """
+
+    def __init__(self, exercise):
+        self.cpu = 0.0
+        self._folder = tempfile.TemporaryDirectory(prefix="slamlab-", ignore_cleanup_errors=True)
+        folder = Path(self._folder.name)
+        copy, home = folder / "copy", folder / "home"
+        staging.copy_modules(copy, exercise)
+        home.mkdir()
+        search, _ = staging.stage_libraries(folder)
+        options = ["-I", "-S", "-B", "-c", BOOTSTRAP, exercise.drives, copy, *search]
+        with open(folder / "errors", "wb") as errors:
+            self._process = subprocess.Popen(
+                [sys.executable, *options],
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                stderr=errors,
+                cwd=home,
+                env=staging.environment(home),
+                start_new_session=True,
+            )
+        self.sending, self.receiving = self._process.stdin, self._process.stdout
+
+    def last_error(self):
+        """The last line of the error output of a worker that could not start, before any cell."""
+        lines = Path(self._folder.name, "errors").read_text("utf-8", "replace").strip().splitlines()
+        return lines[-1][:300] if lines else ""
+
+    def kill(self):
+        """End the worker and all processes of its group; its CPU time [s] is in :attr:`cpu`."""
+        if self._process.returncode is None:
+            if POSIX:
+                # before it is waited for: until then its number cannot be another's
+                os.killpg(self._process.pid, signal.SIGKILL)
+                _, status, usage = os.wait4(self._process.pid, 0)
+                self._process.returncode = os.waitstatus_to_exitcode(status)
+                self.cpu = usage.ru_utime + usage.ru_stime
+            else:
+                self._process.kill()
+                self._process.wait()
+        self._folder.cleanup()

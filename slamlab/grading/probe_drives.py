@@ -1,0 +1,3 @@
+"""Empty drives: for the worker of the sandbox self-test, which has no tasks."""
+
+DRIVES = {}

@@ -1,0 +1,196 @@
+"""Worker client, the judge's end: runs cells and tasks in a worker, each with a timeout."""
+
+import contextlib
+import queue
+import threading
+import time
+
+from slamlab.exercises.drives import StudentError
+from slamlab.grading import redaction, wire_protocol
+from slamlab.grading.worker_pool import WorkerStartError
+
+START_TIMEOUT = 120.0  # of a worker [s]
+CELL_TIMEOUT = 10.0  # [s]
+NOTEBOOK_TIMEOUT = 300.0  # of all cells and tasks [s]
+POLL_SECONDS = 0.2
+"""Polling interval of the stop event [s]."""
+
+
+class WorkerLost(Exception):
+    """A worker hangs (timeout) or is dead; ``kind`` is "time" or "died"."""
+
+    def __init__(self, kind):
+        super().__init__(kind)
+        self.kind = kind
+
+
+class WorkerClient:
+    """A student's notebook in a worker, restarted without the cells that made it hang or die.
+
+    Parameters
+    ----------
+    exercise : Exercise
+    cells : list of (number, source), the student's code cells in order
+    start : exercise -> worker, such as ``WorkerPool.start``
+    stop : threading.Event or None; once it is set, nothing is waited for any more
+    unredacted : bool, whether failures are told without redaction, which reveals inputs, too
+    """
+
+    def __init__(self, exercise, cells, start, stop=None, unredacted=False):
+        self._exercise, self._cells, self._start = exercise, cells, start
+        self._stop, self._unredacted = stop or threading.Event(), unredacted
+        self._process, self._thread, self._turn = None, None, 0
+        self._requests, self._responses = queue.SimpleQueue(), queue.SimpleQueue()
+        self._skipped_cells = set()
+        self._deadline = time.monotonic() + NOTEBOOK_TIMEOUT
+        self.problems = {}
+        """Problems of cells, by cell number."""
+        self.cpu = 0.0
+        """CPU time of ended workers [s]."""
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self._stop_worker()
+
+    def run(self, task, inputs):
+        """Call a task's functions on inputs in the worker.
+
+        Parameters
+        ----------
+        task : Task
+        inputs : name to array
+
+        Returns
+        -------
+        name to array, not to be trusted
+
+        Raises
+        ------
+        StudentError : when nothing came back that could be judged
+        WorkerStartError
+        """
+        self.load()
+        try:
+            head, arrays = self._request(
+                {"do": "task", "task": task.id}, inputs, task.drive.seconds
+            )
+        except WorkerLost as gone:
+            self._stop_worker()
+            raise StudentError(gone.kind, _loss_message(gone.kind, task.drive.seconds)) from None
+        if head.get("problem") is not None:
+            kind = head.get("kind") if head.get("kind") in redaction.PROBLEM_KINDS else "raised"
+            problem = _text(head["problem"])
+            if not self._unredacted:
+                problem = redaction.redact(kind, problem, task, self._exercise, self._cells)
+            raise StudentError(kind, problem)
+        return arrays
+
+    def load(self):
+        """Start a worker if there is none and run all cells in it, those that hung it left out."""
+        while self._process is None:
+            self._start_worker()
+            for number, source in self._cells:
+                if number in self._skipped_cells:
+                    continue
+                try:
+                    self._load_cell(number, source)
+                except WorkerLost as gone:
+                    self._stop_worker()
+                    self._skipped_cells.add(number)
+                    self.problems[number] = _loss_message(gone.kind, CELL_TIMEOUT)
+                    break
+
+    def _load_cell(self, number, source):
+        self.problems.pop(number, None)
+        try:
+            request = {"do": "cell", "number": number, "source": source}
+            head, _ = self._request(request, {}, CELL_TIMEOUT)
+        except wire_protocol.WireError:
+            self.problems[number] = "too long to be run"
+            return
+        if head.get("problem") is not None:
+            self.problems[number] = _text(head["problem"])
+
+    def _start_worker(self):
+        if time.monotonic() >= self._deadline:
+            raise StudentError("time", f"the notebook took more than {NOTEBOOK_TIMEOUT:g} s in all")
+        self._process = self._start(self._exercise)
+        self._requests, self._responses = queue.SimpleQueue(), queue.SimpleQueue()
+        # in a thread of its own: a worker may also hang by not reading
+        pair = self._requests, self._responses
+        self._thread = threading.Thread(
+            target=_exchange_frames, args=(self._process, *pair), daemon=True
+        )
+        self._thread.start()
+        self._turn = None
+        try:
+            head, _ = self._exchange(b"", START_TIMEOUT)
+        except WorkerLost as gone:
+            why = self._process.last_error()
+            self._stop_worker()
+            raise WorkerStartError(f"the worker did not start ({gone.kind}): {why}") from None
+        if head.get("ready") is not True:
+            self._stop_worker()
+            raise WorkerStartError("the worker did not say that it is ready")
+        self._turn = 0
+
+    def _request(self, head, arrays, seconds):
+        frame = wire_protocol.pack(head | {"turn": self._turn + 1}, arrays)
+        self._turn += 1
+        return self._exchange(frame, min(seconds, max(self._deadline - time.monotonic(), 0.1)))
+
+    def _exchange(self, frame, seconds):
+        self._requests.put(frame)
+        try:
+            answer, kind = self._next_response(seconds), "died"
+        except queue.Empty:
+            answer, kind = None, "time"
+        if answer is None or answer[0].get("turn") != self._turn:
+            raise WorkerLost(kind)
+        return answer
+
+    def _next_response(self, seconds):
+        end = time.monotonic() + seconds
+        while not self._stop.is_set():
+            left = end - time.monotonic()
+            try:
+                return self._responses.get(timeout=max(min(left, POLL_SECONDS), 0))
+            except queue.Empty:
+                if left <= POLL_SECONDS:
+                    raise
+        raise WorkerStartError("grading was stopped")
+
+    def _stop_worker(self):
+        if self._process is None:
+            return
+        process, self._process = self._process, None
+        process.kill()
+        self._requests.put(None)
+        self.cpu += process.cpu
+        self._thread.join(1.0)
+        if not self._thread.is_alive():  # else a process that escaped still holds the pipe
+            for stream in (process.sending, process.receiving):
+                with contextlib.suppress(OSError):
+                    stream.close()
+
+
+def _exchange_frames(process, requests, responses):
+    while (frame := requests.get()) is not None:
+        try:
+            process.sending.write(frame)
+            process.sending.flush()
+            responses.put(wire_protocol.receive(process.receiving))
+        except (OSError, ValueError, wire_protocol.WireError):
+            responses.put(None)
+
+
+def _loss_message(kind, seconds):
+    if kind == "time":
+        return f"still running after {seconds:g} s"
+    return "ended the whole Python process"
+
+
+def _text(value):
+    return str(value)[:500]

@@ -1,0 +1,70 @@
+"""Marginal covariances of a pose graph's poses: blocks of H⁻¹, never all of it."""
+
+import numpy as np
+
+from slamlab.posegraph import edge_error
+from slamlab.posegraph.edge_jacobians import J_i, J_j
+from slamlab.posegraph.normal_equations import factorise
+
+CHUNK = 256  # poses at a time: bounds the memory
+
+
+def covariances(problem, poses, phi):
+    """Marginal covariance of each pose: the 3 × 3 blocks on the diagonal of H⁻¹.
+
+    Parameters
+    ----------
+    problem : Problem
+    poses : (n, 3) the optimum [m, m, rad]
+    phi : float, Φ of the robust edges [1]
+
+    Returns
+    -------
+    (n, 3, 3) zero for a fixed pose
+    """
+    factors, count = _factorised(problem, poses, phi), len(poses)
+    blocks = np.empty((count, 3, 3))
+    for some in np.array_split(np.arange(count), -(-count // CHUNK)):
+        pick = np.zeros((len(some), 3, 6))
+        pick[:, :, :3] = np.eye(3)
+        solved = _solve(problem, factors, pick, np.column_stack([some, some]))
+        blocks[some] = solved[some, :, np.arange(len(some))]
+    return (blocks + blocks.transpose(0, 2, 1)) / 2
+
+
+def squared_mahalanobis(problem, poses, pairs, measured, R, phi):
+    """Squared Mahalanobis distance vᵀ(J H⁻¹ Jᵀ + R)⁻¹v of candidate edges, v = e(x_i, x_j, z).
+
+    Innovation v and its covariance J H⁻¹ Jᵀ + R: the chi-square test of a loop-closure candidate.
+
+    Parameters
+    ----------
+    problem : Problem
+    poses : (n, 3) the optimum [m, m, rad]
+    pairs : (c, 2) int
+    measured : (c, 3) [m, m, rad]
+    R : (c, 3, 3) or (3, 3) their covariance, the measurement noise
+    phi : float, Φ of the robust edges [1]
+
+    Returns
+    -------
+    (c,) [1]
+    """
+    at = poses[pairs[:, 0]], poses[pairs[:, 1]], measured
+    J = np.concatenate([J_i(*at), J_j(*at)], axis=-1)
+    solved = _solve(problem, _factorised(problem, poses, phi), J, pairs)
+    PJt = solved[pairs, :, np.arange(len(pairs))[:, None]].reshape(-1, 6, 3)
+    v = edge_error.error(*at)
+    return np.einsum("ca,ca->c", v, np.linalg.solve(J @ PJt + R, v[..., None])[..., 0])
+
+
+def _factorised(problem, poses, phi):
+    """Factorise H at these poses."""
+    e, chi2 = problem.errors(poses)
+    return factorise(problem.linearise(poses, e, problem.weights(chi2, phi))[0])
+
+
+def _solve(problem, factors, rows, pairs):
+    """Solve: H⁻¹ times rows (c, 3, 6) over pairs of poses, transposed: (n, 3, c, 3)."""
+    columns = problem.equations.to_columns(rows, pairs)
+    return problem.equations.to_poses(factors.solve(columns)).reshape(-1, 3, len(pairs), 3)

@@ -1,0 +1,180 @@
+"""Scan registration: point-to-line ICP by robust, reweighted Gauss-Newton from an initial guess."""
+
+from dataclasses import dataclass
+from math import cos, sin
+
+import numpy as np
+from scipy.linalg import lapack
+
+from slamlab.scanmatching.local_line_fits import median
+
+KERNEL_SHRINK = 0.7  # factor of the robust kernel's width, from iteration to iteration, at most [1]
+MIN_NORMAL_COSINE = 0.7  # cosine of the largest angle between the two normals of a pair [1]
+MAX_ALONG_WALL = 4.0  # gate along the wall: distance of the next point, in spacings [1]
+MIN_PAIRS = 10  # correspondences, or a tenth of the points where that is more
+DEGENERATE_SHARE = 1e-4  # an eigenvalue below this share of their sum is degenerate [1]
+SPURIOUS_INFORMATION = 3.0  # times the information that the normals' noise feigns: more is real [1]
+# pairs flip: converged when so many iterations moved it by less than this share of the noise
+OSCILLATION_ROUNDS, OSCILLATION_STEP = 10, 0.5
+STEP_TOLERANCE = 0.2  # converged when a step is below this share of the pose's standard deviation
+IDENTITY = np.eye(3)
+
+
+@dataclass
+class Pairs:
+    """Correspondences: the source's points on the target's lines, with residuals and Jacobian.
+
+    Parameters
+    ----------
+    pose : (3,) [m, m, rad]
+    target_index : (n,) int, the target's point for each of the source
+    in_view : (n,) bool, the target was seen there
+    used : (n,) bool, inliers of the gates: in view, both normals known and alike
+    ranges : (n,) of the source's points from the target's origin [m]
+    residuals : (n,) r, distances across the target's line [m]
+    J : (3, n) derivative of r with respect to [x, y, θ reach]: all in metres
+    variance : (n,) of r by the noise of both clouds [m²]
+    """
+
+    pose: np.ndarray
+    target_index: np.ndarray
+    in_view: np.ndarray
+    used: np.ndarray
+    ranges: np.ndarray
+    residuals: np.ndarray
+    J: np.ndarray
+    variance: np.ndarray
+
+
+def find_correspondences(source, target, pose):
+    """Find correspondences (data association): each source point with a line of the target.
+
+    r = n · (R p + t − c), with c and n of the line that faces p in the target.
+
+    Parameters
+    ----------
+    source, target : Surface
+    pose : (3,) floats [m, m, rad]
+
+    Returns
+    -------
+    Pairs
+    """
+    tx, ty, theta = pose
+    c, s = cos(theta), sin(theta)
+    arm_x, arm_y = c * source.x - s * source.y, s * source.x + c * source.y
+    px, py = arm_x + tx, arm_y + ty
+    j, in_view = target.associate(px, py)
+    fits, own = target.fits, source.fits
+    nx, ny = fits.nx[j], fits.ny[j]
+    residuals = nx * px + ny * py - fits.offset[j]
+    cosine = nx * (c * own.nx - s * own.ny) + ny * (s * own.nx + c * own.ny)
+    if not (source.oriented and target.oriented):
+        cosine = np.abs(cosine)
+    if target.bearings is None:  # beyond a wall's end there is nothing to be laid on
+        away = (px - target.x[j]) ** 2 + (py - target.y[j]) ** 2
+        in_view = away <= (np.abs(residuals) + MAX_ALONG_WALL * target.spacing) ** 2
+    used = in_view & fits.good[j] & own.good & (cosine > MIN_NORMAL_COSINE)
+    J = np.empty((3, len(px)))
+    J[0], J[1], J[2] = nx, ny, (arm_x * ny - arm_y * nx) / source.reach
+    noise = source.sigma**2 + target.sigma**2
+    variance = fits.across_variance[j] + own.across_variance + noise
+    ranges = np.sqrt(px * px + py * py)
+    return Pairs(pose, j, in_view, used, ranges, residuals, J, variance)
+
+
+def align(source, target, pose, rounds, callback=None):
+    """Align a surface to another: iterate Gauss-Newton until the steps are lost in the noise.
+
+    Each round weighs the pairs by w = 1 / (v (1 + (r/c)²)²), v the variance that noise gives r, and
+    takes the Gauss-Newton step on Σ w r². The width c follows the residuals down to the noise.
+
+    Parameters
+    ----------
+    source, target : Surface
+    pose : (3,) initial guess [m, m, rad]
+    rounds : int, iterations at most
+    callback : callable(Pairs) or None, called in every iteration
+
+    Returns
+    -------
+    Pairs at the last pose; int, rounds done; bool, converged; float, the last kernel width c; bool,
+    whether no direction is degenerate
+    """
+    pose = tuple(map(float, pose))
+    noise = np.sqrt(source.sigma**2 + target.sigma**2)
+    required = min_pairs(source)
+    kernel_width, converged, well_constrained, past_poses = np.inf, False, False, []
+    for done in range(rounds + 1):
+        pairs = find_correspondences(source, target, pose)
+        if callback is not None:
+            callback(pairs)
+        sizes = np.abs(pairs.residuals[pairs.used])
+        if converged or done == rounds or len(sizes) < required:
+            return pairs, done, converged, kernel_width, well_constrained
+        spread = 1.4826 * median(sizes)
+        if done >= OSCILLATION_ROUNDS:  # residuals above the noise: a scan taken on the move
+            noise = max(noise, spread)
+        kernel_width = max(2 * noise, min(KERNEL_SHRINK * kernel_width, 2 * spread))
+        w = robust_weights(pairs, kernel_width, kernel_width < 6 * noise)
+        step, well_constrained = gauss_newton_step(pairs, w, target)
+        past_poses.append(pose)
+        pose = pose[0] + step[0], pose[1] + step[1], pose[2] + step[2] / source.reach
+        reach, limit = source.reach, STEP_TOLERANCE * noise / np.sqrt(len(sizes))
+        small = step_length(pose, past_poses[-1], reach) < limit
+        # pairs that flip to and fro keep it moving on the spot; who creeps along a wall gets away
+        lately = past_poses[-OSCILLATION_ROUNDS:][0]
+        stuck = step_length(pose, lately, reach) < OSCILLATION_STEP * noise
+        oscillates = stuck and done >= OSCILLATION_ROUNDS
+        converged = (small or oscillates) and kernel_width <= 2.5 * noise + 1.5 * spread
+    raise AssertionError("the last round returns")
+
+
+def step_length(a, b, reach):
+    """Step length between two poses: the largest of those along x, along y and by turning [m]."""
+    return max(abs(a[0] - b[0]), abs(a[1] - b[1]), reach * abs(a[2] - b[2]))
+
+
+def min_pairs(source):
+    """How many correspondences a registration needs to go on."""
+    return min(max(MIN_PAIRS, len(source) // 10), len(source))
+
+
+def robust_weights(pairs, kernel_width, fine):
+    """Robust kernel's weights w = used / (v (1 + (r/c)²)²); v = 1 while the fit is not fine."""
+    w = pairs.used / (1 + (pairs.residuals / kernel_width) ** 2) ** 2
+    return w / pairs.variance if fine else w
+
+
+def gauss_newton_step(pairs, w, target):
+    """Gauss-Newton step that lowers Σ w r², zero in a degenerate direction.
+
+    Parameters
+    ----------
+    pairs : Pairs
+    w : (n,) weights [1]
+    target : Surface
+
+    Returns
+    -------
+    (3,) step in [x, y, θ reach] [m]; bool, whether no direction is degenerate
+    """
+    JW = pairs.J * w
+    A, b = JW @ pairs.J.T, JW @ pairs.residuals
+    floor = information_floor(pairs, w, target, A[0, 0] + A[1, 1] + A[2, 2])
+    # every eigenvalue above the floor: A less the floor is still positive definite
+    if lapack.dpotrf(A - floor * IDENTITY)[1] == 0:
+        return -lapack.dposv(A, b)[1], True
+    values, axes = np.linalg.eigh(A)
+    axes, values = axes[:, values > floor], values[values > floor]
+    return -axes @ (axes.T @ b / values), False
+
+
+def information_floor(pairs, w, target, trace):
+    """Threshold of the information matrix's eigenvalues: below it a direction is degenerate.
+
+    A normal off by ε sees a motion along its wall as sin ε of one across it: the variances of the
+    normals, weighed as the pairs are, sum up to information that nobody has.
+    """
+    spurious = float(w @ target.fits.normal_variance[pairs.target_index])
+    return max(DEGENERATE_SHARE * trace, SPURIOUS_INFORMATION * spurious)

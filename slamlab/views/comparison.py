@@ -1,0 +1,70 @@
+"""Comparison plots: covariance ellipses over a scatter plot of samples, line plots of curves."""
+
+from itertools import cycle
+
+import numpy as np
+from matplotlib.ticker import MaxNLocator
+
+from slamlab.layers import Ellipses, Points
+from slamlab.views.figures import COLOURS, axes, chart
+from slamlab.views.layer_drawing import draw, legend
+
+# told apart without colour, too
+_STYLES = [
+    (COLOURS["corrected"], "solid"),
+    (COLOURS["naive"], "dashed"),
+    (COLOURS["landmark"], "dotted"),
+    (COLOURS["truth"], "dashdot"),
+]
+
+
+def cloud(samples, covariances, title=None, size=(6, 4.5), layers=()):
+    """Scatter plot of samples (a point cloud), and 95 % covariance ellipses round their mean.
+
+    Parameters
+    ----------
+    samples : (n, 2) or wider; the first two columns are x and y [m]
+    covariances : dict, name for the legend to (2, 2) or larger [m²]
+    title : str or None
+    size : (width, height) [inch]
+    layers : what else to draw, such as the track driven
+
+    Returns
+    -------
+    (Figure, Axes)
+    """
+    fig, ax = axes(title, size)
+    xy = np.asarray(samples, dtype=float)[:, :2]
+    draw(ax, Points("samples", xy), color=COLOURS["scan"], alpha=0.6)
+    for (name, covariance), (colour, line) in zip(covariances.items(), cycle(_STYLES)):
+        ellipse = Ellipses(name, [xy.mean(axis=0)], [np.asarray(covariance)[:2, :2]])
+        _, entry = draw(ax, ellipse, color=colour, linewidth=2, linestyle=line)
+        entry.set_linestyle(line)
+    for layer in layers:
+        draw(ax, layer, color=COLOURS["truth"])
+    legend(ax)
+    return fig, ax
+
+
+def curves(x, ys, xlabel, ylabel, title=None, size=(6, 3.5)):
+    """Line plot: curves over the same axis, with a legend.
+
+    Parameters
+    ----------
+    x : (n,)
+    ys : dict, name for the legend to (n,)
+    xlabel, ylabel : str, with the unit in brackets
+    title : str or None
+    size : (width, height) [inch]
+
+    Returns
+    -------
+    (Figure, Axes)
+    """
+    fig, ax = chart(xlabel, ylabel, title, size)
+    if np.asarray(x).dtype.kind in "iu":
+        ax.xaxis.set_major_locator(MaxNLocator(integer=True))
+    for (name, y), (colour, line) in zip(ys.items(), cycle(_STYLES)):
+        ax.plot(x, y, color=colour, linestyle=line, linewidth=2, label=name)
+    ax.legend()
+    return fig, ax

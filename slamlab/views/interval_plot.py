@@ -1,0 +1,47 @@
+"""Confidence-interval plot (forest plot): shares with error bars, a row each."""
+
+import numpy as np
+from matplotlib.ticker import PercentFormatter
+
+from slamlab.views.figures import COLOURS, chart
+
+# told apart without colour, too
+_MARKERS = [("o", COLOURS["corrected"]), ("s", COLOURS["naive"]), ("^", COLOURS["landmark"])]
+
+
+def shares(rows, xlabel, title=None, size=(7, 3.2)):
+    """Forest plot: shares (proportions) as markers, their confidence intervals as error bars.
+
+    Parameters
+    ----------
+    rows : dict, name for the legend to dict, label of a row to (share, low, high); the same labels
+        for every name
+    xlabel : str
+    title : str or None
+    size : (width, height) [inch]
+
+    Returns
+    -------
+    (Figure, Axes)
+    """
+    fig, ax = chart(xlabel, "", title, size)
+    labels = list(next(iter(rows.values())))
+    apart = 0.5 / len(rows)  # names share a row
+    for k, ((name, of), (marker, colour)) in enumerate(zip(rows.items(), _MARKERS, strict=False)):
+        share, low, high = np.array([of[label] for label in labels], dtype=float).T
+        y = np.arange(len(labels)) + (k - (len(rows) - 1) / 2) * apart
+        ax.errorbar(
+            share,
+            y,
+            xerr=[share - low, high - share],
+            fmt=marker,
+            color=colour,
+            capsize=3,
+            label=name,
+        )
+    ax.set_yticks(range(len(labels)), labels)
+    ax.set(xlim=(-0.02, 1.02), ylim=(len(labels) - 0.5, -0.5))
+    ax.xaxis.set_major_formatter(PercentFormatter(1.0))
+    if len(rows) > 1:
+        ax.legend()
+    return fig, ax

@@ -1,0 +1,55 @@
+"""Plot of a correlation matrix (matrix plot, heat map) with its blocks marked and named."""
+
+import numpy as np
+
+from slamlab.views.figures import COLOURS, chart
+
+# ends that stay apart with any kind of colour vision; nothing is white
+_COLOUR_MAP = "RdBu_r"
+_MAX_LABELS = 12  # tick labels; more on an axis cannot be read
+
+
+def correlation(rho, names, title=None, ax=None, size=(4.8, 4.2)):
+    """Draw a correlation matrix from −1 (blue) over 0 (white) to 1 (red), lines between blocks.
+
+    Parameters
+    ----------
+    rho : (3 + 2N, 3 + 2N) correlations, such as ``evaluation.correlation(P)``
+    names : 1 + N names of the blocks, the robot's (three rows) before the landmarks' (two each)
+    title : str or None
+    ax : Axes to draw in, or None for a figure of its own
+    size : (width, height) of that figure [inch]
+
+    Returns
+    -------
+    (Figure, Axes)
+
+    Raises
+    ------
+    ValueError : names that do not fit, or numbers that are no correlations
+    """
+    rho = np.asarray(rho, dtype=float)
+    edges = np.concatenate([[0], 3 + 2 * np.arange(len(names))])
+    if rho.shape != (edges[-1], edges[-1]):
+        raise ValueError(f"{len(names)} blocks, the first of 3 rows, do not fill {rho.shape}")
+    if np.abs(rho).max() > 1 + 1e-9 or not np.isin(np.diag(rho).round(9), (0, 1)).all():
+        raise ValueError("these are no correlations: give evaluation.correlation(P), not P")
+    own = ax is None
+    if own:
+        _, ax = chart(None, None, None, size)
+    ax.grid(False)
+    picture = ax.imshow(rho, cmap=_COLOUR_MAP, vmin=-1, vmax=1, interpolation="nearest")
+    inner = edges[1:-1] - 0.5
+    ax.hlines(inner, -0.5, edges[-1] - 0.5, color=COLOURS["guide"], linewidth=0.6)
+    ax.vlines(inner, -0.5, edges[-1] - 0.5, color=COLOURS["guide"], linewidth=0.6)
+    every = -(-len(names) // _MAX_LABELS)
+    middles = (edges[:-1] + edges[1:] - 1) / 2
+    ax.set_xticks(middles[::every], labels=names[::every], rotation=90 if len(names) > 6 else 0)
+    ax.set_yticks(middles[::every], labels=names[::every])
+    ax.tick_params(length=0)
+    if own:
+        bar = ax.figure.colorbar(picture, ax=ax, shrink=0.8, label="correlation")
+        bar.set_ticks([-1, 0, 1])
+    if title:
+        ax.set_title(title)
+    return ax.figure, ax

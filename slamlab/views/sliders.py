@@ -1,0 +1,99 @@
+"""Interactive figure: sliders and other controls that redraw a plot (explore)."""
+
+import html
+import traceback
+
+import ipywidgets
+from IPython.display import display
+
+from slamlab.views import play_button as players
+from slamlab.views.figures import bundle
+
+
+def explore(draw, alt, play=None, **controls):
+    """Interactive figure: show a plot with sliders, choices and tick boxes that redraw it.
+
+    The first view is drawn at once, so that a mistake in ``draw`` surfaces as any other; what a
+    notebook stores is that view. A later mistake is shown in place of the figure. Calling this
+    stops whatever plays, so that a cell can be run again.
+
+    Parameters
+    ----------
+    draw : (values of the controls by name) -> Figure
+    alt : str, or (values by name) -> str, what the figure shows
+    play : str or None, name of a slider that gets a button which moves it from where it stands to
+        its end, a step a picture
+    controls : by name of draw's argument, in order: a widget of ipywidgets, or
+        ``(low, high, first)`` for a slider, whole-numbered when all three are int;
+        a list for a choice, its first entry first; a bool for a tick box
+
+    Raises
+    ------
+    ValueError : when a control is none of these, or ``play`` names no slider
+    """
+    players.stop()
+    widgets = {name: _control(name, given) for name, given in controls.items()}
+    view = ipywidgets.HTML()
+    buttons = []
+    if play is not None:
+        if play not in widgets:
+            raise ValueError(f"play: no control is called {play!r}, only {', '.join(widgets)}")
+        buttons.append(players.Player(widgets[play]).button)
+
+    def redraw():
+        values = {name: widget.value for name, widget in widgets.items()}
+        data, metadata = bundle(draw(**values), alt(**values) if callable(alt) else alt)
+        view.value = _image(data["image/png"], data["text/plain"])
+        return data, metadata
+
+    def changed(_):
+        try:
+            redraw()
+        except Exception:
+            # a callback has no cell to fail in
+            players.stop()
+            view.value = f"<pre>{html.escape(traceback.format_exc(limit=-2))}</pre>"
+
+    data, metadata = redraw()
+    for widget in widgets.values():
+        widget.observe(changed, "value")
+    box = ipywidgets.VBox([*widgets.values(), *buttons, view])
+    live = box._repr_mimebundle_() or {}
+    display(live | data, metadata=metadata, raw=True)
+
+
+def _control(name, given):
+    if isinstance(given, ipywidgets.ValueWidget):
+        if given.has_trait("continuous_update"):
+            # one drawing per let-go: nothing piles up behind a slow one
+            given.continuous_update = False
+        given.style = {"description_width": "initial"}
+        return given
+    label = name.replace("_", " ")
+    layout = {"width": "28em"}
+    style = {"description_width": "initial"}
+    if isinstance(given, bool):
+        return ipywidgets.Checkbox(given, description=label, indent=False)
+    if isinstance(given, list) and given:
+        return ipywidgets.Dropdown(options=given, description=label, layout=layout, style=style)
+    if isinstance(given, tuple) and len(given) == 3 and given[0] <= given[2] <= given[1]:
+        whole = all(isinstance(bound, int) for bound in given)
+        slider = ipywidgets.IntSlider if whole else ipywidgets.FloatSlider
+        low, high, first = given
+        return slider(
+            min=low,
+            max=high,
+            value=first,
+            step=1 if whole else (high - low) / 100,
+            description=label,
+            layout=layout,
+            style=style,
+            continuous_update=False,
+        )
+    raise ValueError(
+        f"{name}: expected (low, high, first), a list, a bool or a widget, got {given!r}"
+    )
+
+
+def _image(png, alt):
+    return f'<img src="data:image/png;base64,{png}" alt="{html.escape(alt, quote=True)}">'

@@ -1,0 +1,121 @@
+"""Emulated devices as a source, and drives of them that were recorded in simulated time."""
+
+import threading
+
+import numpy as np
+import pytest
+
+from slamlab import estimators, worlds
+from slamlab.devices.clock import Clock
+from slamlab.devices.emir import Calibration, Emir
+from slamlab.devices.emir.wheel_odometry import Odometry
+from slamlab.devices.emulator.robot_body import COUNT_SIZE
+from slamlab.devices.emulator.synthetic_recording import record_synthetic_drive
+from slamlab.devices.errors import PortError
+from slamlab.devices.memory_port import MemoryPort
+from slamlab.devices.recording import load
+from slamlab.devices.recording.decoding import statuses, turns
+from slamlab.devices.recording.playback import playback
+from slamlab.devices.rplidar import RPLidar
+from slamlab.files.errors import SourceError
+from slamlab.geometry import between
+from slamlab.sources import emulated_devices
+from tests.laws import assert_same_pose
+
+COURSE = [(0.5, 0, 0), (1.5, 50, 0), (1.0, 0, 50), (1.0, 30, 20)]
+
+
+def rehearsed(path, seed=0):
+    return record_synthetic_drive(path, worlds.polygon(), np.random.default_rng(seed), COURSE)
+
+
+@pytest.mark.parametrize("tcp", [False, True])
+@pytest.mark.usefixtures("busy_machine")
+def test_readings_come_through_ports_and_the_truth_is_known_of_each(tcp, monkeypatch):
+    if tcp:
+        monkeypatch.setattr(emulated_devices, "FALLBACK_ADDRESS", ("127.0.0.1", 0, 0))
+    counts = Calibration(path=COUNT_SIZE[0], angle=COUNT_SIZE[1])
+    rng = np.random.default_rng(0)
+    with emulated_devices.EmulatedDevices(worlds.polygon(), rng, counts) as devices:
+        estimator = estimators.make("icp", devices)
+        for k, reading in enumerate(devices):
+            estimator.step(reading)
+            if k == 3:
+                devices.drive((0.2, 0.4))
+            if k == 15:
+                devices.drive((0.0, 0.0))
+            if k == 25:
+                break
+        truth = devices.truth
+        assert len(truth) == 26
+        assert truth.times[-1] == pytest.approx(reading.time)
+        assert_same_pose(truth.poses[0], np.zeros(3))
+        assert np.hypot(*truth.poses[-1, :2]) > 0.05
+        assert_same_pose(estimator.pose, truth.poses[-1], 0.05)
+    devices.close()
+    assert not [t for t in threading.enumerate() if t.name == "emulator"]
+
+
+def test_before_the_first_reading_there_is_no_truth_yet():
+    with emulated_devices.EmulatedDevices(worlds.polygon(), np.random.default_rng(0)) as devices:
+        assert len(devices.truth) == 0
+
+
+def test_what_does_not_open_is_told_in_one_line_and_nothing_runs_on(monkeypatch):
+    def refuse(*_, **__):
+        raise PortError("it does not open", "a test", "go on")
+
+    monkeypatch.setattr(emulated_devices, "RPLidar", refuse)
+    with pytest.raises(SourceError, match="Next: go on"):
+        emulated_devices.EmulatedDevices(worlds.polygon(), np.random.default_rng(0))
+    assert not [t for t in threading.enumerate() if t.name == "emulator"]
+
+
+def test_a_rehearsed_drive_has_the_same_bytes_each_time_and_others_of_another_seed(tmp_path):
+    for name, seed in (("a", 1), ("b", 1), ("c", 2)):
+        rehearsed(tmp_path / name, seed)
+    a, b, c = (load(tmp_path / name).records for name in "abc")
+    assert a == b != c
+
+
+def test_a_rehearsed_drive_is_read_as_any_recording(tmp_path):
+    truth = rehearsed(tmp_path / "drive")
+    recording = load(tmp_path / "drive")
+    assert not recording.truncated
+    found = list(turns(recording))
+    assert len(found) > 20 and all(turn.complete for turn in found[1:])
+    odometry = Odometry(Calibration(path=COUNT_SIZE[0], angle=COUNT_SIZE[1]))
+    for time, status in statuses(recording):
+        odometry.advance(status.path, status.angle, time)
+    moved = between(truth.poses[0], truth.poses[-1])
+    assert_same_pose(odometry.pose_at(truth.times[-1]), moved, 0.1)  # slip, whole counts, 0.1 s
+    scan, at = found[5].scan(), np.searchsorted(truth.times, found[5].times[-1])
+    x, y, theta = truth.poses[at]
+    off = worlds.polygon().cast((x, y), theta + scan.angles) - scan.ranges
+    assert np.nanmedian(np.abs(off)) < 0.02
+
+
+@pytest.mark.parametrize(("mode", "points"), [(0, 197), (1, 394), (2, 787)])
+def test_a_rehearsed_drive_is_of_the_mode_that_was_asked_for(tmp_path, mode, points):
+    path, rng = tmp_path / "drive", np.random.default_rng(0)
+    record_synthetic_drive(path, worlds.polygon(), rng, [(0.5, 0, 0)], mode)
+    found = list(turns(load(tmp_path / "drive")))
+    assert abs(np.median([len(turn) for turn in found]) - points) <= 2
+
+
+def test_drivers_find_their_answers_when_a_rehearsed_drive_is_replayed(tmp_path):
+    rehearsed(tmp_path / "drive")
+    clock, found = Clock(), playback(load(tmp_path / "drive"))
+
+    def opener(name, baud):
+        return MemoryPort(found[name], clock, name, baud)
+
+    with Emir("emir", opener=opener) as emir, RPLidar("lidar", opener=opener) as lidar:
+        assert lidar.turn(timeout=20).complete
+        assert emir.wait() is not None
+
+
+def test_a_rehearsal_does_not_overwrite_a_file(tmp_path):
+    (tmp_path / "drive").touch()
+    with pytest.raises(FileExistsError):
+        rehearsed(tmp_path / "drive")

@@ -1,0 +1,317 @@
+"""Lidar and robot as a source of readings: one clock, odometry between turns, drivable."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given
+
+from slamlab import sources, worlds
+from slamlab.cli import main
+from slamlab.devices.clock import Clock, SimulatedClock
+from slamlab.devices.deskewing import deskew
+from slamlab.devices.emir import Calibration, Emir, commands
+from slamlab.devices.emir.session import Session
+from slamlab.devices.emir.wheel_odometry import Odometry
+from slamlab.devices.emulator.emir_emulator import EmirEmulator
+from slamlab.devices.emulator.motion_distortion import MovingLidar
+from slamlab.devices.emulator.robot_body import COUNT_SIZE, RobotBody
+from slamlab.devices.emulator.rplidar_emulator import RPLidarEmulator
+from slamlab.devices.errors import ConnectionLost
+from slamlab.devices.memory_port import MemoryPort
+from slamlab.devices.recording import Recorder, load
+from slamlab.devices.recording.decoding import turns
+from slamlab.devices.rplidar import RPLidar
+from slamlab.devices.rplidar.requests import Command, motor_pwm, request
+from slamlab.devices.rplidar.revolutions import Turn
+from slamlab.geometry import between, compose, transform
+from slamlab.readings import Scan
+from slamlab.simulation.differential_drive import DifferentialDrive
+from slamlab.sources import SourceError
+from slamlab.sources import live_devices as source
+from slamlab.sources.lidar_on_robot import EMIR_MODEL
+from tests.laws import assert_same_pose, poses
+
+THESIS = 0.01, np.radians(2)  # what a count is there [m, rad]
+COURSE = [(1.0, 0, 0), (2.0, 60, 20), (1.0, -30, -40), (2.0, 50, 50), (1.0, 0, 0)]
+GONE = ConnectionLost("it is gone", "unplugged", "plug it in")
+
+
+def turn(end, complete=True):
+    angles = np.arange(0, 360, 1.0)
+    times = end - 0.1 + 0.1 * np.arange(1, 361) / 360
+    ones = np.ones(360, int)
+    return Turn(angles, 1000.0 * ones, ones, times, complete, int(not complete), False, 2.8e-4)
+
+
+class ReadyLidar:
+    """A lidar whose turns are made already."""
+
+    name = "lidar"
+
+    def __init__(self, turns, error=None):
+        self._turns, self._error, self.closed = turns, error, False
+
+    def __iter__(self):
+        yield from self._turns
+        if self._error is not None:
+            raise self._error
+
+    def close(self):
+        self.closed = True
+
+
+class ReadyEmir:
+    """A robot that has driven already: a count ahead and one to the left every 0.1 s."""
+
+    name, error = "emir", None
+
+    def __init__(self):
+        self.driven, self.closed, self.odometry = [], False, Odometry(Calibration())
+        for k in range(100):
+            self.odometry.advance(k, k, 50.0 + 0.1 * k)
+        self.pose_at = self.odometry.pose_at
+
+    def drive(self, v, omega):
+        self.driven.append((v, omega))
+
+    def renew(self):
+        self.renewed = getattr(self, "renewed", 0) + 1
+
+    def close(self):
+        self.closed = True
+
+
+def test_the_odometry_of_a_reading_is_the_way_from_turn_to_turn():
+    emir, ends = ReadyEmir(), [51.0, 51.1, 51.25, 53.0]
+    devices = source.LiveDevices(ReadyLidar([turn(end) for end in ends]), emir)
+    readings = list(devices)
+    assert [r.time for r in readings] == pytest.approx([0, 0.1, 0.25, 2.0])
+    assert_same_pose(readings[0].odometry, np.zeros(3))
+    pose = emir.pose_at(ends[0])
+    for reading, end in zip(readings[1:], ends[1:], strict=True):
+        pose = compose(pose, reading.odometry)
+        assert_same_pose(pose, emir.pose_at(end))
+    assert np.hypot(*readings[1].odometry[:2]) == pytest.approx(0.01, rel=1e-3)
+    assert readings[1].odometry[2] == pytest.approx(np.radians(2))
+
+
+def test_a_scan_is_in_the_robot_s_frame_however_the_lidar_is_turned():
+    (straight,) = source.LiveDevices(ReadyLidar([turn(51.0)]))
+    (turned,) = source.LiveDevices(ReadyLidar([turn(51.0)]), front=90.0)
+    assert straight.scan.valid.all()
+    assert np.allclose(straight.scan.angles, -np.radians(np.arange(360)))
+    assert np.allclose(turned.scan.angles - straight.scan.angles, np.pi / 2)
+
+
+def test_turns_with_gaps_are_counted_and_not_lost():
+    devices = source.LiveDevices(ReadyLidar([turn(51.0), turn(51.1, complete=False)]))
+    assert len(list(devices)) == 2
+    assert devices.damage == {"turns with a gap": 1}
+    again = replace(turn(51.1), after_gap=True)
+    devices = source.LiveDevices(ReadyLidar([turn(51.0), again, turn(51.2)]))
+    assert len(list(devices)) == 3 and devices.damage == {"connections lost and found": 1}
+
+
+def test_it_is_drivable_where_there_is_a_robot():
+    emir = ReadyEmir()
+    devices = source.LiveDevices(ReadyLidar([turn(51.0)]), emir)
+    assert devices.drivable and len(devices) == 0 and devices.name == "devices:lidar,emir"
+    assert devices.drive([0.2, -0.3]) is None
+    assert emir.driven == [(0.2, -0.3)]
+    (reading,) = devices
+    assert np.array_equal(reading.control, [0.2, -0.3])
+    alone = source.LiveDevices(ReadyLidar([]))
+    assert not alone.drivable
+    with pytest.raises(SourceError, match="no robot"):
+        alone.drive([0, 0])
+
+
+@pytest.mark.parametrize("command", [None, "fast", [1], [np.nan, 0], [1, 2, 3]])
+def test_a_command_that_makes_no_sense_is_refused(command):
+    emir = ReadyEmir()
+    with pytest.raises(SourceError, match="command"):
+        source.LiveDevices(ReadyLidar([]), emir).drive(command)
+    assert not emir.driven
+
+
+def test_what_is_lost_on_the_way_is_an_error_of_the_source_in_one_line():
+    with pytest.raises(SourceError, match="Next:") as refused:
+        list(source.LiveDevices(ReadyLidar([turn(51.0)], GONE), ReadyEmir()))
+    assert "\n" not in str(refused.value)
+    emir = ReadyEmir()
+    emir.error = GONE
+    with pytest.raises(SourceError, match="gone"):
+        list(source.LiveDevices(ReadyLidar([turn(51.0)]), emir))
+
+
+def test_closing_closes_both():
+    lidar, emir = ReadyLidar([]), ReadyEmir()
+    with source.LiveDevices(lidar, emir):
+        pass
+    assert lidar.closed and emir.closed
+
+
+def test_ports_that_do_not_open_are_told_in_one_line():
+    for spec in ("devices:/dev/ttyNOSUCH0,/dev/ttyNOSUCH1", "devices:a,b,c"):
+        with pytest.raises(SourceError) as refused:
+            sources.open(spec)
+        assert "\n" not in str(refused.value)
+
+
+def test_a_robot_is_closed_again_where_the_lidar_does_not_open(monkeypatch):
+    emir = ReadyEmir()
+    monkeypatch.setattr(source, "Emir", lambda port, **options: emir)
+    with pytest.raises(SourceError, match="there is no port"):
+        sources.open("devices:/dev/ttyNOSUCH0,e")
+    assert emir.closed
+
+
+@pytest.mark.usefixtures("busy_machine")
+def test_live_the_readings_follow_the_robot():
+    """In real time, but whatever the machine's speed: late turns are dropped, the way is not."""
+    rng, clock = np.random.default_rng(0), Clock()
+    body = RobotBody(worlds.by_name("room"), rng)
+    machines = {"e": EmirEmulator(body), "l": RPLidarEmulator(MovingLidar(body, rng))}
+
+    def opener(name, baud):
+        return MemoryPort(machines[name], clock, name, baud)
+
+    counts = Calibration(path=COUNT_SIZE[0], angle=COUNT_SIZE[1])
+    emir = Emir("e", opener=opener, calibration=counts)
+    start, believed = body.pose, np.zeros(3)
+    with source.LiveDevices(RPLidar("l", opener=opener), emir) as devices:
+        commands = {3: (0.3, 0.5), 15: (0.0, 0.0)}
+        for k, reading in enumerate(devices):
+            believed = compose(believed, reading.odometry)
+            if k in commands:
+                devices.drive(commands[k])
+            if k == 15:
+                stopped = reading.time
+            if k > 15 and reading.time > stopped + 1.0:
+                break
+        moved = between(start, body.pose)
+        assert np.hypot(*moved[:2]) > 0.1
+        assert_same_pose(believed, moved, 0.1)  # slip, and whole counts
+        scan = reading.scan
+        ranges = body.world.cast(body.pose[:2], body.pose[2] + scan.angles)
+        assert np.nanmedian(np.abs(ranges - scan.ranges)) < 0.02
+    assert not body._speeds.any()
+    assert machines["l"].requests[-1][1] == b"\0\0"  # PWM 0
+
+
+@given(poses, poses)
+def test_a_scan_taken_on_the_move_shows_the_room_as_seen_from_its_end(begin, motion):
+    motion = np.append(motion[:2] / 40, motion[2] / 3)  # half a metre and a radian at most
+    end, times = compose(begin, motion), np.linspace(7.0, 7.1, 200)
+    share = (times - 7.0) / 0.1
+    angles = np.linspace(0, -2 * np.pi, 200)
+    wall = transform(begin, 5 * np.column_stack([np.cos(2 * angles), np.sin(3 * angles)]))
+    seen = between(compose(begin, share[:, None] * motion), np.column_stack([wall, 0 * share]))
+    skewed = Scan(np.arctan2(seen[:, 1], seen[:, 0]), np.hypot(seen[:, 0], seen[:, 1]))
+    skewed.ranges[3] = np.nan
+    straight = deskew(skewed, times, begin, end)
+    assert np.isnan(straight.ranges[3]) and straight.angles[3] == skewed.angles[3]
+    rest = np.arange(200) != 3
+    xy = np.column_stack([np.cos(straight.angles), np.sin(straight.angles)])
+    found = transform(end, (straight.ranges[:, None] * xy)[rest])
+    assert np.allclose(found, wall[rest], atol=1e-6)
+
+
+def test_a_scan_from_a_robot_that_stands_is_left_as_it_is():
+    scan, pose = turn(51.0).scan(), np.array([1.0, 2.0, 3.0])
+    assert deskew(scan, turn(51.0).times, pose, pose) is scan
+
+
+def recorded(path, world, course, saturates=False):
+    """Record a drive in simulated time, by the drivers; the true poses by time on its clock."""
+    clock, rng = SimulatedClock(30.0), np.random.default_rng(1)
+    body = RobotBody(world, rng, robot=DifferentialDrive(tick=1e-6), counts=THESIS)
+    machines = {
+        "lidar": RPLidarEmulator(MovingLidar(body, rng)),
+        "emir": EmirEmulator(body, saturates=saturates),
+    }
+    true = []
+
+    def memory(name, baud):
+        return MemoryPort(machines[name], clock, name, baud)
+
+    with Recorder(path, {}, clock) as recorder:
+        openers = {name: recorder.opener(name, memory) for name in machines}
+        lidar = openers["lidar"]("lidar", 115200)
+        lidar.write(motor_pwm(660) + request(Command.SCAN))
+        emir = Session(
+            "emir", 57600, Odometry(Calibration(), saturates), None, openers["emir"], clock
+        )
+        for seconds, v, omega in course:
+            emir.move(commands.move(v, omega), repeated=True)
+            end = clock.now() + seconds
+            while clock.now() < end:
+                lidar.read(4096, 0.01)
+                emir.step()
+                true.append((clock.now(), *body.pose))
+        emir.close()
+    times, *poses = np.unwrap(np.array(true), axis=0).T
+    return lambda at: np.array([np.interp(at, times, column) for column in poses])
+
+
+@pytest.mark.parametrize("saturates", [False, True])
+def test_a_recording_is_a_source_whose_scans_lie_where_the_room_is(tmp_path, saturates):
+    world, path = worlds.by_name("room"), tmp_path / "a.raw.gz"
+    true_at = recorded(path, world, COURSE, saturates)
+    with sources.open(path) as source:
+        readings = list(source)
+        again = list(source)
+    assert len(readings) > 50 and not source.damage
+    assert source.robot == EMIR_MODEL and not source.drivable
+    assert [r.time for r in readings] == [r.time for r in again]
+    first = next(turns(load(path))).times[-1]
+    believed = true_at(first)
+    for reading in readings:
+        believed = compose(believed, reading.odometry)
+        true = true_at(first + reading.time)
+        assert_same_pose(believed, true, 0.09)  # whole counts, of 2° and 1 cm
+        distances = world.cast(true[:2], true[2] + reading.scan.angles)
+        assert np.nanmedian(np.abs(distances - reading.scan.ranges)) < 0.03
+
+
+def test_a_torn_recording_is_read_up_to_the_tear_and_says_so(tmp_path, capsys):
+    path, torn = tmp_path / "a.raw", tmp_path / "torn.raw"
+    recorded(path, worlds.by_name("room"), COURSE)
+    content, whole = path.read_bytes(), list(sources.open(path))
+    for end in np.linspace(0.2, 0.99, 5) * len(content):
+        torn.write_bytes(content[: int(end)])
+        source = sources.open(torn)
+        readings = list(source)
+        assert 0 < len(readings) < len(whole) and source.damage["file torn"] == 1
+        for a, b in zip(readings, whole, strict=False):
+            np.testing.assert_array_equal(a.scan.ranges.shape, b.scan.ranges.shape)
+    hurt = bytearray(content)
+    hurt[len(content) // 2] ^= 1
+    torn.write_bytes(hurt)
+    assert main(["run", str(torn), "--estimator", "odometry"]) == 0
+    assert "file torn: 1" in capsys.readouterr().out
+    torn.write_bytes(content[:2000])
+    with pytest.raises(SourceError, match="no whole turn"):
+        sources.open(torn)
+
+
+def test_a_recording_is_converted_and_run_as_any_log(tmp_path, capsys):
+    path, log = tmp_path / "a.raw", tmp_path / "a.log"
+    recorded(path, worlds.by_name("room"), COURSE)
+    assert main(["convert", str(path), str(log)]) == 0
+    direct, converted = list(sources.open(path)), list(sources.open(log))
+    for a, b in zip(direct, converted, strict=True):
+        assert a.time == b.time
+        np.testing.assert_array_equal(a.odometry, b.odometry)
+        np.testing.assert_array_equal(a.scan.ranges, b.scan.ranges)
+    assert main(["run", str(path), "--estimator", "icp", "--out", str(tmp_path / "out")]) == 0
+    told = capsys.readouterr().out
+    assert "scans mapped" in told  # the estimator's own words
+    assert (tmp_path / "out" / "map.png").exists()
+
+
+def test_taking_readings_keeps_the_robot_going():
+    emir = ReadyEmir()
+    list(source.LiveDevices(ReadyLidar([turn(51.0 + k / 10) for k in range(7)]), emir))
+    assert emir.renewed == 7

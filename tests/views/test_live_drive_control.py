@@ -1,0 +1,238 @@
+"""Typed drive commands: moves driven to their goal, clear error messages for all else."""
+
+import asyncio
+from functools import partial
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from slamlab import estimators, sources
+from slamlab.geometry import between, compose
+from slamlab.layers import Boxes, Points, Poses, Segments
+from slamlab.readings import Reading
+from slamlab.sources.base import Source
+from slamlab.views.live import apart
+from slamlab.views.live import run_loop as loops
+from slamlab.views.live.controls import Controls
+from slamlab.views.live.drive_commands import parse_command
+from slamlab.views.live.drive_control import GOAL_TOLERANCE, TurnThenDrive
+from slamlab.views.live.run_loop import RunLoop
+from slamlab.views.live.stepper import Stepper
+from tests.views.live_fakes import FakeScreen, Sum, Walk, until
+
+TOPS = 0.4, 0.6
+
+
+@pytest.fixture(autouse=True)
+def quick(monkeypatch):
+    for name in ("MIN_PAUSE", "IDLE_POLL"):
+        monkeypatch.setattr(loops, name, 0.0005)
+    monkeypatch.setattr(loops, "FRAME_RATE", 1000)
+    yield
+    loops.stop()
+
+
+class Robot(Source):
+    """A robot that obeys exactly, a tenth of a second a reading, standing until it is told."""
+
+    name = "a robot"
+
+    def __init__(self, rng=None):
+        super().__init__()
+        self.pose, self.command, self.closed, self.commands = np.zeros(3), (0.0, 0.0), 0, []
+
+    def __iter__(self):
+        time = 0.0
+        while not self.closed:
+            v, omega = self.command
+            step = compose(np.zeros(3), [0.1 * v, 0.0, 0.1 * omega])
+            self.pose = compose(self.pose, step)
+            yield Reading(time, step)
+            time += 0.1
+
+    def drive(self, command):
+        self.command = tuple(command)
+        self.commands.append(self.command)
+
+    def close(self):
+        self.closed += 1
+
+
+def odometry(source):
+    return estimators.DeadReckoning()
+
+
+def made(source=Robot, estimator=odometry):
+    pair = Stepper(source, estimator)
+    pair.reset(0, 1.0)
+    return RunLoop(pair, FakeScreen(), speed=1000, tops=TOPS)
+
+
+@given(st.floats(-100, 100), st.floats(-3600, 3600), st.sampled_from(["{},{}", " {} ,  {} "]))
+def test_two_numbers_are_metres_and_degrees(distance, angle, form):
+    assert parse_command(form.format(distance, angle)) == (distance, np.radians(angle))
+
+
+@pytest.mark.parametrize("text", ["reset", " Exit ", "EXIT"])
+def test_words_are_words_however_they_are_written(text):
+    assert parse_command(text) == text.strip().lower()
+
+
+@given(st.text())
+def test_any_other_line_is_refused_in_a_sentence_that_says_what_can_be_typed(text):
+    try:
+        parse_command(text)
+    except ValueError as refused:
+        assert "type metres, degrees" in str(refused) or "too far" in str(refused)
+        assert "\n" not in str(refused) and len(str(refused)) < 300
+
+
+@pytest.mark.parametrize("text", ["", "fast", "1", "1, 2, 3", "nan, 0", "inf, 0", "0, 1e9", "1;2"])
+def test_numbers_that_no_robot_can_go_are_refused(text):
+    with pytest.raises(ValueError):
+        parse_command(text)
+
+
+@settings(max_examples=50)
+@given(st.floats(-2, 2), st.floats(-7, 7))
+def test_a_way_ends_where_it_should_whole_turns_included(distance, angle):
+    way, pose, turned = (
+        TurnThenDrive(distance, angle, np.array([1.0, 2.0, 3.0]), TOPS),
+        [1.0, 2.0, 3.0],
+        0.0,
+    )
+    start = pose
+    for _ in range(2000):
+        command = way.steer(pose)
+        if command is None:
+            break
+        v, omega = command
+        assert abs(v) <= TOPS[0] and abs(omega) <= TOPS[1]
+        turned += 0.1 * omega
+        pose = compose(pose, [0.1 * v, 0.0, 0.1 * omega])
+    assert command is None
+    assert abs(turned - angle) <= 2 * GOAL_TOLERANCE[1]
+    goal = compose(start, compose([0, 0, angle], [distance, 0, 0]))
+    off = between(goal, pose)
+    assert np.hypot(*off[:2]) < GOAL_TOLERANCE[0] + 3 * GOAL_TOLERANCE[1] * abs(distance)
+
+
+def test_a_typed_way_is_driven_by_a_robot_with_a_clock_of_its_own_and_then_it_stands():
+    loop = made()
+
+    async def watch():
+        controls = Controls(loop, {"": loop.pair})
+        controls.typed.value = "0.5, 30"
+        assert controls.typed.value == "" and "30°" in controls.answer.value
+        robot = loop.pair.source
+        await until(lambda: robot.commands[-1] == (0.0, 0.0))
+        goal = 0.5 * np.cos(np.pi / 6), 0.5 * np.sin(np.pi / 6)
+        assert np.allclose(robot.pose[:2], goal, atol=0.03)
+        assert loop.running
+
+    asyncio.run(watch())
+    loop.close()
+
+
+def test_a_typed_way_is_driven_by_a_simulated_robot_that_moves_when_it_is_told():
+    loop = made(partial(sources.simulation, "situation-1", tour=False), odometry)
+
+    async def watch():
+        loop.drive_control.execute("0.4, -20")
+        await until(lambda: loop.pair.count > 3 and loop.pair.command is None)
+
+    asyncio.run(watch())
+    x, y, theta = loop.pair.estimator.pose
+    assert abs(np.hypot(x, y) - 0.4) < 0.05 and abs(np.degrees(theta) + 20) < 3
+
+
+def test_a_press_ends_a_typed_way():
+    loop = made()
+
+    async def watch():
+        loop.drive_control.execute("5, 0")
+        loop.drive("left")
+        count = loop.pair.count
+        await until(lambda: loop.pair.count > count + 5)
+        assert loop.pair.source.commands[-1] == (0.0, 0.6)
+
+    asyncio.run(watch())
+    loop.close()
+
+
+def test_exit_stops_the_robot_and_lets_go_and_run_takes_it_again():
+    loop = made()
+
+    async def watch():
+        loop.drive_control.execute("5, 0")
+        robot = loop.pair.source
+        loop.drive_control.execute("exit")
+        assert robot.commands[-1] == (0.0, 0.0) and robot.closed and not loop.running
+        loop.run()
+        assert loop.pair.source is not robot and not loop.pair.source.closed
+        await until(lambda: loop.pair.count > 2)
+
+    asyncio.run(watch())
+    loop.close()
+
+
+def test_reset_begins_anew_and_goes_on_where_it_ran():
+    loop = made()
+
+    async def watch():
+        loop.drive_control.execute("5, 0")
+        await until(lambda: loop.pair.count > 3)
+        loop.drive_control.execute("reset")
+        assert loop.running and loop.pair.runs == 2
+        assert loop.pair.source.command == (0.0, 0.0)
+
+    asyncio.run(watch())
+    loop.close()
+
+
+@pytest.mark.parametrize(("source", "said"), [(Walk, "no robot"), (Robot, "is no command")])
+def test_what_cannot_be_done_is_said_beside_the_line_and_nothing_stops(source, said):
+    loop = made(source, lambda source: Sum())
+
+    async def watch():
+        controls = Controls(loop, {"": loop.pair})
+        loop.run()
+        controls.typed.value = "1, 2" if source is Walk else "go on"
+        assert said in controls.answer.value
+        assert loop.running
+
+    asyncio.run(watch())
+    loop.close()
+
+
+class Shows:
+    """An estimator with a layer of each kind that can be moved."""
+
+    status = "well"
+
+    def layers(self):
+        return [
+            Points("naive", np.zeros((2, 2))),
+            Poses("naive", np.ones((1, 3))),
+            Segments("naive", np.zeros((1, 4))),
+            Points("corrected", np.zeros((2, 2))),
+        ]
+
+
+def test_layers_are_drawn_beside_each_other_and_all_else_stays():
+    there = apart(lambda source: Shows(), naive=(-3, 1))(None)
+    points, poses, segments, corrected = there.layers()
+    assert np.array_equal(points.xy, [[-3, 1], [-3, 1]])
+    assert np.array_equal(poses.rows, [[-2, 2, 1]])
+    assert np.array_equal(segments.rows, [[-3, 1, -3, 1]])
+    assert not corrected.xy.any()
+    assert there.status == "well"
+
+
+def test_a_layer_that_cannot_be_moved_is_refused():
+    shows = Shows()
+    shows.layers = lambda: [Boxes("naive", np.zeros((1, 4)))]
+    with pytest.raises(TypeError, match="Boxes"):
+        apart(lambda source: shows, naive=(1, 1))(None).layers()
