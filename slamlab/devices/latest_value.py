@@ -9,13 +9,18 @@ class LatestQueue:
 
     Parameters
     ----------
+    clock : Clock, by which items are waited for
     maxsize : int, how many are kept
 
     ``count`` and ``dropped`` items are counted; ``error`` is why no more come, where it was one.
     """
 
-    def __init__(self, maxsize=2):
-        self._items, self._changed = deque(maxlen=maxsize), threading.Condition()
+    def __init__(self, clock, maxsize=2):
+        self._clock, self._items, self._changed = (
+            clock,
+            deque(maxlen=maxsize),
+            threading.Condition(),
+        )
         self.count, self.dropped, self.finished, self.error = 0, 0, True, None
 
     def start(self):
@@ -55,7 +60,10 @@ class LatestQueue:
         Exception : why no more come
         """
         with self._changed:
-            if not self._changed.wait_for(lambda: self._items or self.finished, timeout):
+            there = self._clock.wait_for(
+                self._changed, lambda: self._items or self.finished, timeout
+            )
+            if not there:
                 return False, None
             while latest and len(self._items) > 1:
                 self._items.popleft()

@@ -19,22 +19,22 @@ class ReaderThread:
     step : callable(stopping) that waits a moment at most, or until the Event it is given is set
     name : str, of the thread
     on_end : callable(error or None), called by the thread as its last
+    clock : Clock, whose thread it is
     """
 
-    def __init__(self, step, name, on_end):
-        self._step, self._on_end = step, on_end
-        self.stopping = threading.Event()
-        self._thread = threading.Thread(target=self._run, name=name, daemon=True)
+    def __init__(self, step, name, on_end, clock):
+        self._step, self._on_end, self._name, self._clock = step, on_end, name, clock
+        self.stopping, self._thread = threading.Event(), None
 
     def start(self):
         """Start the thread."""
-        self._thread.start()
+        self._thread = self._clock.start_thread(self._run, self._name)
 
     def stop(self, timeout=2.0):
         """Stop the thread and join it, at most so long [s]; may be called from it, and again."""
         self.stopping.set()
-        if self._thread.is_alive() and self._thread is not threading.current_thread():
-            self._thread.join(timeout)
+        if self._thread is not None and self._thread is not threading.current_thread():
+            self._clock.join(self._thread, timeout)
 
     def _run(self):
         error = None

@@ -19,13 +19,17 @@ FALLBACK_ADDRESS = None if os.name == "posix" else ("127.0.0.1", 0, 0)
 
 
 class EmulatedDevices(LiveDevices):
-    """Emulated RPLIDAR on an emulated eMIR robot, opened by their ports; closes drivers, emulators.
+    """Emulated RPLIDAR on an emulated eMIR robot, and their drivers; closes drivers, emulators.
+
+    They run in real time, behind ports, or in a simulated time which passes only while a reading is
+    waited for: then no turn is ever dropped, and a drive is the same on any machine.
 
     Parameters
     ----------
     world : World
     rng : numpy.random.Generator, of noise and slip
     calibration : Calibration that the driver is to believe; the thesis' by default
+    clock : SimulatedClock, or None for real time
 
     ``bench`` are the emulators, ``truth`` where the robot was at each reading, from the first.
 
@@ -34,15 +38,16 @@ class EmulatedDevices(LiveDevices):
     SourceError
     """
 
-    def __init__(self, world, rng, calibration=None):
+    def __init__(self, world, rng, calibration=None, clock=None):
         try:
-            self.bench = run_emulators(world, rng, FALLBACK_ADDRESS)
+            self.bench = run_emulators(world, rng, FALLBACK_ADDRESS, clock=clock)
         except SlamlabError as error:
             raise SourceError(str(error)) from error
         self.world, self._times, self._poses = world, [], []
+        shared = {"opener": self.bench.opener, "clock": self.bench.clock}
         try:
-            emir = Emir(self.bench.ports[EMIR], calibration=calibration)
-            super().__init__(RPLidar(self.bench.ports[LIDAR]), emir)
+            emir = Emir(self.bench.ports[EMIR], calibration=calibration, **shared)
+            super().__init__(RPLidar(self.bench.ports[LIDAR], **shared), emir)
             close_at_exit(self)
         except SlamlabError as error:
             self.bench.close()  # a robot that was opened ends with its port

@@ -1,7 +1,5 @@
 """The eMIR driver against an emulated robot in simulated time: no test waits."""
 
-import time
-
 import numpy as np
 import pytest
 
@@ -174,11 +172,11 @@ def replugged(machine, begin, end):
 
 def test_back_in_reach_it_goes_on_where_that_is_wanted_and_the_robot_stands():
     body = body_in(WIDE)
-    machine = replugged(Driven(body), 160.0, 161.0)  # by then it surely drives
+    machine = replugged(Driven(body), 105.0, 106.0)
     with opened(machine, reconnect=True, watchdog=None) as emir:
         emir.move(50, 20)
         while not emir.stats["reconnects"]:
-            time.sleep(0.001)  # its thread lets the simulated time pass
+            emir.clock.sleep(0.1)
         until(emir, emir.clock.now() + 1)
         assert emir.error is None and not body._speeds.any()
         d, turn = np.array(body.counters()) * COUNT_SIZE

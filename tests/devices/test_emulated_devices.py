@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from slamlab import estimators, worlds
-from slamlab.devices.clock import Clock
+from slamlab.devices.clock import SimulatedClock
 from slamlab.devices.emir import Calibration, Emir
 from slamlab.devices.emir.wheel_odometry import Odometry
 from slamlab.devices.emulator.robot_body import COUNT_SIZE
@@ -54,6 +54,25 @@ def test_readings_come_through_ports_and_the_truth_is_known_of_each(tcp, monkeyp
         assert_same_pose(estimator.pose, truth.poses[-1], 0.05)
     devices.close()
     assert not [t for t in threading.enumerate() if t.name == "emulator"]
+
+
+def test_in_simulated_time_no_turn_is_dropped_and_a_drive_is_the_same_again():
+    def driven():
+        rng = np.random.default_rng(0)
+        with emulated_devices.EmulatedDevices(
+            worlds.room(), rng, clock=SimulatedClock()
+        ) as devices:
+            for k, reading in enumerate(devices):
+                if k % 10 == 5:
+                    devices.drive((0.2, 0.4 - 0.01 * k))
+                if k == 40:
+                    return devices.truth.poses, reading
+                assert not devices.lidar.stats["turns dropped"]
+
+    (poses, last), (again, last_again) = driven(), driven()
+    np.testing.assert_array_equal(poses, again)
+    np.testing.assert_array_equal(last.scan.ranges, last_again.scan.ranges)
+    assert last.time == pytest.approx(4.0, abs=0.02) and np.hypot(*poses[-1, :2]) > 0.5
 
 
 def test_before_the_first_reading_there_is_no_truth_yet():
@@ -105,12 +124,13 @@ def test_a_rehearsed_drive_is_of_the_mode_that_was_asked_for(tmp_path, mode, poi
 
 def test_drivers_find_their_answers_when_a_rehearsed_drive_is_replayed(tmp_path):
     rehearsed(tmp_path / "drive")
-    clock, found = Clock(), playback(load(tmp_path / "drive"))
+    clock, found = SimulatedClock(), playback(load(tmp_path / "drive"))
 
     def opener(name, baud):
         return MemoryPort(found[name], clock, name, baud)
 
-    with Emir("emir", opener=opener) as emir, RPLidar("lidar", opener=opener) as lidar:
+    shared = {"opener": opener, "clock": clock}
+    with Emir("emir", **shared) as emir, RPLidar("lidar", **shared) as lidar:
         assert lidar.turn(timeout=20).complete
         assert emir.wait() is not None
 

@@ -8,7 +8,7 @@ from hypothesis import given
 
 from slamlab import sources, worlds
 from slamlab.cli import main
-from slamlab.devices.clock import Clock, SimulatedClock
+from slamlab.devices.clock import SimulatedClock
 from slamlab.devices.deskewing import deskew
 from slamlab.devices.emir import Calibration, Emir, commands
 from slamlab.devices.emir.session import Session
@@ -167,10 +167,8 @@ def test_a_robot_is_closed_again_where_the_lidar_does_not_open(monkeypatch):
     assert emir.closed
 
 
-@pytest.mark.usefixtures("busy_machine")
 def test_live_the_readings_follow_the_robot():
-    """In real time, but whatever the machine's speed: late turns are dropped, the way is not."""
-    rng, clock = np.random.default_rng(0), Clock()
+    rng, clock = np.random.default_rng(0), SimulatedClock()
     body = RobotBody(worlds.by_name("room"), rng)
     machines = {"e": EmirEmulator(body), "l": RPLidarEmulator(MovingLidar(body, rng))}
 
@@ -178,9 +176,9 @@ def test_live_the_readings_follow_the_robot():
         return MemoryPort(machines[name], clock, name, baud)
 
     counts = Calibration(path=COUNT_SIZE[0], angle=COUNT_SIZE[1])
-    emir = Emir("e", opener=opener, calibration=counts)
+    emir = Emir("e", opener=opener, calibration=counts, clock=clock)
     start, believed = body.pose, np.zeros(3)
-    with source.LiveDevices(RPLidar("l", opener=opener), emir) as devices:
+    with source.LiveDevices(RPLidar("l", opener=opener, clock=clock), emir) as devices:
         commands = {3: (0.3, 0.5), 15: (0.0, 0.0)}
         for k, reading in enumerate(devices):
             believed = compose(believed, reading.odometry)

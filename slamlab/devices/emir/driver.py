@@ -61,7 +61,7 @@ class Emir:
         arguments = port, baud, self.odometry, watchdog, opener, self.clock
         self._open_session = lambda: Session(*arguments)
         self._session = self._open_session()
-        self._reader = ReaderThread(self._step, f"reads {port}", self._on_reader_end)
+        self._reader = ReaderThread(self._step, f"reads {port}", self._on_reader_end, self.clock)
         self._reader.start()
         close_at_exit(self)
 
@@ -158,8 +158,10 @@ class Emir:
         """
         with self._status_changed:
             seen = self._counts["frames"]
-            over = self._status_changed.wait_for(
-                lambda: self._counts["frames"] > seen or self._closed or self.error, timeout
+            over = self.clock.wait_for(
+                self._status_changed,
+                lambda: self._counts["frames"] > seen or self._closed or self.error,
+                timeout,
             )
             if self.error is not None:
                 raise self.error

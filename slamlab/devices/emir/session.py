@@ -125,7 +125,7 @@ class Session:
             return
         with self._writing, contextlib.suppress(SlamlabError):
             self._write(commands.move(0, 0), commands.stop(), commands.info(False))
-            self._clock.sleep(0.01)
+        self._clock.sleep(0.01)  # until it is sent; by then others may have the lock
         self._port.close()
         self._released = True  # a signal may have come on the way: then all of it is done again
 

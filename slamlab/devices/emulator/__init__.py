@@ -6,5 +6,6 @@ Read in this order:
 - ``rplidar_emulator`` (with ``packet_encoder``), ``emir_emulator``: the state machines
 - ``serial_line``, ``fault_injection``: bytes delayed, lost, corrupted
 - ``pseudo_terminal``, ``tcp_server``: the ports; ``emulator_runner``: the thread that runs it all
+- ``memory_emulators``: the same without ports, in simulated time
 - ``synthetic_recording``: a drive recorded in simulated time
 """

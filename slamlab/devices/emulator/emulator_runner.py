@@ -6,6 +6,7 @@ import numpy as np
 
 from slamlab.devices.clock import Clock
 from slamlab.devices.emulator.emir_emulator import EmirEmulator
+from slamlab.devices.emulator.memory_emulators import MemoryEmulators
 from slamlab.devices.emulator.motion_distortion import MovingLidar
 from slamlab.devices.emulator.pseudo_terminal import PseudoTerminal
 from slamlab.devices.emulator.robot_body import RobotBody
@@ -13,6 +14,7 @@ from slamlab.devices.emulator.rplidar_emulator import RPLidarEmulator
 from slamlab.devices.emulator.tcp_server import TcpServer
 from slamlab.devices.reader_thread import ReaderThread
 from slamlab.devices.shutdown import close_at_exit
+from slamlab.devices.transport import open_port
 
 POLL_INTERVAL = 0.004  # between two polls of the devices [s]
 LIDAR, EMIR = "lidar", "emir"  # names of the devices
@@ -24,13 +26,16 @@ class EmulatorRunner:
     Parameters
     ----------
     devices : dict of (device with feed(bytes, now) -> bytes, EmulatorPort) by name
-    clock : Clock
+
+    ``clock`` and ``opener`` are what clients are to open the ports with.
     """
 
-    def __init__(self, devices, clock=None):
-        self._devices, self._clock = devices, clock or Clock()
+    opener = staticmethod(open_port)
+
+    def __init__(self, devices):
+        self._devices, self.clock = devices, Clock()  # ports know real time alone
         self.error = None
-        self._thread = ReaderThread(self._step, "emulator", self._on_end)
+        self._thread = ReaderThread(self._step, "emulator", self._on_end, self.clock)
         self._thread.start()
         close_at_exit(self)  # after the drivers that hang on it: they were opened later
 
@@ -69,7 +74,7 @@ class EmulatorRunner:
         for device, end in self._devices.values():
             received = end.receive()
             try:
-                data = device.feed(received, self._clock.now())
+                data = device.feed(received, self.clock.now())
             except OSError:  # unplugged
                 end.unplug()
                 continue
@@ -81,8 +86,8 @@ class EmulatorRunner:
         self.error = error
 
 
-def run_emulators(world, rng, tcp=None, lidar=None, emir=None, body=None):
-    """Run an emulated lidar and an eMIR that carries it, in a world, on ports.
+def run_emulators(world, rng, tcp=None, lidar=None, emir=None, body=None, clock=None):
+    """Run an emulated lidar and an eMIR that carries it, in a world, on ports or in memory.
 
     Parameters
     ----------
@@ -90,10 +95,11 @@ def run_emulators(world, rng, tcp=None, lidar=None, emir=None, body=None):
     rng : numpy.random.Generator
     tcp : (host, lidar's port, eMIR's port) to listen on, or None for pseudo-terminals
     lidar, emir, body : dict or None, options of RPLidarEmulator, EmirEmulator, RobotBody
+    clock : SimulatedClock in whose time they run, in memory; None for real time, on ports
 
     Returns
     -------
-    EmulatorRunner with devices "lidar" and "emir"; its ``body`` is the robot
+    EmulatorRunner or MemoryEmulators with devices "lidar" and "emir"; its ``body`` is the robot
 
     Raises
     ------
@@ -105,7 +111,10 @@ def run_emulators(world, rng, tcp=None, lidar=None, emir=None, body=None):
         LIDAR: RPLidarEmulator(MovingLidar(robot, rng), rng=damage, **(lidar or {})),
         EMIR: EmirEmulator(robot, rng=damage, **(emir or {})),
     }
-    running = EmulatorRunner(attach_ports(machines, tcp))
+    if clock is None:
+        running = EmulatorRunner(attach_ports(machines, tcp))
+    else:
+        running = MemoryEmulators(machines, clock)
     running.body = robot
     return running
 

@@ -51,7 +51,8 @@ class RPLidar:
         self.pwm, self.reconnect = pwm, reconnect
         self.name = find_lidar_port() if port is None else port
         self._usb_identity = usb_identity(self.name)
-        self._commands, self._turns, self._counts = threading.RLock(), LatestQueue(), Counter()
+        self._commands, self._turns = threading.RLock(), LatestQueue(self.clock)
+        self._counts = Counter()
         self._reader = self._stream = self.mode = None
         self._closed = self._force = False
         session = Session(self.name, (baud,) if baud else BAUD_RATES, opener, self.clock)
@@ -91,7 +92,9 @@ class RPLidar:
                 self._session.link.stop_and_drain()
                 self._start_scan(select_mode(self.modes, self.typical, 0))
             self._turns.start()
-            self._reader = ReaderThread(self._step, f"reads {self.name}", self._turns.finish)
+            self._reader = ReaderThread(
+                self._step, f"reads {self.name}", self._turns.finish, self.clock
+            )
             self._reader.start()
 
     def stop(self):
