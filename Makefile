@@ -12,14 +12,17 @@ RUN = PATH="$(CURDIR)/$(ENV)/bin:$$PATH" $(ENV)/bin/python -m
 # one worker a core of a small machine; the cells of a notebook must stay on one worker
 PYTEST = $(RUN) pytest -n 2 --dist loadfile
 
-.PHONY: lab test env clients lint format notebooks student bench lock clean
+.PHONY: lab test soak env clients lint format notebooks student bench lock clean
 
 lab:  ## Set up and open the course; LAB_ARGS="--no-browser --port 9999" go to JupyterLab
 	@$(PYTHON) lab.py $(LAB_ARGS)
 
 test: lint clients  ## Set up and run every test; TEST_ARGS go to pytest
-	$(PYTEST) $(TEST_ARGS)
+	$(PYTEST) -m "not soak" $(TEST_ARGS)
 	PYTHONHASHSEED=0 $(RUN) pytest @tests/notebooks/nbval.args notebooks exercises solutions
+
+soak: env  ## Run what takes long, or needs a machine that has nothing else to do
+	$(RUN) pytest -m soak
 
 env:
 	@$(PYTHON) lab.py --venv $(ENV) --lock requirements-test.lock --install-only

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from slamlab.parallel import THREAD_VARIABLES, RunError, map_runs
+from tests.patience import PATIENCE
 
 SEEDS = [5, 3, 8, 1]
 
@@ -108,12 +109,12 @@ def test_an_interrupt_ends_it_at_once_and_leaves_no_process(tmp_path):
         stderr=subprocess.PIPE,
         text=True,
     )
-    deadline = time.monotonic() + 60
+    deadline = time.monotonic() + PATIENCE
     while not list(tmp_path.glob("*.started")) and time.monotonic() < deadline:
         time.sleep(0.1)
     os.killpg(study.pid, signal.SIGINT)  # what a terminal's Ctrl-C does: all of them get it
     try:
-        _, said = study.communicate(timeout=60)
+        _, said = study.communicate(timeout=PATIENCE)
     finally:
         study.kill()
     assert study.returncode == 130

@@ -8,9 +8,10 @@ import sys
 import time
 from contextlib import contextmanager
 
+from tests.patience import PATIENCE
+
 CHROMIUMS = ("chromium", "chromium-browser", "google-chrome", "chrome")
 NEWS = "@jupyterlab/apputils-extension:announcements"
-PATIENCE = 60  # [s] for anything that is being waited for; what is there is not waited for
 
 
 class Unavailable(Exception):

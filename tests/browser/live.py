@@ -4,8 +4,9 @@ import time
 
 import nbformat
 
+from tests.patience import PATIENCE
+
 NAME = "live_views.ipynb"
-PATIENCE = 30  # [s] for a picture
 
 SETUP = """\
 from functools import partial
@@ -107,6 +108,13 @@ class View:
         while not said(self.picture()):
             assert time.monotonic() < end, "the picture stays as it is"
             self.page.wait_for_timeout(20)
+
+    def rest(self):
+        """Wait until no more frames come."""
+        frame, end = None, time.monotonic() + PATIENCE
+        while frame != (frame := self.frame()):
+            assert time.monotonic() < end, "frames still come"
+            self.page.wait_for_timeout(300)
 
     def wait(self, frame):
         """Wait until a frame or a later one is drawn."""

@@ -50,10 +50,7 @@ def test_a_robot_is_chosen_run_and_driven_and_a_recording_is_played(views, visit
     played.press("▶ run")
     played.wait(played.frame() + 10)
     played.press("❚❚ pause")
-    visit.page.wait_for_timeout(300)
-    resting = played.frame()
-    visit.page.wait_for_timeout(300)
-    assert played.frame() == resting
+    played.rest()
 
 
 def test_wheel_and_drag_move_the_picture_and_fit_shows_all_again(views, visit):
@@ -80,7 +77,8 @@ def test_without_javascript_of_ours_a_picture_is_shown_and_steps_on(views, visit
         "([image, before]) => image.src !== before && image.naturalWidth > 0",
         arg=[image.element_handle(), before],
     )
-    assert "step 21 of" in cell.locator(".widget-html").text_content()
+    # what is said comes as a message of its own
+    cell.locator(".widget-html").filter(has_text="step 21 of").wait_for()
 
 
 def test_a_cell_that_is_run_again_ends_its_loop_and_shows_a_new_one(views, visit):

@@ -4,8 +4,7 @@ import pytest
 
 from slamlab.devices.emir import session
 from slamlab.devices.rplidar import scan_stream
-
-PATIENT = 30.0  # [s]
+from tests.patience import PATIENCE
 
 
 @pytest.fixture
@@ -15,4 +14,4 @@ def busy_machine(monkeypatch):
     How soon a silent device is, tests in simulated time say, and the benchmark in real time.
     """
     for module in (session, scan_stream):
-        monkeypatch.setattr(module, "RECEIVE_TIMEOUT", PATIENT)
+        monkeypatch.setattr(module, "RECEIVE_TIMEOUT", PATIENCE)

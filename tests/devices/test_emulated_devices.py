@@ -21,6 +21,7 @@ from slamlab.files.errors import SourceError
 from slamlab.geometry import between
 from slamlab.sources import emulated_devices
 from tests.laws import assert_same_pose
+from tests.patience import PATIENCE
 
 COURSE = [(0.5, 0, 0), (1.5, 50, 0), (1.0, 0, 50), (1.0, 30, 20)]
 
@@ -131,7 +132,7 @@ def test_drivers_find_their_answers_when_a_rehearsed_drive_is_replayed(tmp_path)
 
     shared = {"opener": opener, "clock": clock}
     with Emir("emir", **shared) as emir, RPLidar("lidar", **shared) as lidar:
-        assert lidar.turn(timeout=20).complete
+        assert lidar.turn(timeout=PATIENCE).complete
         assert emir.wait() is not None
 
 

@@ -21,6 +21,7 @@ from slamlab.devices.rplidar import RPLidar
 from slamlab.devices.rplidar.requests import Command, Conf, conf, express, motor_pwm, request
 from slamlab.devices.rplidar.responses import AnswerType, Descriptor, Health, Info
 from slamlab.devices.transport import open_port
+from tests.patience import PATIENCE, until
 
 LOCAL = "127.0.0.1", 0, 0
 needs_pty = pytest.mark.skipif(os.name != "posix", reason="this system has no pseudo-terminals")
@@ -34,11 +35,15 @@ def running(tcp=None, **options):
 
 @pytest.mark.parametrize("tcp", ENDS)
 def test_our_drivers_see_the_room_and_drive_through_it(tcp):
-    with running(tcp) as it, Emir(it.ports["emir"]) as emir, RPLidar(it.ports["lidar"]) as lidar:
-        assert lidar.turn(timeout=20).complete
+    with (
+        running(tcp) as it,
+        Emir(it.ports["emir"], watchdog=None) as emir,
+        RPLidar(it.ports["lidar"]) as lidar,
+    ):
+        assert lidar.turn(timeout=PATIENCE).complete
         emir.move(40, 0)
         for _ in range(6):
-            lidar.turn(timeout=20)
+            lidar.turn(timeout=PATIENCE)
         emir.stop()
         while it.body._speeds.any():
             emir.wait()
@@ -54,27 +59,30 @@ def test_our_drivers_see_the_room_and_drive_through_it(tcp):
         assert np.median(off) < 0.02
 
 
+def opens(name):
+    try:
+        open_port(name).close()
+    except PortError:
+        return False
+    return True
+
+
 @pytest.mark.parametrize("tcp", ENDS)
 def test_a_pulled_plug_is_noticed_and_put_in_again_it_has_its_old_name(tcp):
     with running(tcp) as it:
         name = it.ports["lidar"]
         with RPLidar(name) as lidar:
-            assert lidar.turn(timeout=20)
+            assert lidar.turn(timeout=PATIENCE)
             it["lidar"].faults.unplugged = True
             with pytest.raises(ConnectionLost):
-                while lidar.turn(timeout=20):
+                while lidar.turn(timeout=PATIENCE):
                     pass
         with pytest.raises(PortError):
             RPLidar(name)
         it["lidar"].faults.unplugged = False
-        for _ in range(100):
-            try:
-                again = RPLidar(name)
-                break
-            except PortError:
-                time.sleep(0.1)
-        with again:
-            assert again.turn(timeout=20)
+        until(lambda: opens(name))
+        with RPLidar(name) as again:
+            assert again.turn(timeout=PATIENCE)
 
 
 @pytest.mark.parametrize("tcp", ENDS)
@@ -83,13 +91,10 @@ def test_a_client_that_does_not_read_loses_bytes_and_holds_nothing_up(tcp):
         port = open_port(it.ports["lidar"])
         port.write(motor_pwm(660) + request(Command.SCAN))
         if tcp is None:
-            end = time.monotonic() + 30
-            while not it.dropped["lidar"] and time.monotonic() < end:
-                time.sleep(0.1)
-            assert it.dropped["lidar"] > 0
+            until(lambda: it.dropped["lidar"] > 0)
         port.close()
         with RPLidar(it.ports["lidar"]) as lidar:
-            assert lidar.turn(timeout=20)
+            assert lidar.turn(timeout=PATIENCE)
 
 
 class Flood:
@@ -113,13 +118,13 @@ def test_a_second_client_is_sent_away():
     with running(LOCAL) as it:
         first = open_port(it.ports["lidar"])
         first.write(request(Command.GET_INFO))
-        assert first.read(100, 10.0)
+        assert first.read(100, PATIENCE)
         second = open_port(it.ports["lidar"])
         with pytest.raises(ConnectionLost):
             for _ in range(100):
                 second.read(100, 0.1)
         first.write(request(Command.GET_INFO))
-        assert first.read(100, 10.0)
+        assert first.read(100, PATIENCE)
         first.close()
         second.close()
 
@@ -129,9 +134,9 @@ def test_who_leaves_makes_room_at_once_whatever_was_unread():
         for _ in range(20):
             port = open_port(it.ports["lidar"])
             port.write(request(Command.GET_INFO))
-            assert port.read(100, 10.0)
+            assert port.read(100, PATIENCE)
             port.write(request(Command.SCAN))
-            port.read(7, 10.0)
+            port.read(7, PATIENCE)
             port.close()
 
 
@@ -141,7 +146,7 @@ class Sdk:
     def __init__(self, port):
         self.port, self.heard = port, b""
 
-    def ask(self, data, kind, length=None, loop=False, patience=10.0):
+    def ask(self, data, kind, length=None, loop=False, patience=PATIENCE):
         """The payload, hunted for as the SDK does: by A5 5A and what follows."""
         self.port.write(data)
         end = time.monotonic() + patience
@@ -281,7 +286,7 @@ def test_other_people_s_programs_get_info_health_and_scans(module, script):
     pytest.importorskip(module, reason=f"{module} is not installed: see clients.txt")
     with running() as it:
         command = [sys.executable, "-c", script, it.ports["lidar"]]
-        done = subprocess.run(command, capture_output=True, text=True, timeout=120)
+        done = subprocess.run(command, capture_output=True, text=True, timeout=PATIENCE)
         assert done.returncode == 0, done.stderr[-2000:]
         assert not it["lidar"].line.dropped
 
@@ -344,7 +349,7 @@ def test_the_command_says_its_ports_takes_faults_and_ends_with_ctrl_c():
             assert lidar.info.model == 0x28
     finally:
         process.send_signal(signal.SIGINT)
-        process.communicate(timeout=30)
+        process.communicate(timeout=PATIENCE)
     assert process.returncode == 0
 
 
@@ -354,7 +359,7 @@ def test_told_to_end_the_command_leaves_no_ports_behind():
     port = process.stdout.readline().split()[1]
     assert os.path.exists(port)
     process.terminate()
-    process.communicate(timeout=30)
+    process.communicate(timeout=PATIENCE)
     assert not os.path.exists(os.path.dirname(port))
 
 

@@ -3,7 +3,6 @@
 import json
 import os
 import signal
-import time
 
 import pytest
 
@@ -15,18 +14,10 @@ from slamlab.devices.recording.decoding import turns
 from slamlab.devices.rplidar.requests import Command
 from slamlab.devices.shutdown import TERMINATION_SIGNALS
 from tests.devices.test_emulator_ports import ENDS, LOCAL, command, needs_pty, running
+from tests.patience import PATIENCE, until
 
-PATIENCE = 60  # [s] for anything that is waited for; what is there is not waited for
 pytestmark = pytest.mark.usefixtures("busy_machine")
 signals = pytest.mark.skipif(os.name != "posix", reason="signals cannot be sent to one there")
-
-
-def until(said):
-    """Wait until something is true."""
-    end = time.monotonic() + PATIENCE
-    while not said():
-        assert time.monotonic() < end
-        time.sleep(0.02)
 
 
 def scanned(it, seconds):

@@ -31,6 +31,7 @@ from slamlab.devices.rplidar.responses import AnswerType
 from slamlab.devices.rplidar.scan_stream import DECODERS
 from tests.devices.emulator_helpers import machine
 from tests.devices.test_emulator_ports import command
+from tests.patience import PATIENCE
 
 SCANS = {
     "standard": request(Command.SCAN),
@@ -428,7 +429,7 @@ def test_a_recorded_session_is_played_to_our_drivers(tmp_path):
     with played, RPLidar(played.ports["lidar"]) as lidar:
         assert lidar.info.model == 0x28 and [m.name for m in lidar.modes][1] == "Express"
         lidar.start("express")
-        assert lidar.turn(timeout=20).complete
+        assert lidar.turn(timeout=PATIENCE).complete
 
 
 def test_the_commands_say_what_is_wrong_in_a_line(tmp_path, capsys, recorded):
@@ -475,8 +476,8 @@ def test_replay_serves_ports_until_ctrl_c(recorded):
                 ports[words[0]] = words[-1]
         with RPLidar(ports["lidar"]) as lidar:
             lidar.start("standard")
-            assert lidar.turn(timeout=20)
+            assert lidar.turn(timeout=PATIENCE)
     finally:
         process.send_signal(signal.SIGINT)
-        process.communicate(timeout=30)
+        process.communicate(timeout=PATIENCE)
     assert process.returncode == 0

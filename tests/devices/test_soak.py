@@ -1,4 +1,4 @@
-"""Half a minute of live readings, through emulators on real ports: none is lost."""
+"""Half a minute of live readings in real time, through emulators on real ports: none is lost."""
 
 import pytest
 
@@ -8,10 +8,9 @@ SECONDS = 30
 TRIES = 3  # a machine that others keep busy may stand still, though hardly every time
 
 
-pytestmark = pytest.mark.usefixtures("busy_machine")
+pytestmark = [pytest.mark.usefixtures("busy_machine"), pytest.mark.slow, pytest.mark.soak]
 
 
-@pytest.mark.slow
 def test_no_scan_is_dropped_and_none_comes_late():
     for _ in range(TRIES):
         result = soak(SECONDS, "odometry")

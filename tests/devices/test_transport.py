@@ -26,6 +26,7 @@ from slamlab.devices.errors import (
 from slamlab.devices.port_open_errors import serial_open_error
 from slamlab.devices.serial_ports import LIDAR_USB_IDS, find_lidar_port, find_port, usb_identity
 from slamlab.devices.transport import open_port
+from tests.patience import PATIENCE
 
 terminals = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no pseudo-terminals")
 
@@ -205,7 +206,7 @@ def test_devices_are_closed_when_the_program_ends_or_is_told_to():
     """)
     for how, code in (("exit", 0), ("term", -15)):
         ended = subprocess.run(
-            [sys.executable, "-c", script, how], capture_output=True, text=True, timeout=60
+            [sys.executable, "-c", script, how], capture_output=True, text=True, timeout=PATIENCE
         )
         assert ended.returncode == code
         assert sorted(ended.stdout.split("\n")[:2]) == ["closed bad", "closed good"]

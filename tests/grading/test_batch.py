@@ -24,6 +24,7 @@ from slamlab.grading.marks import mark
 from slamlab.grading.records import Record
 from tests.grading import fake
 from tests.grading.conftest import lacks, notebook, workers
+from tests.patience import PATIENCE
 
 HTML = "<script>alert(1)</script><img src=x onerror=y>"
 
@@ -353,7 +354,7 @@ def test_a_grader_that_is_ended_leaves_no_worker_running(tmp_path, name, level):
         pytest.skip(lacks(level))
     grading, temporary = grading_of_one_that_never_ends(tmp_path, level)
     grading.send_signal(getattr(signal, name))
-    _, said = grading.communicate(timeout=60)
+    _, said = grading.communicate(timeout=PATIENCE)
     assert b"Traceback" not in said
     assert grading.returncode == (-signal.SIGKILL if name == "SIGKILL" else 130)
     assert comes_true(lambda: not processes_of(temporary, ""))

@@ -15,6 +15,7 @@ from types import SimpleNamespace
 import pytest
 
 from lab import NEWS, python_of
+from tests.patience import PATIENCE
 from tests.setup import ROOT
 
 pytestmark = pytest.mark.slow
@@ -71,7 +72,7 @@ class Server:
     def ask(self, path, method="GET"):
         request = urllib.request.Request(f"http://127.0.0.1:{self.port}{path}", method=method)
         request.add_header("Authorization", f"token {self.token}")
-        with urllib.request.urlopen(request, timeout=20) as answer:
+        with urllib.request.urlopen(request, timeout=PATIENCE) as answer:
             return answer.read().decode()
 
     def wait(self, seconds):

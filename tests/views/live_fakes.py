@@ -8,6 +8,7 @@ from slamlab.layers import Points, Poses
 from slamlab.readings import Reading, Trajectory
 from slamlab.sources.base import Source
 from slamlab.views.live.back_pressure import Screen
+from tests.patience import PATIENCE
 
 
 class Walk(Source):
@@ -89,7 +90,7 @@ class FakeScreen(Screen):
         self._client_ready()
 
 
-async def until(done, patience=20):
+async def until(done, patience=PATIENCE):
     """Wait for something to come true."""
     async with asyncio.timeout(patience):
         while not done():

@@ -7,6 +7,7 @@ import pytest
 
 from slamlab import views
 from slamlab.views import play_button, sliders
+from tests.patience import PATIENCE
 
 ALT = "a line"
 
@@ -47,7 +48,7 @@ class Film:
         return views.chart("t [s]", "x [m]")[0]
 
 
-async def until(done, patience=20):
+async def until(done, patience=PATIENCE):
     async with asyncio.timeout(patience):
         while not done():
             await asyncio.sleep(0.001)

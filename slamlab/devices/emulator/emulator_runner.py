@@ -54,10 +54,8 @@ class EmulatorRunner:
         return self._devices[name][0]
 
     def close(self):
-        """Stop the emulators and close their ports; may be called again."""
+        """Stop the emulators, whose ports close with their thread; may be called again."""
         self._thread.stop()
-        for _, end in self._devices.values():
-            end.close()
 
     def __enter__(self):
         return self
@@ -84,6 +82,8 @@ class EmulatorRunner:
 
     def _on_end(self, error):
         self.error = error
+        for _, end in self._devices.values():
+            end.close()
 
 
 def run_emulators(world, rng, tcp=None, lidar=None, emir=None, body=None, clock=None):
