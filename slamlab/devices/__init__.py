@@ -18,7 +18,7 @@ from slamlab._lazy import exports
 __all__ = exports(
     __name__,
     {
-        ".rplidar": ["RPLidar", "Lidar"],
+        ".rplidar": ["RPLidar"],
         ".emir": ["Calibration", "Emir"],
         ".recording": ["Recorder", "Recording"],
         ".errors": ["SlamlabError"],
