@@ -40,6 +40,12 @@ def told():
     }
 
 
+def dotted(path):
+    """The dotted name of the module or package that a file holds."""
+    path = path.parent if path.name == "__init__.py" else path.with_suffix("")
+    return ".".join(path.relative_to(ROOT).parts)
+
+
 def modules():
     """Every room's modules.
 
@@ -49,10 +55,9 @@ def modules():
     """
     found = {}
     for path in sorted((ROOT / "slamlab").rglob("*.py")):
-        parts = path.relative_to(ROOT).with_suffix("").parts
-        name = ".".join(parts[:-1] if path.name == "__init__.py" else parts)
-        if len(parts) > 1 and not parts[1].startswith("_"):
-            found.setdefault(parts[1], []).append((name, path))
+        _, *room = dotted(path).split(".")[:2]
+        if room and not room[0].startswith("_"):
+            found.setdefault(room[0], []).append((dotted(path), path))
     return found
 
 
@@ -104,7 +109,7 @@ def graph():
 
 
 def mark():
-    """The line in the picture that tells of which imports it was made."""
+    """The line in the picture that tells of which imports and words of the help it was made."""
     return f"<!-- imports {hashlib.sha256(graph().encode()).hexdigest()[:16]} -->"
 
 

@@ -34,7 +34,7 @@ def lint(source, exercise=None):
     Parameters
     ----------
     source : Source
-    exercise : slamlab.exercises.task.Exercise or None, what the catalogue says of an exercise
+    exercise : slamlab.exercises.exercise.Exercise or None, what the catalogue says of an exercise
 
     Returns
     -------
@@ -171,7 +171,7 @@ def _imports(cell, exercise):
     for node in _top_level(tree):
         if isinstance(node, ast.Import):
             modules = [(alias.name,) for alias in node.names]
-        elif isinstance(node, ast.ImportFrom):
+        elif isinstance(node, ast.ImportFrom) and (node.module or "").startswith("slamlab"):
             modules = [
                 (
                     node.module,
@@ -193,11 +193,17 @@ def _imports(cell, exercise):
 
 
 def _defining_module(module, name):
-    """The module in which a name stands that a room offers at its door."""
+    """The module in which a name stands that a room of slamlab offers at its door.
+
+    What a module merely imports for itself is not there at grading, unless that module is.
+    """
     try:
-        return getattr(getattr(importlib.import_module(module), name), "__module__", module)
-    except (ImportError, AttributeError):
+        room = importlib.import_module(module)
+    except ImportError:
         return module
+    if name not in getattr(room, "__all__", ()):
+        return module
+    return getattr(getattr(room, name), "__module__", module)
 
 
 def _top_level(node):

@@ -6,7 +6,6 @@ grader, which holds the modules that an exercise allows, an old name opens nothi
 
 import importlib
 import sys
-from importlib.abc import Loader, MetaPathFinder
 from importlib.machinery import ModuleSpec
 
 NEW = {
@@ -70,7 +69,7 @@ NEW = {
 """Old module to new one, both below ``slamlab``."""
 
 
-class _Finder(MetaPathFinder, Loader):
+class _Finder:  # not of importlib.abc, which takes longer to import than the package
     def find_spec(self, fullname, path=None, target=None):
         package, _, old = fullname.partition(".")
         return ModuleSpec(fullname, self) if package == "slamlab" and old in NEW else None
@@ -85,6 +84,5 @@ class _Finder(MetaPathFinder, Loader):
 
 
 def install():
-    """Let old names be found, before any file is looked for."""
-    if not any(isinstance(finder, _Finder) for finder in sys.meta_path):
-        sys.meta_path.insert(0, _Finder())
+    """Let old names be found, after all that are files."""
+    sys.meta_path.append(_Finder())

@@ -67,13 +67,13 @@ check("14-nodes")
 # %% name="one-turn"
 def heard(world, seconds):
     """What an emulated lidar at a world's origin sends after SCAN, without the answer's head."""
-    from slamlab.devices.emulator.robot_body import Body
-    from slamlab.devices.emulator.rplidar_emulator import RplidarMachine
-    from slamlab.devices.emulator.motion_distortion import Sight
+    from slamlab.devices.emulator.robot_body import RobotBody
+    from slamlab.devices.emulator.rplidar_emulator import RPLidarEmulator
+    from slamlab.devices.emulator.motion_distortion import MovingLidar
     from slamlab.devices.rplidar.requests import Command, request
 
     rng = np.random.default_rng(1)
-    lidar = RplidarMachine(Sight(Body(world, rng), rng), rng=rng)
+    lidar = RPLidarEmulator(MovingLidar(RobotBody(world, rng), rng), rng=rng)
     sent = lidar.feed(request(Command.SCAN), 0.0)
     sent += b"".join(lidar.feed(b"", 0.01 * k) for k in range(1, round(100 * seconds)))
     return sent[7 : 7 + (len(sent) - 7) // 5 * 5]
@@ -240,10 +240,10 @@ check("14-unwrap")
 @attempt
 def _():
     from slamlab.devices.emir.commands import info
-    from slamlab.devices.emulator.robot_body import Body
-    from slamlab.devices.emulator.emir_emulator import EmirMachine
+    from slamlab.devices.emulator.robot_body import RobotBody
+    from slamlab.devices.emulator.emir_emulator import EmirEmulator
 
-    emir = EmirMachine(Body(worlds.corridor(), np.random.default_rng(1)))
+    emir = EmirEmulator(RobotBody(worlds.corridor(), np.random.default_rng(1)))
     emir.feed(info(True), 0.0)
     said = []
     for begin, speed, seconds in ((0, 100, 10), (10, -50, 10)):

@@ -781,17 +781,17 @@ print("P apart by less than 1e-12:", bool(abs(Ps[-1] - P_batch).max() < 1e-12))
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 from filterpy.kalman import KalmanFilter
 
-from slamlab.filters import linear_kalman as linear
+from slamlab.filters import linear_kalman
 
-theirs, ours = KalmanFilter(dim_x=2, dim_z=1), linear.belief(x_start, P_start)
+theirs, ours = KalmanFilter(dim_x=2, dim_z=1), linear_kalman.belief(x_start, P_start)
 theirs.x, theirs.P, theirs.F, theirs.B = x_start, P_start, F, G
 theirs.Q, theirs.H, theirs.R = Q, H, R
 for u, z in zip(pushes, zs, strict=True):
     theirs.predict(u)
-    ours = linear.predict(ours, F, Q, G, u)
+    ours = linear_kalman.predict(ours, F, Q, G, u)
     if np.isfinite(z).all():
         theirs.update(z)
-        ours, step = linear.update(ours, z, H, R)
+        ours, step = linear_kalman.update(ours, z, H, R)
 print("filterpy:", abs(theirs.x - xs[-1]).max().round(12), abs(theirs.P - Ps[-1]).max().round(12))
 print("slamlab: ", abs(ours.x - xs[-1]).max().round(12), abs(ours.P - Ps[-1]).max().round(12))
 

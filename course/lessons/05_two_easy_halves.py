@@ -26,9 +26,9 @@ from slamlab import models, views
 from slamlab.models import jacobians
 from slamlab.evaluation import band, nees
 from slamlab.filters import (
-    linear_kalman as linear,
-    ekf_localisation as localisation,
-    known_pose_mapping as mapping,
+    linear_kalman,
+    ekf_localisation,
+    known_pose_mapping,
 )
 from slamlab.geometry import compose, wrap
 from slamlab.layers import Ellipses, Points, Poses
@@ -499,7 +499,7 @@ def update_by_filterpy(x, P, z, p):
 
 
 def update_by_slamlab(x, P, z, p):
-    after, _ = localisation.update(linear.Belief(x, P), [z], [p], R)
+    after, _ = ekf_localisation.update(linear_kalman.Belief(x, P), [z], [p], R)
     return after.x, after.P
 
 
@@ -678,7 +678,7 @@ print("largest entry of all 56 cross blocks:", np.abs(cross).max())
 print("means differ by less than 1e-12:", apart < 1e-12)
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-peer = mapping.KnownPoseMap()
+peer = known_pose_mapping.KnownPoseMap()
 for x, id, z in sightings(run, run.truth.poses):
     peer.see(x, id, z, R)
 apart = max(np.abs(peer.landmarks[i].x - p).max() for i, (p, _) in whole.items())
@@ -706,9 +706,9 @@ print(f"EKF: moved by {np.max(np.divide(moved, sigma)):.2f} σ at most")
 direct = rng.multivariate_normal(mark, 0.01 * np.eye(2), 30)
 ends = []
 for order in (range(1, 30), range(29, 0, -1)):
-    b = linear.Belief(direct[0], 0.01 * np.eye(2))
+    b = linear_kalman.Belief(direct[0], 0.01 * np.eye(2))
     for k in order:
-        b, _ = linear.update(b, direct[k], np.eye(2), 0.01 * np.eye(2))
+        b, _ = linear_kalman.update(b, direct[k], np.eye(2), 0.01 * np.eye(2))
     ends.append(b.x)
 print("linear: the same to 1e-12 m:", np.abs(ends[0] - ends[1]).max() < 1e-12)
 

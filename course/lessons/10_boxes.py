@@ -29,8 +29,7 @@ import sympy as sp
 from slamlab import views
 from slamlab.estimators import BorSlam
 from slamlab.estimators import MakSlam
-from slamlab.filters.bor import BOR, EmptyIntersection, contraction as sharpen
-from slamlab.filters.bor import half_planes as bor_edges
+from slamlab.filters.bor import BOR, EmptyIntersection, contraction, half_planes
 from slamlab.filters.bor.angle_intervals import (
     angle_interval,
     bearing_interval,
@@ -394,7 +393,7 @@ def pushed(edge, box):
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 lines = np.array([pushed(edge, robot) for edge in edges_at_0])
-same = bor_edges.edges(z, bounds, direction, d_abs, robot)
+same = half_planes.edges(z, bounds, direction, d_abs, robot)
 print(
     "same as the package:",
     np.allclose(lines, same),
@@ -504,7 +503,7 @@ views.explore(
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 def clip_robot(robot, target):
-    for line in bor_edges.reversed_edges(z, bounds, direction, d_abs, target):
+    for line in half_planes.reversed_edges(z, bounds, direction, d_abs, target):
         robot = clip(robot, line)
     return robot
 
@@ -574,7 +573,7 @@ for k in range(5):
     robot_k, heading_k, object_k = state
     area = width(robot_k[:2]) * width(robot_k[2:])
     print(f"round {k}: robot {area:.3f} m², heading {width(heading_k):.3f} rad")
-    state = sharpen.contract_once(*state, (2.7, 0.2), (0.05, 0.02))
+    state = contraction.contract_once(*state, (2.7, 0.2), (0.05, 0.02))
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # The first round sharpens the heading most; the second, with it, takes the robot's box to an eighth;

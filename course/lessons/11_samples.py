@@ -30,7 +30,7 @@ from slamlab import models, views
 from slamlab.estimators import MakSlam
 from slamlab.estimators.montecarlo_slam import fastslam, montecarlo
 from slamlab.evaluation import absolute_error, nees
-from slamlab.filters import linear_kalman as linear
+from slamlab.filters import linear_kalman
 from slamlab.filters.montecarlo import likelihood
 from slamlab.filters.montecarlo.particles import uniform
 from slamlab.filters import MCL
@@ -256,10 +256,10 @@ def algorithm_1(zs, rng, n, rule="mended"):
 # %% slideshow={"slide_type": "fragment"}
 def kalman(zs, Q):
     """The same by the filter of lesson 03."""
-    b, I = linear.belief([0], [[1]]), np.eye(1)
+    b, I = linear_kalman.belief([0], [[1]]), np.eye(1)
     for z in zs:
-        b = linear.predict(b, I, I * Q, I, [1])
-        b, _ = linear.update(b, [z], I, I * R_1)
+        b = linear_kalman.predict(b, I, I * Q, I, [1])
+        b, _ = linear_kalman.update(b, [z], I, I * R_1)
     return b.x[0], b.P[0, 0]
 
 
@@ -624,7 +624,7 @@ def pose_belief(filter):
     """What a filter believes of the pose: a Gaussian, or its cloud's mean and covariance."""
     if hasattr(filter, "robot"):
         return filter.robot.moments
-    return linear.Belief(filter.pose, filter.blocks()[0])
+    return linear_kalman.Belief(filter.pose, filter.blocks()[0])
 
 
 found = {

@@ -35,12 +35,12 @@ from slamlab.devices.emir import Calibration, commands
 from slamlab.devices.emir.frames import COMMAND, Framer, checksum, frame
 from slamlab.devices.emir.wheel_odometry import Odometry
 from slamlab.devices.emir.status import Status
-from slamlab.devices.emulator.robot_body import Body
-from slamlab.devices.emulator.emir_emulator import EmirMachine
-from slamlab.devices.emulator.synthetic_recording import rehearse
-from slamlab.devices.emulator.rplidar_emulator import RplidarMachine
-from slamlab.devices.emulator.motion_distortion import Sight
-from slamlab.sources.emulated_devices import Emulated
+from slamlab.devices.emulator.robot_body import RobotBody
+from slamlab.devices.emulator.emir_emulator import EmirEmulator
+from slamlab.devices.emulator.synthetic_recording import record_synthetic_drive
+from slamlab.devices.emulator.rplidar_emulator import RPLidarEmulator
+from slamlab.devices.emulator.motion_distortion import MovingLidar
+from slamlab.sources.emulated_devices import EmulatedDevices
 from slamlab.devices.recording.decoding import statuses, turns
 from slamlab.devices.recording.recording_file import RX, parse
 from slamlab.devices.rplidar.capsules import ExpressDecoder
@@ -65,7 +65,7 @@ from slamlab.layers import Points, Poses, Segments
 def lidar_on(body, seed=1):
     """An emulated lidar that a robot carries."""
     rng = np.random.default_rng(seed)
-    return RplidarMachine(Sight(body, rng), rng=rng)
+    return RPLidarEmulator(MovingLidar(body, rng), rng=rng)
 
 
 def heard(device, asked, begin, seconds):
@@ -76,7 +76,7 @@ def heard(device, asked, begin, seconds):
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 polygon = worlds.polygon()
-standing = Body(polygon, np.random.default_rng(0))
+standing = RobotBody(polygon, np.random.default_rng(0))
 scan = heard(lidar_on(standing), request(Command.SCAN), 0.0, 1.0)
 print("asked: ", request(Command.SCAN).hex(" "))
 print("answer:", scan[:7].hex(" "))
@@ -210,7 +210,7 @@ def capsule_points(capsule, following):
 
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-standing = Body(polygon, np.random.default_rng(0))
+standing = RobotBody(polygon, np.random.default_rng(0))
 stream = heard(lidar_on(standing), express(1), 0.0, 1.0)[7:]
 capsules = [stream[at : at + 84] for at in range(0, len(stream) - 83, 84)]
 angles, mm = np.hstack([capsule_points(*two) for two in pairwise(capsules)])
@@ -290,7 +290,7 @@ def look(body, begin):
     return np.column_stack([nodes["angle_q6"] / 64, nodes["distance_q2"] / 4])
 
 
-driven = Body(polygon, np.random.default_rng(0))
+driven = RobotBody(polygon, np.random.default_rng(0))
 before = look(driven, 0.0)
 driven.advance(25, 25, 4.0)  # 0.1 m/s and 25°/s until t = 4 s
 driven.advance(0, 0, 4.0)
@@ -447,8 +447,8 @@ print("checksum of 01 CE 00:", f"{checksum(bytes([0x01, 0xCE, 0x00])):02X}")
 # %% slideshow={"slide_type": "fragment"}
 def driven_by(course, world=polygon, seed=1):
     """Statuses of an emulated eMIR on a course of (seconds, speed, turn) [s, %, %]; its body."""
-    body = Body(world, np.random.default_rng(seed))
-    emir, framer, now, found = EmirMachine(body), Framer(), 0.0, []
+    body = RobotBody(world, np.random.default_rng(seed))
+    emir, framer, now, found = EmirEmulator(body), Framer(), 0.0, []
     emir.feed(commands.info(True), now)
     for seconds, v, omega in course:
         said = heard(emir, commands.move(v, omega), now, seconds)
@@ -512,8 +512,8 @@ for tenths in (10, 20, 30, 32, 35, 40):
 # **Predict:** what happens to the way between the reading and the reset?
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-body = Body(hall, np.random.default_rng(1))
-emir, framer, total = EmirMachine(body), Framer(), 0
+body = RobotBody(hall, np.random.default_rng(1))
+emir, framer, total = EmirEmulator(body), Framer(), 0
 emir.feed(commands.info(True) + commands.move(50, 0), 0.0)
 for now in 0.95 + np.arange(14):
     last = framer.feed(emir.feed(b"", now))[-1]
@@ -539,7 +539,9 @@ ROUND = [leg for way in (10.6, 6.8, 10.8, 6.6) for leg in ((way, 80, 0), (1.8, 0
 folder = tempfile.TemporaryDirectory()
 drive = Path(folder.name) / "table.rec"
 room = worlds.room()
-true = rehearse(drive, room, np.random.default_rng(6), [(0.5, 0, 0), *ROUND, (0.5, 0, 0)])
+true = record_synthetic_drive(
+    drive, room, np.random.default_rng(6), [(0.5, 0, 0), *ROUND, (0.5, 0, 0)]
+)
 raw = drive.read_bytes()
 recording = parse(raw, "table.rec")
 
@@ -709,8 +711,8 @@ print("turns:", *[next(iter_scans(measured)) for _ in range(3)])
 # **6. `exit`.** It ends the program. **Predict:** what does the robot do?
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-body = Body(hall, np.random.default_rng(1))
-emir = EmirMachine(body)
+body = RobotBody(hall, np.random.default_rng(1))
+emir = EmirEmulator(body)
 heard(emir, commands.move(50, 0), 0.0, 1.0)
 at_exit = body.pose[0]
 emir.feed(b"", 6.0)  # nobody is there any more
@@ -776,7 +778,7 @@ EMIR_PORT = None  # such as "/dev/rfcomm0" or "COM12"
 def robot(rng, calibration=None):
     """Lidar and eMIR as a source of readings: yours, or emulated ones in the room."""
     if EMIR_PORT is None:
-        return Emulated(worlds.room(), rng, calibration)
+        return EmulatedDevices(worlds.room(), rng, calibration)
     return devices(f"{LIDAR_PORT or ''},{EMIR_PORT}", calibration)
 
 

@@ -47,7 +47,7 @@ class Interruptible:
         return len(self._source)
 
     def __iter__(self):
-        from slamlab.sources import SourceError  # late, as above
+        from slamlab.files.errors import SourceError  # late, as above
 
         begun, in_main = False, threading.current_thread() is threading.main_thread()
         before = signal.signal(signal.SIGINT, self._pressed) if in_main else None

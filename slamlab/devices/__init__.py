@@ -15,10 +15,10 @@ As a source of readings they are in :mod:`slamlab.sources`.
 
 from slamlab._lazy import exports
 
-__getattr__, __dir__, __all__ = exports(
+__all__ = exports(
     __name__,
     {
-        ".rplidar": ["RPLidar", "Lidar"],
+        ".rplidar": ["RPLidar"],
         ".emir": ["Calibration", "Emir"],
         ".recording": ["Recorder", "Recording"],
         ".errors": ["SlamlabError"],

@@ -13,7 +13,7 @@ Read in this order:
 
 from slamlab._lazy import exports
 
-__getattr__, __dir__, __all__ = exports(
+__all__ = exports(
     __name__,
     {
         ".base": ["Estimator"],

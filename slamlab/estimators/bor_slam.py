@@ -4,7 +4,8 @@ import numpy as np
 
 from slamlab.estimators.base import Estimator
 from slamlab.estimators.landmark_observations import observed_landmarks, require_landmarks
-from slamlab.filters.bor import BOR, EmptyIntersection
+from slamlab.filters.bor.bor import BOR
+from slamlab.filters.bor.contraction import EmptyIntersection
 from slamlab.filters.bor.prediction import odometry
 from slamlab.layers import Boxes, Points, Poses
 from slamlab.models import noise

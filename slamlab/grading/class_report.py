@@ -2,6 +2,7 @@
 
 from collections import Counter
 from dataclasses import dataclass
+from statistics import median
 
 from slamlab.exercises import catalogue
 from slamlab.grading import similarity
@@ -44,11 +45,11 @@ def write_report(out, marks):
     for id in sorted({record.exercise for record in graded}):
         of_this = [record for record in graded if record.exercise == id]
         mine = [m for m in marks if m.record.graded and m.record.exercise == id]
-        totals = sorted(m.total for m in mine if m.total is not None)
+        totals = [m.total for m in mine if m.total is not None]
         exercises[id] = {
             "exercise": catalogue.exercise(id),
             "count": len(of_this),
-            "median": totals[len(totals) // 2],
+            "median": median(totals),
             "tasks": [_task(task, of_this) for task in catalogue.exercise(id).tasks],
         }
     page = TEMPLATES.get_template("class.html").render(

@@ -1,6 +1,8 @@
 """Import closure: all modules that some modules import, read from their text without running it.
 
-It makes the whitelist of modules of a worker, see :mod:`slamlab.grading.staging`.
+It makes the whitelist of modules of a worker, see :mod:`slamlab.grading.staging`. It does not see
+through a lazy door (:mod:`slamlab._lazy`), which names modules as strings: what a worker may hold
+imports each name from the module that defines it.
 """
 
 import ast

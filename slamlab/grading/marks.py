@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, replace
 
-from slamlab.grading import late_policy as late
+from slamlab.grading import late_policy
 from slamlab.grading.records import Record
 
 
@@ -39,7 +39,7 @@ class Mark:
         return "; ".join([*filter(None, [self.record.note]), *changed, *late])
 
 
-def mark(record, overrides=None, policy=late.NO_PENALTY):
+def mark(record, overrides=None, policy=late_policy.NO_PENALTY):
     """Compute the mark of one submission from record, overrides and late policy.
 
     Points set by hand count also for what could not be graded.

@@ -123,9 +123,10 @@ def align(source, target, pose, rounds, callback=None):
         reach, limit = source.reach, STEP_TOLERANCE * noise / np.sqrt(len(sizes))
         small = step_length(pose, past_poses[-1], reach) < limit
         # pairs that flip to and fro keep it moving on the spot; who creeps along a wall gets away
-        lately = past_poses[-OSCILLATION_ROUNDS:][0]
-        stuck = step_length(pose, lately, reach) < OSCILLATION_STEP * noise
-        oscillates = stuck and done >= OSCILLATION_ROUNDS
+        oscillates = (
+            done >= OSCILLATION_ROUNDS
+            and step_length(pose, past_poses[-OSCILLATION_ROUNDS], reach) < OSCILLATION_STEP * noise
+        )
         converged = (small or oscillates) and kernel_width <= 2.5 * noise + 1.5 * spread
     raise AssertionError("the last round returns")
 

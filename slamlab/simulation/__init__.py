@@ -11,7 +11,7 @@ Simulated drives as sources of readings are in :mod:`slamlab.sources`.
 
 from slamlab._lazy import exports
 
-__getattr__, __dir__, __all__ = exports(
+__all__ = exports(
     __name__,
     {
         ".range_scanners": ["GP2D120", "RPLIDAR_A2", "ULTRASONIC", "Scanner"],

@@ -11,8 +11,9 @@ from functools import partial
 
 import numpy as np
 
-from slamlab.filters.bor import BOR, EmptyIntersection
 from slamlab.filters.bor.angle_intervals import FULL_CIRCLE, contains
+from slamlab.filters.bor.bor import BOR
+from slamlab.filters.bor.contraction import EmptyIntersection
 from slamlab.filters.bor.half_planes import absolute_bearing
 from slamlab.filters.bor.intervals import around
 from slamlab.filters.bor.prediction import odometry, steered, wheels

@@ -12,7 +12,7 @@ import numpy as np
 from scipy.stats import binomtest, bootstrap
 
 from slamlab import estimators
-from slamlab.estimators import BorSlam
+from slamlab.estimators.bor_slam import BorSlam
 from slamlab.estimators.landmark_observations import observed_landmarks
 from slamlab.parallel import map_runs
 from slamlab.sources.arena_runs import LAPS, SETS, ArenaRun, data_set

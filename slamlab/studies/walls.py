@@ -16,7 +16,7 @@ from slamlab.geometry import transform, wrap
 from slamlab.landmarks.downsampling import DownsampledPoints
 from slamlab.landmarks.ransac import THESIS, Ransac
 from slamlab.parallel import map_runs
-from slamlab.sources import simulation
+from slamlab.sources.simulated_robot import simulation
 from slamlab.studies import study_command
 from slamlab.studies.study_command import TABLES, package_versions, rounded, seeds
 

@@ -6,7 +6,7 @@ import traceback
 import ipywidgets
 from IPython.display import display
 
-from slamlab.views import play_button as players
+from slamlab.views import play_button
 from slamlab.views.figures import bundle
 
 
@@ -31,14 +31,14 @@ def explore(draw, alt, play=None, **controls):
     ------
     ValueError : when a control is none of these, or ``play`` names no slider
     """
-    players.stop()
+    play_button.stop()
     widgets = {name: _control(name, given) for name, given in controls.items()}
     view = ipywidgets.HTML()
     buttons = []
     if play is not None:
         if play not in widgets:
             raise ValueError(f"play: no control is called {play!r}, only {', '.join(widgets)}")
-        buttons.append(players.Player(widgets[play]).button)
+        buttons.append(play_button.Player(widgets[play]).button)
 
     def redraw():
         values = {name: widget.value for name, widget in widgets.items()}
@@ -51,7 +51,7 @@ def explore(draw, alt, play=None, **controls):
             redraw()
         except Exception:
             # a callback has no cell to fail in
-            players.stop()
+            play_button.stop()
             view.value = f"<pre>{html.escape(traceback.format_exc(limit=-2))}</pre>"
 
     data, metadata = redraw()

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from slamlab.devices.rplidar.capsules import MAJORS_MM, SCALE_LEVELS
@@ -140,6 +140,7 @@ def test_what_an_emulator_packs_is_what_is_decoded(answer):
 
 @pytest.mark.parametrize("answer", ALL)
 @given(cuts=cuts, seed=st.integers(0, 2**32 - 1), flips=st.sampled_from([0, 1e-3, 0.03]))
+@example(cuts=[2], seed=32, flips=0.03)  # at its end a single byte that begins no capsule
 def test_however_a_stream_is_cut_the_same_nodes_come(answer, cuts, seed, flips):
     rng = np.random.default_rng(seed)
     source = ROUGH.get(answer, vector("D", "E") * 20)

@@ -193,7 +193,10 @@ def test_more_objects_than_room_were_made_for_find_room():
         (lambda: BOR(POINT, (0.1, 0)), r"add 2π"),
         (lambda: BOR(POINT, (0, 0), {3: (0, 0, 1, 0)}), "object 3"),
         (lambda: BOR(POINT, (0, np.nan)), "NaN"),
-        (lambda: BOR(POINT, (0, 0)).predict((1, 0), (0, 0), (0, 0)), "distance: expected low ≤"),
+        (
+            lambda: BOR(POINT, (0, 0)).predict((1, 0), (0, 0), (0, 0)),
+            "distance: expected low ≤ high",
+        ),
         (lambda: BOR(POINT, (0, 0)).predict(1, (0, 0), (0, 0)), "distance is an interval of two"),
         (lambda: BOR(POINT, (0, 0)).add(1, (1, 0, 0), (0, 0)), "a range and a bearing each"),
         (lambda: steered((1, 1), (0, 0), 0, 1), "wheel base and period are above zero"),

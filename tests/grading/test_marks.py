@@ -125,6 +125,12 @@ def test_the_page_on_the_class_counts_names_mistakes_and_escapes_what_students_w
     assert "<script" not in page
 
 
+def test_the_median_of_an_even_number_of_totals_is_half_way_between_the_middle_two(tmp_path):
+    some = [mark(record()), mark(record("b.ipynb", verdicts=VERDICTS[:1]))]  # 4 and 3 points
+    class_report.write_report(tmp_path, some)
+    assert "median 3.5 of" in (tmp_path / "class.html").read_text("utf-8")
+
+
 LONG = """
 def double(a):
     '''Doubles.'''
@@ -261,15 +267,15 @@ def test_a_note_on_the_time_that_the_student_may_have_written_is_not_believed(tm
 
 
 def test_every_submission_is_in_just_one_shard(tmp_path):
-    from slamlab.grading import batch as folder
+    from slamlab.grading import batch
     from slamlab.grading.submissions import Submission, SubmissionError
 
     found = [Submission(f"s{i}.ipynb", f"s{i}", tmp_path) for i in range(40)]
-    parts = [folder.select_shard(found, f"{i}/3") for i in (1, 2, 3)]
+    parts = [batch.select_shard(found, f"{i}/3") for i in (1, 2, 3)]
     assert sorted(s.name for part in parts for s in part) == sorted(s.name for s in found)
     for wrong in ("0/3", "4/3", "1", "a/b", "1/0"):
         with pytest.raises(SubmissionError, match="--shard is I/N"):
-            folder.select_shard(found, wrong)
+            batch.select_shard(found, wrong)
 
 
 @pytest.mark.slow

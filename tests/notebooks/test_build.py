@@ -144,6 +144,8 @@ def test_an_exercise_breaks_the_standards_without_its_checks(root):
         ('check("{number}-nothing")', "no task"),
         ("import slamlab.grading", "not there at grading"),
         ("from slamlab import grading", "not there at grading"),
+        # it is of slamlab.layers, which is there, and only imported into this module, which is not
+        ("from slamlab.estimators.graph_slam import Points", "not there at grading"),
     ],
 )
 def test_what_an_exercise_may_not_hold_is_told_with_its_line(root, cell, says):

@@ -8,8 +8,7 @@ import ipywidgets
 import pytest
 
 from slamlab import estimators, sources, views
-from slamlab.views.live import live_view
-from slamlab.views.live import run_loop as loops
+from slamlab.views.live import live_view, run_loop
 from slamlab.views.live.canvas import LiveCanvas
 from slamlab.views.live.controls import Controls
 from slamlab.views.live.raster import RasterScreen
@@ -27,7 +26,7 @@ def stored(monkeypatch):
     shown = []
     monkeypatch.setattr(live_view, "display", lambda data, **rest: shown.append((data, rest)))
     yield shown
-    loops.stop()
+    run_loop.stop()
 
 
 def walk(**more):

@@ -13,8 +13,7 @@ from slamlab.geometry import between, compose
 from slamlab.layers import Boxes, Points, Poses, Segments
 from slamlab.readings import Reading
 from slamlab.sources.base import Source
-from slamlab.views.live import apart
-from slamlab.views.live import run_loop as loops
+from slamlab.views.live import apart, run_loop
 from slamlab.views.live.controls import Controls
 from slamlab.views.live.drive_commands import parse_command
 from slamlab.views.live.drive_control import GOAL_TOLERANCE, TurnThenDrive
@@ -28,10 +27,10 @@ TOPS = 0.4, 0.6
 @pytest.fixture(autouse=True)
 def quick(monkeypatch):
     for name in ("MIN_PAUSE", "IDLE_POLL"):
-        monkeypatch.setattr(loops, name, 0.0005)
-    monkeypatch.setattr(loops, "FRAME_RATE", 1000)
+        monkeypatch.setattr(run_loop, name, 0.0005)
+    monkeypatch.setattr(run_loop, "FRAME_RATE", 1000)
     yield
-    loops.stop()
+    run_loop.stop()
 
 
 class Robot(Source):

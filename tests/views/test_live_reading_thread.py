@@ -12,8 +12,7 @@ from slamlab import views
 from slamlab.files.errors import SourceError
 from slamlab.readings import Reading
 from slamlab.sources.base import Source
-from slamlab.views.live import cell_views, live_view, reading_thread
-from slamlab.views.live import run_loop as loops
+from slamlab.views.live import cell_views, live_view, reading_thread, run_loop
 from slamlab.views.live.run_loop import RunLoop
 from slamlab.views.live.stepper import Stepper
 from tests.views.live_fakes import FakeScreen, Sum, Walk, until
@@ -66,10 +65,10 @@ class Robot(Device):
 
 @pytest.fixture(autouse=True)
 def quick(monkeypatch):
-    monkeypatch.setattr(loops, "READING_TIMEOUT", 0.001)
-    monkeypatch.setattr(loops, "IDLE_POLL", 0.001)
+    monkeypatch.setattr(run_loop, "READING_TIMEOUT", 0.001)
+    monkeypatch.setattr(run_loop, "IDLE_POLL", 0.001)
     yield
-    loops.stop()
+    run_loop.stop()
     assert not waiting(), "a thread is left behind"
 
 
@@ -279,7 +278,7 @@ def test_a_source_handed_in_stays_open_and_no_two_views_read_it_at_once():
 
 
 @pytest.mark.parametrize(
-    "end", [RunLoop.pause, RunLoop.step, RunLoop.close, lambda loop: loops.stop()]
+    "end", [RunLoop.pause, RunLoop.step, RunLoop.close, lambda loop: run_loop.stop()]
 )
 def test_a_robot_with_a_clock_of_its_own_is_told_at_once_and_stands_when_nobody_steers(end):
     loop = made(Robot)

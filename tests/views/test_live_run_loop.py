@@ -5,7 +5,7 @@ import asyncio
 import numpy as np
 import pytest
 
-from slamlab.views.live import run_loop as loops
+from slamlab.views.live import run_loop
 from slamlab.views.live.run_loop import RunLoop
 from slamlab.views.live.stepper import Stepper
 from tests.views.live_fakes import Car, FakeScreen, Sum, Walk, until
@@ -14,11 +14,11 @@ from tests.views.live_fakes import Car, FakeScreen, Sum, Walk, until
 @pytest.fixture(autouse=True)
 def quick(monkeypatch):
     """Steps as fast as they are drawn."""
-    monkeypatch.setattr(loops, "FRAME_RATE", 1000)
-    monkeypatch.setattr(loops, "MIN_PAUSE", 0.0)
-    monkeypatch.setattr(loops, "IDLE_POLL", 0.001)
+    monkeypatch.setattr(run_loop, "FRAME_RATE", 1000)
+    monkeypatch.setattr(run_loop, "MIN_PAUSE", 0.0)
+    monkeypatch.setattr(run_loop, "IDLE_POLL", 0.001)
     yield
-    loops.stop()
+    run_loop.stop()
 
 
 def made(source=Walk, estimator=lambda source: Sum(), at_once=True, play=False, **more):

@@ -9,6 +9,6 @@ Read in this order:
 - ``session``: one connection; ``driver``: RPLidar
 """
 
-from slamlab.devices.rplidar.driver import Lidar, RPLidar
+from slamlab.devices.rplidar.driver import RPLidar
 
-__all__ = ["Lidar", "RPLidar"]
+__all__ = ["RPLidar"]

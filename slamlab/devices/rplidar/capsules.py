@@ -12,6 +12,7 @@ import numpy as np
 from slamlab.devices.rplidar.measurement_nodes import NO_NODES, NODE_DTYPE, TURN_Q6, Decoder
 
 QUALITY = 0x2F  # of a point that has a distance: capsules carry none
+SYNC_NIBBLES = (0xA, 0x5)  # high halves of a capsule's first two bytes
 HEADER_SIZE = 4  # bytes before the distances
 MAX_STEP_RATIO = 1.3  # of two capsules in a row; beyond it some between were lost
 
@@ -42,13 +43,13 @@ class CapsuleDecoder(Decoder):
     def _next_capsule(self):
         """Next capsule whose checksum is right, or None."""
         while self._buffer:
-            # a byte that begins no capsule is dropped at once, or the count would hang on the cuts
-            first, second = self._buffer[0], self._buffer[1] if len(self._buffer) > 1 else 0x50
-            if first >> 4 == 0xA and second >> 4 == 0x5:
+            # a single byte is judged too: waiting for a second, the count would hang on the cuts
+            pairs = zip(self._buffer, SYNC_NIBBLES, strict=False)
+            if all(byte >> 4 == nibble for byte, nibble in pairs):
                 if len(self._buffer) < self.size:
                     return None
                 capsule = self._buffer[: self.size]
-                if reduce(xor, capsule[2:]) == (first & 15 | (second & 15) << 4):
+                if reduce(xor, capsule[2:]) == (capsule[0] & 15 | (capsule[1] & 15) << 4):
                     self._buffer = self._buffer[self.size :]
                     self._in_sync = True
                     return capsule
@@ -62,7 +63,7 @@ class CapsuleDecoder(Decoder):
             self.damage["resyncs"] += 1
         self._in_sync, self._previous, self._gap = False, None, True
         at = 1
-        while at < len(self._buffer) and self._buffer[at] >> 4 != 0xA:
+        while at < len(self._buffer) and self._buffer[at] >> 4 != SYNC_NIBBLES[0]:
             at += 1
         self._drop(at)
 

@@ -216,6 +216,3 @@ class RPLidar:
             break
         if self._closed:  # meanwhile
             self._session.close()
-
-
-Lidar = RPLidar  # name in the first edition

@@ -29,7 +29,6 @@ EXERCISE = Exercise(
         "slamlab.sources.simulated_robot",
         "slamlab.scanmatching",
         "slamlab.estimators",
-        "slamlab.estimators.runner",
         "slamlab.evaluation",
     ),
 )

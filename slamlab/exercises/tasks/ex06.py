@@ -21,5 +21,5 @@ EXERCISE = Exercise(
         "slamlab.models.observation",
         "slamlab.views",
     ),
-    answers=("slamlab.filters", "slamlab.estimators", "slamlab.estimators.runner"),
+    answers=("slamlab.filters", "slamlab.estimators"),
 )

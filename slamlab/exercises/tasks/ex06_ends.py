@@ -24,7 +24,7 @@ class Ends:
 
     Parameters
     ----------
-    kind : Kind of the landmarks
+    kind : LandmarkModel
     sure : (low, high) what variances may be in units of those of least squares
     """
 

@@ -44,7 +44,7 @@ def measured(rng, start, drives, p, scans, sigmas, kind=POINTS):
     start : (3,), drives : (STEPS, 2), p : (LANDMARKS, 2), all true
     scans : (STEPS, 2) int, rows of p that each scan holds, -1 for none
     sigmas : (3,), (2,), (2,) deviations of start, drives and sights
-    kind : Kind of the landmarks
+    kind : LandmarkModel
 
     Returns
     -------

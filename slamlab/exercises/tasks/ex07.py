@@ -26,7 +26,6 @@ EXERCISE = Exercise(
         "slamlab.estimators",
         "slamlab.evaluation",
         "slamlab.filters",
-        "slamlab.estimators.runner",
         "slamlab.studies",
     ),
 )

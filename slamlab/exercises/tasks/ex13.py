@@ -19,5 +19,5 @@ EXERCISE = Exercise(
         "slamlab.views",
         "slamlab.worlds",
     ),
-    answers=("slamlab.scanmatching", "slamlab.estimators", "slamlab.estimators.runner"),
+    answers=("slamlab.scanmatching", "slamlab.estimators"),
 )

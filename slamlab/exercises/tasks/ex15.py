@@ -18,6 +18,5 @@ EXERCISE = Exercise(
         "slamlab.posegraph",
         "slamlab.gridmap",
         "slamlab.estimators",
-        "slamlab.estimators.runner",
     ),
 )

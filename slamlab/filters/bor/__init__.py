@@ -10,7 +10,7 @@ Read in this order:
 
 from slamlab._lazy import exports
 
-__getattr__, __dir__, __all__ = exports(
+__all__ = exports(
     __name__,
     {".bor": ["BOR"], ".contraction": ["EmptyIntersection"]},
 )
