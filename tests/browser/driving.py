@@ -8,22 +8,45 @@ from tests.browser.live import View, fresh
 
 NAME = "driving.ipynb"
 
-# emulators and our drivers between, in simulated time: nothing hangs on how busy the machine is;
-# odometry by the thesis' scale factors, so 3 % and 7 % off, and wheels that slip
+# emulators and our drivers between, in simulated time, which stands while the robot has nothing to
+# do: so a drive is the same however busy the machine is; odometry by the thesis' scale factors, so
+# 3 % and 7 % off, and wheels that slip
 DRIVEN = """\
+import threading
+import numpy as np
 from functools import partial
 from slamlab import estimators, views, worlds
 from slamlab.devices.clock import SimulatedClock
 from slamlab.sources.emulated_devices import EmulatedDevices
 from slamlab.geometry import between
 
+class Driven(EmulatedDevices):
+    rest, stood = 10, 0  # readings while it stands
+
+    def __init__(self, *rest, **named):
+        self.closed = threading.Event()
+        super().__init__(*rest, **named)
+
+    def _turns(self):
+        for turn in super()._turns():
+            self.stood = 0 if np.any(self._command) else self.stood + 1
+            yield turn
+            while self.stood >= self.rest and not np.any(self._command):
+                if self.closed.wait(0.005):
+                    return
+
+    def close(self):
+        self.closed.set()
+        super().close()
+
 def told(pair):
     true = pair.source.truth.poses[: pair.count][-1]
     named = {"true": true, "naive": pair.estimator.naive_pose, "corrected": pair.estimator.pose}
-    return " ".join(f"{name} [{x:.4f} {y:.4f} {a:.4f}]" for name, (x, y, a) in named.items())
+    poses = " ".join(f"{name} [{x:.4f} {y:.4f} {a:.4f}]" for name, (x, y, a) in named.items())
+    return poses + (" at rest" if pair.source.stood >= pair.source.rest else "")
 
 seen = views.live(
-    lambda rng: EmulatedDevices(worlds.room(), rng, clock=SimulatedClock()),
+    lambda rng: Driven(worlds.room(), rng, clock=SimulatedClock()),
     views.apart(partial(estimators.make, "icp"), naive=(-8.5, 0)),
     "Naive and corrected map of a room.",
     note=told,
@@ -46,6 +69,7 @@ class Robot(View):
 
     def __init__(self, visit):
         super().__init__(visit.page, 0)
+        self.rested = ""  # step at which it was last seen to stand
         self.line = self.cell.get_by_placeholder("distance, angle")
 
     def poses(self):
@@ -54,14 +78,16 @@ class Robot(View):
         return {name: np.array(pose, dtype=float) for name, *pose in found}
 
     def at_rest(self):
-        """Wait until the robot stands; its poses then."""
-        last, same = None, 0
-        while same < 5:
-            self.wait(self.frame() + 2)
-            poses = self.poses()
-            moved = last is None or np.abs(poses["true"] - last).max() > 1e-4
-            last, same = poses["true"], 0 if moved else same + 1
-        return poses
+        """Wait until the robot stands again, after it has been told to move; its poses then."""
+        self.page.wait_for_function(
+            r"""([status, last]) => {
+                const text = status.textContent;
+                return text.includes("at rest") && /step \d+/.exec(text)[0] !== last;
+            }""",
+            arg=[self.root.locator(".slamlab-status").element_handle(), self.rested],
+        )
+        self.rested = re.search(r"step \d+", self.status())[0]
+        return self.poses()
 
     def tell(self, text):
         """Type a line, as into Tuček's console."""
