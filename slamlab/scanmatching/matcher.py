@@ -37,7 +37,10 @@ class Alignment(Match):
 
     @cached_property
     def covariance(self):
-        """Covariance (3, 3) of the pose from the measurement noise [m, m, rad]; see ``censi``."""
+        """Covariance (3, 3) of x, y and θ of the pose, in the target's frame [m, m, rad].
+
+        From the measurement noise alone; see ``censi``.
+        """
         return censi(*self._solution)
 
     def inflated_covariance(self, sigma):
