@@ -46,8 +46,9 @@ class Alignment(Match):
     def inflated_covariance(self, sigma):
         """Inflated covariance: the points' own noise, and errors that whole walls have in common.
 
-        Errors that points have in common do not average out: in a direction that holds its full
-        share of the information they shift the pose by as much, in one that few points fix by more.
+        Errors that points have in common, above all by motion during a scan, do not average out: in
+        a direction that holds its full share of the information they shift the pose by as much, in
+        one that few points fix by more.
 
         Parameters
         ----------
