@@ -7,9 +7,11 @@ import pytest
 
 from slamlab import estimators, sources, worlds
 from slamlab.estimators.graph_slam import GraphSlam
+from slamlab.estimators.loop_closure import match_information
 from slamlab.estimators.runner import run
 from slamlab.geometry import between, compose
 from slamlab.models.parameters import RobotModel
+from slamlab.posegraph import edge_error
 from slamlab.readings import Reading, Scan
 from slamlab.scanmatching import match, surface
 from slamlab.scanmatching.submap import build_submap
@@ -174,19 +176,76 @@ def test_nothing_but_empty_scans_is_odometry():
     assert slam.layers()
 
 
+def kidnapped(readings, truth):
+    """A change of a tour: the robot is carried back to where it was before."""
+    away, back = int(0.7 * len(readings)), int(0.3 * len(readings))
+    order = [*range(away), *range(back, len(readings))]
+    moved = [replace(readings[i], time=0.5 * k) for k, i in enumerate(order)]
+    moved[away] = replace(moved[away], odometry=np.zeros(3))
+    return moved, truth[order]
+
+
 @pytest.mark.parametrize("name", ["room", "situation-1"])
 def test_a_kidnapped_robot_is_relocalised(name):
-    def kidnapped(readings, truth):
-        away, back = int(0.7 * len(readings)), int(0.3 * len(readings))
-        order = [*range(away), *range(back, len(readings))]
-        moved = [replace(readings[i], time=0.5 * k) for k, i in enumerate(order)]
-        moved[away] = replace(moved[away], odometry=np.zeros(3))
-        return moved, truth[order]
-
     slam, truth = toured(name, 0, kidnapped)
     assert slam.counts["relocalisations"] == 1
     assert "relocalisation" in slam.status
     assert np.median(errors(slam, truth)[-20:]) < 0.1
+
+
+@pytest.mark.parametrize("degrees", [0, 45, 90, 180])
+def test_the_error_of_an_edge_is_as_large_as_its_matchs_covariance_says_whatever_the_turn(degrees):
+    # across the corridor a match is ten times as sure as along it: turned wrongly, NEES is 60 and
+    # more. 180° exchanges nothing but signs
+    world, nees = worlds.corridor(), []
+    for k in range(60):
+        rng = np.random.default_rng([15, degrees, k])
+        true = np.array([0.4, 0.1, np.radians(degrees)]) + rng.normal(0, [0.1, 0.1, 0.05])
+        place = np.array([*rng.uniform([3.5, -0.3], [4.5, 0.3]), rng.normal(0, 0.05)])
+        clouds = [RPLIDAR_A2.scan(world, p, rng).points() for p in (compose(place, true), place)]
+        matched = match(*clouds, true)
+        assert matched.good
+        e = edge_error.error(place, compose(place, true), matched.pose)
+        nees.append(e @ edge_error.information(matched.pose, matched.covariance) @ e)
+    assert 2.2 < np.mean(nees) < 3.9  # χ² of 3 degrees has the mean 3
+
+
+def test_every_edge_of_a_graph_has_the_information_of_its_own_error(monkeypatch):
+    made, information = [], edge_error.information
+
+    def watched(z, covariance):
+        made.append((z, information(z, covariance)))
+        return made[-1][1]
+
+    monkeypatch.setattr(edge_error, "information", watched)
+    slam, _ = toured("room", 0, kidnapped)
+    assert {edge.robust for edge in slam.graph.edges} == {True, False}
+    assert slam.counts["relocalisations"] == 1
+    strange = [
+        edge
+        for edge in slam.graph.edges
+        if not any(
+            np.array_equal(edge.measured, z) and np.array_equal(edge.information, Lam)
+            for z, Lam in made
+        )
+    ]
+    # but for one: where the robot was carried nobody knows, in no direction
+    assert len(strange) == 1
+    x, y = np.diag(strange[0].information)[:2]
+    assert x == y < 1e-3
+
+
+def test_a_loops_information_is_that_of_its_match_seen_from_where_it_leads():
+    world, rng, turn = worlds.corridor(), np.random.default_rng(2), np.array([0.2, 0.1, np.pi / 2])
+    place = np.array([4.0, 0.0, 0.0])
+    new, old = (
+        surface(RPLIDAR_A2.scan(world, p, rng).points()) for p in (compose(place, turn), place)
+    )
+    matched = match(new, old, turn)
+    along, across = np.diag(matched.covariance)[:2]
+    assert along > 20 * across
+    x, y = np.diag(match_information(matched, new, old))[:2]
+    assert x > 2 * y  # the one that looks across the corridor is sure of what lies ahead
 
 
 def test_a_robot_without_odometry_is_led_by_its_scans():

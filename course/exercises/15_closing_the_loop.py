@@ -89,7 +89,8 @@ check("15-jacobians")
 # %% [markdown]
 # ## 3 · One step of Gauss and Newton
 #
-# All edges together cost $\chi^2 = \sum e^{\mathsf T}\Lambda\,e$. Near the present poses
+# All edges together cost $\chi^2 = \sum e^{\mathsf T}\Lambda\,e$. Each Λ is the information of its e,
+# in the frame that z leads to: whoever made the edge has turned it there. Near the present poses
 # $e(x + \delta) \approx e + J\delta$, and the best δ solves
 #
 # $$H\,\delta = -b, \qquad H = \sum J^{\mathsf T}\Lambda J, \qquad b = \sum J^{\mathsf T}\Lambda\,e$$
@@ -106,7 +107,7 @@ def step(poses, edges):
     """The poses after one step of Gauss and Newton; pose 0 stays.
 
     poses : (n, 3) [m, m, rad]
-    edges : list of (i, j, z, information): two numbers, z (3,), the matrix Λ (3, 3)
+    edges : list of (i, j, z, information): two numbers, z (3,), the matrix Λ (3, 3) of e
     returns (n, 3), headings wrapped
     """
     ### BEGIN SOLUTION

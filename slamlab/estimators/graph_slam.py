@@ -18,7 +18,7 @@ from slamlab.estimators.loop_closure import LoopClosure, pose_difference
 from slamlab.estimators.relocalisation import Relocalisation
 from slamlab.geometry import between, compose, transform, wrap
 from slamlab.layers import Points, Poses, Segments
-from slamlab.posegraph import PoseGraph
+from slamlab.posegraph import PoseGraph, edge_error
 from slamlab.readings import Scan, Trajectory
 from slamlab.scanmatching import Surface, match, surface
 from slamlab.scanmatching.submap import build_submap
@@ -156,13 +156,13 @@ class GraphSlam(Estimator):
         if matched is None:  # an edge by odometry alone; a new track where that may be wrong
             self.counts["scans not matched"] += 1
             P = self._P + odometry_drift.unmodelled_covariance(self._increment, cloud.reach)
-            self._add_keyframe(cloud, scan, np.linalg.inv(P), self._kidnapped)
+            self._add_keyframe(cloud, scan, P, self._kidnapped)
             return
         self._fuse_match(matched, cloud)
         far = np.hypot(*self._increment[:2]) > KEYFRAME_DISTANCE * cloud.reach
         turned = abs(self._increment[2]) > KEYFRAME_TURN
         if far or turned or matched.fit.overlap < KEYFRAME_OVERLAP:
-            self._add_keyframe(cloud, scan, np.linalg.inv(self._P))
+            self._add_keyframe(cloud, scan, self._P)
 
     def _scan_to_map(self, cloud):
         """Scan-to-map matching, at last by correlative search; None where none passes the gates."""
@@ -190,11 +190,15 @@ class GraphSlam(Estimator):
         self._increment = np.array([x[0], x[1], wrap(float(x[2]))])
         self._P = (P - K @ P + (P - K @ P).T) / 2
 
-    def _add_keyframe(self, cloud, scan, information=None, new_track=False):
-        """Make a scan a keyframe with an edge to the last one, and the submap anew."""
+    def _add_keyframe(self, cloud, scan, P=None, new_track=False):
+        """Make a scan a keyframe with an edge to the last one, and the submap anew.
+
+        P is the covariance of the increment, in the last keyframe's frame.
+        """
         track = self.keyframes[-1].track + int(new_track) if self.keyframes else 0
         i = self.graph.add_pose(compose(self._last_keyframe_pose(), self._increment))
         if i:
+            information = edge_error.information(self._increment, P)
             self.graph.add_edge(i - 1, i, self._increment, information)
         self.keyframes.append(Keyframe(cloud, scan, track))
         self._increment, self._P, self._reach = np.zeros(3), np.zeros((3, 3)), cloud.reach

@@ -11,6 +11,7 @@ from collections import deque
 import numpy as np
 
 from slamlab.geometry import between, wrap
+from slamlab.posegraph import edge_error
 from slamlab.scanmatching import match
 from slamlab.scanmatching.match_quality import assess
 from slamlab.scanmatching.registration import find_correspondences
@@ -23,7 +24,7 @@ MAX_CANDIDATES = 3  # candidates of a new keyframe, at most
 CANDIDATES_PER_READING = 2  # candidates verified between two readings
 MIN_OVERLAP, MIN_AGREEMENT = 0.5, 0.85  # of a scan with the old submap, and with the old scan [1]
 SURPRISE = 60.0  # χ² gate: squared Mahalanobis distance of a loop edge to the graph's belief
-NEGLIGIBLE_SHIFT = 0.02  # innovation that needs no gate: shares of the reach, and rad
+NEGLIGIBLE_SHIFT = 0.02  # residual that needs no gate: shares of the reach, and rad
 OPTIMISE_CHI2 = 100.0  # χ² of a loop edge from which the graph is optimised at once
 OPTIMISE_LOOPS = 10  # loop edges after which the graph is optimised in any case
 COMMON_NOISE = 1.0  # of the scans' σ: what two scans of a place differ by beyond it [1]
@@ -80,10 +81,10 @@ class LoopClosure:
             self.counts["loop candidates rejected"] += 1
             return
         information = match_information(matched, scan, self.keyframes[j].surface)
-        innovation = pose_difference(matched.pose, between(*poses[[j, i]]))
+        e = edge_error.error(*poses[[j, i]], matched.pose)
         # the gate costs the graph's covariances: not asked where the edge would move nothing
-        near = np.hypot(*innovation[:2]) < NEGLIGIBLE_SHIFT * scan.reach
-        negligible = near and abs(innovation[2]) < NEGLIGIBLE_SHIFT
+        near = np.hypot(*e[:2]) < NEGLIGIBLE_SHIFT * scan.reach
+        negligible = near and abs(e[2]) < NEGLIGIBLE_SHIFT
         d2 = self.graph.squared_mahalanobis
         if not negligible and d2(j, i, matched.pose, information) > SURPRISE:
             self.counts["loops too surprising"] += 1
@@ -92,7 +93,7 @@ class LoopClosure:
         self.counts["loops closed"] += 1
         self.connected.update((self.keyframes[i].track, self.keyframes[j].track))
         self._pending += 1
-        self._max_chi2 = max(self._max_chi2, innovation @ information @ innovation)
+        self._max_chi2 = max(self._max_chi2, e @ information @ e)
 
 
 def submap_around(keyframes, poses, j):
@@ -113,9 +114,9 @@ def is_verified(matched, scan, old, overlap=MIN_OVERLAP, agreement=MIN_AGREEMENT
 
 
 def match_information(matched, scan, old):
-    """(3, 3) information matrix of a match between scans of other times."""
+    """(3, 3) information matrix of an edge: of a match between scans of other times."""
     sigma = COMMON_NOISE * np.hypot(scan.sigma, old.sigma)
-    return np.linalg.inv(matched.inflated_covariance(sigma))
+    return edge_error.information(matched.pose, matched.inflated_covariance(sigma))
 
 
 def pose_difference(a, b):

@@ -2,7 +2,8 @@
 
 Read in this order:
 
-- ``edge_error``, ``edge_jacobians``, ``edge_symbolic``: one factor, a measured relative pose
+- ``edge_error``, ``edge_jacobians``, ``edge_symbolic``: one factor, a measured relative pose, and
+  the information of its error
 - ``pose_graph``: PoseGraph, the nodes and edges
 - ``normal_equations``, ``optimisation``: sparse Gauss-Newton; ``robust_kernel``: outlier loops
 - ``marginal_covariances``: how well a pose is known; ``g2o``: files

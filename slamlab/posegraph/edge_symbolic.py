@@ -20,3 +20,4 @@ def relative_pose(a, b):
 error = relative_pose(z, relative_pose(x_i, x_j))
 J_i = error.jacobian(x_i)
 J_j = error.jacobian(x_j)
+J_z = error.jacobian(z)

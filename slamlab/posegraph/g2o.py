@@ -1,7 +1,8 @@
 """Pose-graph files in g2o format, ``.g2o`` text (Kümmerle et al. 2011): load and save.
 
 ``VERTEX_SE2 id x y θ``, ``EDGE_SE2 i j x y θ`` with the upper triangle of the information row by
-row (6 numbers), ``FIX id …``; metres and radians. Which edge is robust the format cannot say.
+row (6 numbers), ``FIX id …``; metres and radians. The information is that of the residual, as in
+``PoseGraph``. Which edge is robust the format cannot say.
 """
 
 from pathlib import Path

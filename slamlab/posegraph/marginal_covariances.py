@@ -43,7 +43,7 @@ def squared_mahalanobis(problem, poses, pairs, measured, R, phi):
     poses : (n, 3) the optimum [m, m, rad]
     pairs : (c, 2) int
     measured : (c, 3) [m, m, rad]
-    R : (c, 3, 3) or (3, 3) their covariance, the measurement noise
+    R : (c, 3, 3) or (3, 3) measurement noise: covariance of e, in the frame that z leads to
     phi : float, Φ of the robust edges [1]
 
     Returns

@@ -46,7 +46,7 @@ class Problem:
     ----------
     pairs : (m, 2) int
     measured : (m, 3) [m, m, rad]
-    information : (m, 3, 3)
+    information : (m, 3, 3) of the residuals
     robust : (m,) bool
     free : (n,) bool
     """

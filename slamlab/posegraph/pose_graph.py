@@ -76,7 +76,9 @@ class PoseGraph:
         ----------
         i, j : int, poses added before
         measured : (3,) [m, m, rad]
-        information : (3, 3) information matrix: inverse of the measurement's covariance
+        information : (3, 3) information matrix of the residual e, in the frame that ``measured``
+            leads to (as in GTSAM and g2o); ``edge_error.information`` makes it of the covariance
+            of ``measured``, which is in the frame of pose i
         robust : bool, whether it may be an outlier, as a loop closure may; it is then
             weighed by dynamic covariance scaling (:mod:`slamlab.posegraph.robust_kernel`)
 
@@ -142,7 +144,7 @@ class PoseGraph:
         ----------
         i, j : int, or (c,) int
         measured : (3,), or (c, 3) [m, m, rad]
-        information : (3, 3) or (c, 3, 3)
+        information : (3, 3) or (c, 3, 3) of the residual, as for ``add_edge``
         phi : float, as for ``optimise``
 
         Returns

@@ -37,14 +37,18 @@ class Alignment(Match):
 
     @cached_property
     def covariance(self):
-        """Covariance (3, 3) of the pose from the measurement noise [m, m, rad]; see ``censi``."""
+        """Covariance (3, 3) of x, y and θ of the pose, in the target's frame [m, m, rad].
+
+        From the measurement noise alone; see ``censi``.
+        """
         return censi(*self._solution)
 
     def inflated_covariance(self, sigma):
         """Inflated covariance: the points' own noise, and errors that whole walls have in common.
 
-        Errors that points have in common do not average out: in a direction that holds its full
-        share of the information they shift the pose by as much, in one that few points fix by more.
+        Errors that points have in common, above all by motion during a scan, do not average out: in
+        a direction that holds its full share of the information they shift the pose by as much, in
+        one that few points fix by more.
 
         Parameters
         ----------

@@ -257,6 +257,19 @@ WRONG = [
     ),
     Wrong("Λ left out", step(L="L = np.eye(3)"), LEAST, "information-ignored"),
     Wrong("Λ inverted", step(L="L = np.linalg.inv(L)"), LEAST, "covariance-for-information"),
+    *(
+        Wrong(
+            f"Λ turned by z's heading, {way}",
+            step(
+                L="c, s = np.cos(z[2]), np.sin(z[2]); "
+                "T = np.array([[c, -s, 0], [s, c, 0], [0, 0, 1.0]]); "
+                f"L = {turned}"
+            ),
+            LEAST,
+            "information-turned",
+        )
+        for way, turned in {"back": "T.T @ L @ T", "forth": "T @ L @ T.T"}.items()
+    ),
     Wrong("Λ missing in b", step(bi="A.T @ e", bj="B.T @ e"), LEAST, "information-in-one"),
     Wrong("b not transposed", step(bi="A @ L @ e", bj="B @ L @ e"), LEAST, "transpose"),
     Wrong(

@@ -5,7 +5,7 @@ import numpy as np
 from slamlab.exercises.task import Diagnosis
 from slamlab.exercises.tasks.ex15_graphs import best, each
 from slamlab.geometry import compose, wrap
-from slamlab.posegraph.edge_error import error
+from slamlab.posegraph.edge_error import error, information
 from slamlab.posegraph.edge_jacobians import J_i, J_j
 
 TOLERANCE = 1e-4
@@ -106,6 +106,13 @@ def _another_pose_held(inputs, outputs):
 
 def _not_wrapped(inputs, outputs):
     return same(moved(inputs, outputs), each(best, inputs)).all()
+
+
+def _turned_again(inputs, forth):
+    """The step where each Λ was taken for the inverse of the covariance of z, and turned by θ_z."""
+    z = forth * inputs["measured"]
+    again = information(z, np.linalg.inv(inputs["information"]))
+    return each(best, inputs | {"information": again})
 
 
 def _no_information(A, B, L, e):
@@ -217,6 +224,11 @@ MISTAKES = (
         "Λ was inverted: it is the information, the inverse of the covariance, already. A sure "
         "edge has a large Λ and pulls hard.",
         _is(_by(_covariance)),
+    ),
+    Diagnosis(
+        "information-turned",
+        "Λ was turned by θ_z. It is the information of e already: who made the edge has turned it.",
+        _is(lambda i: _turned_again(i, 1), lambda i: _turned_again(i, -1)),
     ),
     Diagnosis(
         "information-in-one",
