@@ -60,6 +60,7 @@ def test_nothing_goes_on_while_a_picture_is_not_drawn():
 
     async def watch():
         loop.run()
+        await until(lambda: tracks(loop))
         await asyncio.sleep(0.05)
         assert tracks(loop) == [2]
         loop.screen.draw()
