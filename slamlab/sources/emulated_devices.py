@@ -30,6 +30,7 @@ class EmulatedDevices(LiveDevices):
     rng : numpy.random.Generator, of noise and slip
     calibration : Calibration that the driver is to believe; the thesis' by default
     clock : SimulatedClock, or None for real time
+    merged : int, how many turns are merged into one scan
 
     ``bench`` are the emulators, ``truth`` where the robot was at each reading, from the first.
 
@@ -38,7 +39,7 @@ class EmulatedDevices(LiveDevices):
     SourceError
     """
 
-    def __init__(self, world, rng, calibration=None, clock=None):
+    def __init__(self, world, rng, calibration=None, clock=None, merged=1):
         try:
             self.bench = run_emulators(world, rng, FALLBACK_ADDRESS, clock=clock)
         except SlamlabError as error:
@@ -47,7 +48,7 @@ class EmulatedDevices(LiveDevices):
         shared = {"opener": self.bench.opener, "clock": self.bench.clock}
         try:
             emir = Emir(self.bench.ports[EMIR], calibration=calibration, **shared)
-            super().__init__(RPLidar(self.bench.ports[LIDAR], **shared), emir)
+            super().__init__(RPLidar(self.bench.ports[LIDAR], **shared), emir, merged=merged)
             close_at_exit(self)
         except SlamlabError as error:
             self.bench.close()  # a robot that was opened ends with its port
@@ -65,10 +66,11 @@ class EmulatedDevices(LiveDevices):
         super().close()
         self.bench.close()
 
-    def _scan(self, turn):
-        self._times.append(float(turn.times[-1]))
-        self._poses.append(self.bench.body.pose_at(turn.times[-1:])[0])
-        return super()._scan(turn)
+    def _scan(self, turns):
+        end = turns[-1].times[-1:]
+        self._times.append(float(end[0]))
+        self._poses.append(self.bench.body.pose_at(end)[0])
+        return super()._scan(turns)
 
 
 Emulated = EmulatedDevices  # name in the first edition

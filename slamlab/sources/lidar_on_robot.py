@@ -1,11 +1,12 @@
 """A lidar on a robot: readings of its scans (turns) and odometry, synchronised on one clock.
 
-The odometry is interpolated at the times of the beams; scans are deskewed by it.
+The odometry is interpolated at the times of the beams; scans are deskewed by it, and merged.
 """
 
 import numpy as np
 
-from slamlab.devices.deskewing import deskew
+from slamlab.devices.deskewing import deskew, merge
+from slamlab.files.errors import SourceError
 from slamlab.geometry import between
 from slamlab.models.parameters import RobotModel
 from slamlab.readings import Reading
@@ -17,7 +18,7 @@ EMIR_MODEL = RobotModel(distance_error=0.05, turn_error=0.08, turn_per_metre=0.1
 
 
 class LidarOnRobot(Source):
-    """Source of a lidar on a robot: each turn a deskewed scan, with the odometry increment since.
+    """Source of a lidar on a robot: deskewed scans, each with the odometry increment since.
 
     Subclasses say which turns there are and where the robot was.
 
@@ -25,27 +26,30 @@ class LidarOnRobot(Source):
     ----------
     name : str
     front : float, where the robot's front lies for the lidar, clockwise [degree]
+    merged : int, how many turns are merged into one scan: more points, and fewer readings
+
+    Raises
+    ------
+    SourceError : merged is no number of turns
     """
 
     robot, sensor = EMIR_MODEL, RPLIDAR_A2.model
 
-    def __init__(self, name, front=0.0):
+    def __init__(self, name, front=0.0, merged=1):
         super().__init__()
-        self.name, self.front = name, front
+        if not (isinstance(merged, int) and merged >= 1):
+            raise SourceError(f"one turn or more can be merged into a scan, not {merged!r}")
+        self.name, self.front, self.merged = name, front, merged
 
     def __iter__(self):
         begin = last = None
-        for turn in self._turns():
-            time = float(turn.times[-1])
+        for turns in self._groups():
+            time = float(turns[-1].times[-1])
             pose = self._pose_at(time)
             begin = time if begin is None else begin
             odometry = np.zeros(3) if last is None else between(last, pose)
             last = pose
-            if not turn.complete:
-                self.damage["turns with a gap"] += 1
-            if turn.after_gap:
-                self.damage["connections lost and found"] += 1
-            yield Reading(time - begin, odometry, self._scan(turn))
+            yield Reading(time - begin, odometry, self._scan(turns))
 
     def _turns(self):
         """Yield each Turn when it is known where the robot was."""
@@ -55,8 +59,30 @@ class LidarOnRobot(Source):
         """(3,) odometry pose of the robot, interpolated at a time [m, m, rad]."""
         raise NotImplementedError
 
-    def _scan(self, turn):
-        """Deskewed scan of a turn, as from the pose where it ended."""
-        scan = turn.scan(self.sensor.range_max, self.sensor.range_min, self.front)
-        first, last = (self._pose_at(float(time)) for time in turn.times[[0, -1]])
-        return deskew(scan, turn.times, first, last)
+    def _scan(self, turns):
+        """Deskewed scan of some turns, as from the pose where the last ended."""
+        scans, ends = [], []
+        for turn in turns:
+            scan = turn.scan(self.sensor.range_max, self.sensor.range_min, self.front)
+            first, last = (self._pose_at(float(time)) for time in turn.times[[0, -1]])
+            scans.append(deskew(scan, turn.times, first, last))
+            ends.append(last)
+        return merge(scans, ends)
+
+    def _groups(self):
+        """Turns, as many at a time as are merged; what is left at the end, too."""
+        group = []
+        for turn in self._turns():
+            self._count_damage(turn)
+            group.append(turn)
+            if len(group) == self.merged:
+                yield group
+                group = []
+        if group:
+            yield group
+
+    def _count_damage(self, turn):
+        if not turn.complete:
+            self.damage["turns with a gap"] += 1
+        if turn.after_gap:
+            self.damage["connections lost and found"] += 1

@@ -23,11 +23,12 @@ class LiveDevices(LidarOnRobot):
     lidar : RPLidar
     emir : Emir, or None for a lidar that is carried or stands
     front : float, where the robot's front lies for the lidar, clockwise [degree]
+    merged : int, how many turns are merged into one scan
     """
 
-    def __init__(self, lidar, emir=None, front=0.0):
+    def __init__(self, lidar, emir=None, front=0.0, merged=1):
         there = [device for device in (lidar, emir) if device is not None]
-        super().__init__("devices:" + ",".join(device.name for device in there), front)
+        super().__init__("devices:" + ",".join(device.name for device in there), front, merged)
         self.lidar, self.emir, self._command = lidar, emir, None
 
     def __iter__(self):
@@ -88,7 +89,9 @@ class LiveDevices(LidarOnRobot):
         return np.zeros(3) if self.emir is None else self.emir.pose_at(time)
 
 
-def devices(ports, calibration=None, front=0.0, reconnect=False, opener=open_port, clock=None):
+def devices(
+    ports, calibration=None, front=0.0, reconnect=False, opener=open_port, clock=None, merged=1
+):
     """Open a lidar and a robot by their serial ports, as a live source.
 
     Parameters
@@ -99,6 +102,7 @@ def devices(ports, calibration=None, front=0.0, reconnect=False, opener=open_por
     reconnect : bool, whether lost connections are tried again until they are back
     opener : callable(port, baud) -> Transport
     clock : Clock of both
+    merged : int, how many turns are merged into one scan
 
     Returns
     -------
@@ -115,7 +119,7 @@ def devices(ports, calibration=None, front=0.0, reconnect=False, opener=open_por
     try:
         if len(names) == 2 and names[1]:
             emir = Emir(names[1], calibration=calibration, **shared)
-        return LiveDevices(RPLidar(names[0] or None, **shared), emir, front)
+        return LiveDevices(RPLidar(names[0] or None, **shared), emir, front, merged)
     except SlamlabError as error:
         if emir is not None:
             emir.close()

@@ -9,7 +9,7 @@ from hypothesis import given
 from slamlab import sources, worlds
 from slamlab.cli import main
 from slamlab.devices.clock import SimulatedClock
-from slamlab.devices.deskewing import deskew
+from slamlab.devices.deskewing import deskew, merge
 from slamlab.devices.emir import Calibration, Emir, commands
 from slamlab.devices.emir.session import Session
 from slamlab.devices.emir.wheel_odometry import Odometry
@@ -214,6 +214,40 @@ def test_a_scan_taken_on_the_move_shows_the_room_as_seen_from_its_end(begin, mot
     xy = np.column_stack([np.cos(straight.angles), np.sin(straight.angles)])
     found = transform(end, (straight.ranges[:, None] * xy)[rest])
     assert np.allclose(found, wall[rest], atol=1e-6)
+
+
+@given(poses, poses)
+def test_merged_scans_show_the_room_as_seen_from_the_last_pose(a, b):
+    a, b = (np.append(pose[:2] / 40, pose[2]) for pose in (a, b))
+    walls = 5 * np.column_stack([np.cos(np.arange(7.0)), np.sin(np.arange(7.0))])
+    scans = []
+    for pose in (a, b):
+        x, y = transform(between(pose, np.zeros(3)), walls).T
+        angles = -np.sort(-np.mod(np.arctan2(y, x), 2 * np.pi))
+        scans.append(Scan(angles, np.full(7, np.nan), 12.0))
+        order = np.argsort(-np.mod(np.arctan2(y, x), 2 * np.pi))
+        scans[-1].ranges[:] = np.hypot(x, y)[order]
+    both = merge(scans, [a, b])
+    assert len(both.ranges) == 14 and both.range_max == 12.0
+    found = transform(b, both.points())
+    apart = np.linalg.norm(found[:, None] - walls, axis=2)
+    assert (apart.min(axis=1) < 1e-9).all() and (np.sum(apart < 1e-9, axis=0) == 2).all()
+    clockwise = np.mod(scans[1].angles[0] - both.angles, 2 * np.pi)
+    assert (np.diff(clockwise) >= 0).all()
+
+
+def test_readings_of_merged_turns_hold_all_points_and_the_way_between():
+    turns = [turn(51.0 + k / 10) for k in range(7)]
+    single = list(source.LiveDevices(ReadyLidar(turns), ReadyEmir()))
+    merged = list(source.LiveDevices(ReadyLidar(turns), ReadyEmir(), merged=3))
+    assert [len(reading.scan.ranges) for reading in merged] == [3 * 360, 3 * 360, 360]
+    assert [reading.time for reading in merged] == pytest.approx([0, 0.3, 0.4])
+    way = compose(compose(single[3].odometry, single[4].odometry), single[5].odometry)
+    assert_same_pose(merged[1].odometry, way)
+    assert_same_pose(merged[2].odometry, single[6].odometry)
+    for wrong in (0, -1, 1.5, None):
+        with pytest.raises(SourceError, match="one turn or more"):
+            source.LiveDevices(ReadyLidar([]), merged=wrong)
 
 
 def test_a_scan_from_a_robot_that_stands_is_left_as_it_is():

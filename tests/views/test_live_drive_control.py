@@ -230,6 +230,11 @@ def test_layers_are_drawn_beside_each_other_and_all_else_stays():
     assert there.status == "well"
 
 
+def test_layers_of_a_name_may_be_left_out():
+    (corrected,) = apart(lambda source: Shows(), naive=None)(None).layers()
+    assert corrected.name == "corrected"
+
+
 def test_a_layer_that_cannot_be_moved_is_refused():
     shows = Shows()
     shows.layers = lambda: [Boxes("naive", np.zeros((1, 4)))]

@@ -8,12 +8,13 @@ from slamlab.layers import Points, Poses, Segments
 
 
 def apart(make, **shifts):
-    """Wrap an estimator factory so that some layers are drawn apart, side by side with the others.
+    """Wrap an estimator factory so that some layers are drawn beside the others, or not at all.
 
     Parameters
     ----------
     make : callable(source) -> Estimator
-    shifts : by a layer's name: (dx, dy) by which it is drawn away from where it is [m]
+    shifts : by a layer's name: (dx, dy) by which it is drawn away from where it is [m], or None
+        where it is not to be drawn
 
     Returns
     -------
@@ -33,12 +34,14 @@ class _ShiftedLayers:
 
     def layers(self):
         """Layers of the estimator, those with a shift moved."""
-        return [_shift(layer, self._shifts.get(layer.name)) for layer in self.estimator.layers()]
+        return [
+            _shift(layer, self._shifts[layer.name]) if layer.name in self._shifts else layer
+            for layer in self.estimator.layers()
+            if self._shifts.get(layer.name, ()) is not None
+        ]
 
 
 def _shift(layer, shift):
-    if shift is None:
-        return layer
     if not isinstance(layer, Points | Poses | Segments):
         raise TypeError(f"cannot draw {type(layer).__name__} elsewhere")
     _, rows = fields(layer)
