@@ -46,6 +46,21 @@ class Source:
         """
         raise SourceError(f"{self.name} is a recording: it cannot be driven")
 
+    def merge(self, turns):
+        """Merge several turns of a lidar into the scan of one reading: more points, fewer readings.
+
+        Parameters
+        ----------
+        turns : int, how many
+
+        Raises
+        ------
+        SourceError : that is no number of turns, or there are none in this source
+        """
+        raise SourceError(
+            f"{self.name} has no turns of a lidar to merge: devices and recordings do"
+        )
+
     def close(self):
         """Close the source: release what it holds; may be called twice."""
 

@@ -30,7 +30,6 @@ class EmulatedDevices(LiveDevices):
     rng : numpy.random.Generator, of noise and slip
     calibration : Calibration that the driver is to believe; the thesis' by default
     clock : SimulatedClock, or None for real time
-    merged : int, how many turns are merged into one scan
 
     ``bench`` are the emulators, ``truth`` where the robot was at each reading, from the first.
 
@@ -39,7 +38,7 @@ class EmulatedDevices(LiveDevices):
     SourceError
     """
 
-    def __init__(self, world, rng, calibration=None, clock=None, merged=1):
+    def __init__(self, world, rng, calibration=None, clock=None):
         try:
             self.bench = run_emulators(world, rng, FALLBACK_ADDRESS, clock=clock)
         except SlamlabError as error:
@@ -48,7 +47,7 @@ class EmulatedDevices(LiveDevices):
         shared = {"opener": self.bench.opener, "clock": self.bench.clock}
         try:
             emir = Emir(self.bench.ports[EMIR], calibration=calibration, **shared)
-            super().__init__(RPLidar(self.bench.ports[LIDAR], **shared), emir, merged=merged)
+            super().__init__(RPLidar(self.bench.ports[LIDAR], **shared), emir)
             close_at_exit(self)
         except SlamlabError as error:
             self.bench.close()  # a robot that was opened ends with its port

@@ -26,20 +26,20 @@ class LidarOnRobot(Source):
     ----------
     name : str
     front : float, where the robot's front lies for the lidar, clockwise [degree]
-    merged : int, how many turns are merged into one scan: more points, and fewer readings
-
-    Raises
-    ------
-    SourceError : merged is no number of turns
     """
 
     robot, sensor = EMIR_MODEL, RPLIDAR_A2.model
+    merged = 1  # turns in the scan of one reading
 
-    def __init__(self, name, front=0.0, merged=1):
+    def __init__(self, name, front=0.0):
         super().__init__()
-        if not (isinstance(merged, int) and merged >= 1):
-            raise SourceError(f"one turn or more can be merged into a scan, not {merged!r}")
-        self.name, self.front, self.merged = name, front, merged
+        self.name, self.front = name, front
+
+    def merge(self, turns):
+        """Merge turns into one scan: see :meth:`Source.merge`."""
+        if not (isinstance(turns, int) and turns >= 1):
+            raise SourceError(f"one turn or more can be merged into a scan, not {turns!r}")
+        self.merged = turns
 
     def __iter__(self):
         begin = last = None

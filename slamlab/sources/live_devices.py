@@ -23,12 +23,11 @@ class LiveDevices(LidarOnRobot):
     lidar : RPLidar
     emir : Emir, or None for a lidar that is carried or stands
     front : float, where the robot's front lies for the lidar, clockwise [degree]
-    merged : int, how many turns are merged into one scan
     """
 
-    def __init__(self, lidar, emir=None, front=0.0, merged=1):
+    def __init__(self, lidar, emir=None, front=0.0):
         there = [device for device in (lidar, emir) if device is not None]
-        super().__init__("devices:" + ",".join(device.name for device in there), front, merged)
+        super().__init__("devices:" + ",".join(device.name for device in there), front)
         self.lidar, self.emir, self._command = lidar, emir, None
 
     def __iter__(self):
@@ -89,9 +88,7 @@ class LiveDevices(LidarOnRobot):
         return np.zeros(3) if self.emir is None else self.emir.pose_at(time)
 
 
-def devices(
-    ports, calibration=None, front=0.0, reconnect=False, opener=open_port, clock=None, merged=1
-):
+def devices(ports, calibration=None, front=0.0, reconnect=False, opener=open_port, clock=None):
     """Open a lidar and a robot by their serial ports, as a live source.
 
     Parameters
@@ -102,7 +99,6 @@ def devices(
     reconnect : bool, whether lost connections are tried again until they are back
     opener : callable(port, baud) -> Transport
     clock : Clock of both
-    merged : int, how many turns are merged into one scan
 
     Returns
     -------
@@ -119,7 +115,7 @@ def devices(
     try:
         if len(names) == 2 and names[1]:
             emir = Emir(names[1], calibration=calibration, **shared)
-        return LiveDevices(RPLidar(names[0] or None, **shared), emir, front, merged)
+        return LiveDevices(RPLidar(names[0] or None, **shared), emir, front)
     except SlamlabError as error:
         if emir is not None:
             emir.close()

@@ -25,15 +25,14 @@ class RecordedDevices(LidarOnRobot):
     calibration : Calibration of the robot
     saturates : bool, whether its counters stop at ±128, see :class:`Emir`
     front : float, where the robot's front lies for the lidar, clockwise [degree]
-    merged : int, how many turns are merged into one scan
 
     Raises
     ------
     SourceError : it cannot be read, or holds no whole turn of a lidar
     """
 
-    def __init__(self, path, content, calibration=None, saturates=False, front=0.0, merged=1):
-        super().__init__(str(path), front, merged)
+    def __init__(self, path, content, calibration=None, saturates=False, front=0.0):
+        super().__init__(str(path), front)
         content, torn = content
         compression = "its compression is damaged or cut off" if torn else ""
         self._recording = parse(content, self.name, salvage=True, truncated=compression)

@@ -239,7 +239,9 @@ def test_merged_scans_show_the_room_as_seen_from_the_last_pose(a, b):
 def test_readings_of_merged_turns_hold_all_points_and_the_way_between():
     turns = [turn(51.0 + k / 10) for k in range(7)]
     single = list(source.LiveDevices(ReadyLidar(turns), ReadyEmir()))
-    merged = list(source.LiveDevices(ReadyLidar(turns), ReadyEmir(), merged=3))
+    devices = source.LiveDevices(ReadyLidar(turns), ReadyEmir())
+    devices.merge(3)
+    merged = list(devices)
     assert [len(reading.scan.ranges) for reading in merged] == [3 * 360, 3 * 360, 360]
     assert [reading.time for reading in merged] == pytest.approx([0, 0.3, 0.4])
     way = compose(compose(single[3].odometry, single[4].odometry), single[5].odometry)
@@ -247,7 +249,9 @@ def test_readings_of_merged_turns_hold_all_points_and_the_way_between():
     assert_same_pose(merged[2].odometry, single[6].odometry)
     for wrong in (0, -1, 1.5, None):
         with pytest.raises(SourceError, match="one turn or more"):
-            source.LiveDevices(ReadyLidar([]), merged=wrong)
+            devices.merge(wrong)
+    with pytest.raises(SourceError, match="no turns of a lidar"):
+        sources.open("sim:room").merge(2)
 
 
 def test_a_scan_from_a_robot_that_stands_is_left_as_it_is():
