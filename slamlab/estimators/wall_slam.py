@@ -8,9 +8,11 @@ import numpy as np
 
 from slamlab.estimators.base import Estimator
 from slamlab.estimators.mak_slam import predict
+from slamlab.estimators.wall_merging import ends_of, pieces_of_one_wall
 from slamlab.filters.data_association import squared_distances
 from slamlab.filters.landmark_models import LINES
 from slamlab.filters.mak import MAK
+from slamlab.filters.merging import merge
 from slamlab.geometry import transform
 from slamlab.landmarks.downsampling import DownsampledPoints
 from slamlab.landmarks.ransac import lines
@@ -25,6 +27,9 @@ AMBIGUITY_GATE = 4 * GATE  # χ²: beyond the gate and below this ambiguous, nei
 
 class WallSlam(Estimator):
     """EKF-SLAM (MAK) on line landmarks: the walls that RANSAC finds in each scan.
+
+    A landmark is one side of one wall, without what stands beyond a door: pieces of it that were
+    found apart and have grown together are merged, see :mod:`slamlab.estimators.wall_merging`.
 
     Parameters
     ----------
@@ -46,8 +51,8 @@ class WallSlam(Estimator):
         self.tentative = TentativeWalls(sightings, lives)
         self.extents: dict[int, np.ndarray] = {}  # stretches of each wall, along its line [m]
         self.points = DownsampledPoints()
-        self.ambiguous = 0
-        self._started = False
+        self.ambiguous, self.merged = 0, 0
+        self._started, self._next = False, 0
 
     def step(self, reading):
         """Process a reading: predict by odometry, correct by confirmed walls, queue tentative ones.
@@ -65,11 +70,13 @@ class WallSlam(Estimator):
             if self._started and new and not known:  # the robot may have been carried
                 self.counts["scans of only new walls"] += 1
             self._update(reading.scan, known, new)
+            self._merge()
             self.points.add(transform(self.filter.pose, reading.scan.points()))
         self.pose = self.filter.pose
         self.record(reading.time)
         self.status = self.status_line(
             f"{len(self.filter.ids)} walls, {len(self.tentative.tentative)} tentative",
+            f"{self.merged} merged",
             f"{self.ambiguous} ambiguous observations",
         )
 
@@ -85,13 +92,8 @@ class WallSlam(Estimator):
 
     def walls(self):
         """(k, 4) line segments of the map, where walls were seen, doors open: x1 y1 x2 y2 [m]."""
-        rows = []
-        for i, (rho, alpha) in self._map_lines().items():
-            normal, way = (np.array([np.cos(a), np.sin(a)]) for a in (alpha, alpha + np.pi / 2))
-            rows += [
-                [*(rho * normal + a * way), *(rho * normal + b * way)] for a, b in self.extents[i]
-            ]
-        return np.array(rows).reshape(-1, 4)
+        pieces = [ends_of(line, self.extents[i]) for i, line in self._map_lines().items()]
+        return np.concatenate([np.empty((0, 2, 2)), *pieces]).reshape(-1, 4)
 
     def _map_lines(self):
         """The line landmarks of the map as estimated now: id to (ρ, α)."""
@@ -128,11 +130,12 @@ class WallSlam(Estimator):
             self.filter.update(list(known), z, R)
         pose = self.filter.pose
         placed = [(g_line(pose, line.z), transform(pose, line.ends)) for line in new]
-        # the first scan lays the map's frame: what it shows is surest there, without any drift
+        # the first scan lays the map's frame: what it shows is surest there, and waits for nothing
         first, self._started = not self._started, True
-        for line, due in zip(new, self.tentative.sight(placed), strict=True):
-            if due or first:
-                i = len(self.extents)
+        confirmed = [True] * len(new) if first else self.tentative.sight(placed)
+        for line, due in zip(new, confirmed, strict=True):
+            if due:
+                i, self._next = self._next, self._next + 1
                 self.filter.add([i], line.z[None], line.R)
                 known[i], self.extents[i] = line, np.empty((0, 2))
         walls = self._map_lines()
@@ -142,10 +145,26 @@ class WallSlam(Estimator):
             along = hits @ [-np.sin(walls[i][1]), np.cos(walls[i][1])]
             self.extents[i] = union(self.extents[i], split_at_gaps(along))
 
+    def _merge(self):
+        """Merge walls that have turned out to be pieces of one, the surest first."""
+        while pair := pieces_of_one_wall(self.filter, _hulls(self.extents)):
+            kept, gone = pair
+            ends = ends_of(self._map_lines()[gone], self.extents.pop(gone))
+            merge(self.filter, kept, gone)
+            line = self._map_lines()[kept]
+            moved = np.array([extent(line, piece) for piece in ends]).reshape(-1, 2)
+            self.extents[kept] = union(self.extents[kept], moved)
+            self.merged += 1
+
 
 def _hull(parts):
     """(2,) from the first to the last of some pieces [m]."""
     return np.array([parts[0, 0], parts[-1, 1]]) if len(parts) else np.array([np.inf, -np.inf])
+
+
+def _hulls(extents):
+    """The hull of each wall's pieces, by its id."""
+    return {i: _hull(parts) for i, parts in extents.items()}
 
 
 def for_source(slam, source, rng=None):
