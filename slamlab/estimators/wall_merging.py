@@ -7,12 +7,36 @@ rightly two landmarks, also where a simulated wall has no thickness.
 
 import numpy as np
 
-from slamlab.filters.merging import squared_difference
+from slamlab.filters.merging import merge, squared_difference
 from slamlab.geometry import wrap
 from slamlab.landmarks.tentative_walls import extent, overlap
+from slamlab.landmarks.wall_segments import hull, union
 
 MAX_TURN = np.radians(3)  # between the normals of pieces of one wall [rad]
 MERGE_GATE = 9.21  # χ² gate, 2 degrees of freedom: pieces of one wall fail it once in a hundred
+
+
+def merge_pieces(mak, extents):
+    """Merge walls that have turned out to be pieces of one, the surest first.
+
+    Parameters
+    ----------
+    mak : MAK, of lines; what is merged leaves it
+    extents : dict of (k, 2), each wall's id to what was seen of it, from and to [m]; changed, too
+
+    Returns
+    -------
+    int, how many left
+    """
+    before = len(extents)
+    while pair := pieces_of_one_wall(mak, {i: hull(parts) for i, parts in extents.items()}):
+        kept, gone = pair
+        ends = ends_of(mak.x[mak.rows([gone])], extents.pop(gone))
+        merge(mak, kept, gone)
+        line = mak.x[mak.rows([kept])]
+        moved = np.array([extent(line, piece) for piece in ends]).reshape(-1, 2)
+        extents[kept] = union(extents[kept], moved)
+    return before - len(extents)
 
 
 def pieces_of_one_wall(mak, hulls):

@@ -8,20 +8,21 @@ import numpy as np
 
 from slamlab.estimators.base import Estimator
 from slamlab.estimators.mak_slam import predict
-from slamlab.estimators.wall_merging import ends_of, pieces_of_one_wall
+from slamlab.estimators.sufficiency import hardly_surer, mostly_unknown
+from slamlab.estimators.wall_merging import ends_of, merge_pieces
 from slamlab.filters.data_association import squared_distances
 from slamlab.filters.landmark_models import LINES
 from slamlab.filters.mak import MAK
-from slamlab.filters.merging import merge
 from slamlab.geometry import transform
 from slamlab.landmarks.downsampling import DownsampledPoints
 from slamlab.landmarks.ransac import lines
 from slamlab.landmarks.tentative_walls import TentativeWalls, extent, overlap
-from slamlab.landmarks.wall_segments import split_at_gaps, union
+from slamlab.landmarks.wall_segments import hull, split_at_gaps, union
 from slamlab.layers import Ellipses, Points, Poses, Segments
 from slamlab.models.observation import g_line
 
 GATE = 13.8  # χ² gate, 2 degrees of freedom: a true pairing fails it once in a thousand
+ONLY_NEW = "scans of only new walls"
 AMBIGUITY_GATE = 4 * GATE  # χ²: beyond the gate and below this ambiguous, neither used nor new
 
 
@@ -52,7 +53,8 @@ class WallSlam(Estimator):
         self.extents: dict[int, np.ndarray] = {}  # stretches of each wall, along its line [m]
         self.points = DownsampledPoints()
         self.ambiguous, self.merged = 0, 0
-        self._started, self._next = False, 0
+        self._alone = MAK(np.zeros(3), np.zeros((3, 3)), capacity=0)
+        self._started, self._next, self._scans = False, 0, 0
 
     def step(self, reading):
         """Process a reading: predict by odometry, correct by confirmed walls, queue tentative ones.
@@ -61,16 +63,18 @@ class WallSlam(Estimator):
         ----------
         reading : Reading
         """
-        predict(self.filter, reading, self.robot)
+        for each in (self.filter, self._alone):
+            predict(each, reading, self.robot)
         if reading.scan is None or not reading.scan.valid.any():
             self.skipped += 1
         else:
+            self._scans += 1
             found = lines(reading.scan, self.sensor, self.rng, self.ransac)
             known, new = self._associate(found)
             if self._started and new and not known:  # the robot may have been carried
-                self.counts["scans of only new walls"] += 1
+                self.counts[ONLY_NEW] += 1
             self._update(reading.scan, known, new)
-            self._merge()
+            self.merged += merge_pieces(self.filter, self.extents)
             self.points.add(transform(self.filter.pose, reading.scan.points()))
         self.pose = self.filter.pose
         self.record(reading.time)
@@ -79,6 +83,14 @@ class WallSlam(Estimator):
             f"{self.merged} merged",
             f"{self.ambiguous} ambiguous observations",
         )
+
+    @property
+    def warnings(self):
+        """What it says where it sees too little, or too little again: list of sentences."""
+        return [
+            *hardly_surer(self.filter, self._alone, self._scans),
+            *mostly_unknown(self.counts[ONLY_NEW], self._scans),
+        ]
 
     def layers(self):
         """Points, walls as far as seen, the trajectory, the robot's 95 % covariance ellipse."""
@@ -112,7 +124,7 @@ class WallSlam(Estimator):
                 (distance, i)
                 for distance, i in zip(row, walls, strict=True)
                 if distance < AMBIGUITY_GATE
-                and overlap(_hull(self.extents[i]), extent(walls[i], ends))
+                and overlap(hull(self.extents[i]), extent(walls[i], ends))
             ]
             distance, i = min(near, default=(np.inf, None))
             if i is None:
@@ -144,27 +156,6 @@ class WallSlam(Estimator):
             hits = pose[:2] + r[:, None] * np.column_stack([np.cos(beta), np.sin(beta)])
             along = hits @ [-np.sin(walls[i][1]), np.cos(walls[i][1])]
             self.extents[i] = union(self.extents[i], split_at_gaps(along))
-
-    def _merge(self):
-        """Merge walls that have turned out to be pieces of one, the surest first."""
-        while pair := pieces_of_one_wall(self.filter, _hulls(self.extents)):
-            kept, gone = pair
-            ends = ends_of(self._map_lines()[gone], self.extents.pop(gone))
-            merge(self.filter, kept, gone)
-            line = self._map_lines()[kept]
-            moved = np.array([extent(line, piece) for piece in ends]).reshape(-1, 2)
-            self.extents[kept] = union(self.extents[kept], moved)
-            self.merged += 1
-
-
-def _hull(parts):
-    """(2,) from the first to the last of some pieces [m]."""
-    return np.array([parts[0, 0], parts[-1, 1]]) if len(parts) else np.array([np.inf, -np.inf])
-
-
-def _hulls(extents):
-    """The hull of each wall's pieces, by its id."""
-    return {i: _hull(parts) for i, parts in extents.items()}
 
 
 def for_source(slam, source, rng=None):
