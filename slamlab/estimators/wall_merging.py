@@ -9,7 +9,7 @@ import numpy as np
 
 from slamlab.filters.merging import merge, squared_difference
 from slamlab.geometry import wrap
-from slamlab.landmarks.tentative_walls import extent, overlap
+from slamlab.landmarks.tentative_walls import MAX_GAP, extent
 from slamlab.landmarks.wall_segments import hull, union
 
 MAX_TURN = np.radians(3)  # between the normals of pieces of one wall [rad]
@@ -42,6 +42,8 @@ def merge_pieces(mak, extents):
 def pieces_of_one_wall(mak, hulls):
     """The two landmarks that are most surely one wall: parallel, near, and one by the filter.
 
+    Near are those of which none begins farther than half a metre from the other, along or across.
+
     Parameters
     ----------
     mak : MAK, of lines
@@ -51,17 +53,29 @@ def pieces_of_one_wall(mak, hulls):
     -------
     (kept, gone) ids, the older one first; None where no two are one wall
     """
-    ids, lines = mak.ids, mak.landmarks()
-    turn = np.abs(wrap(lines[:, None, 1] - lines[:, 1]))
-    pairs = [(ids[a], ids[b]) for a, b in np.argwhere(np.triu(turn < MAX_TURN, 1))]
-    walls = dict(zip(ids, lines, strict=True))
-    near = [
-        (squared_difference(mak, i, j), (i, j))
-        for i, j in pairs
-        if overlap(hulls[i], extent(walls[i], ends_of(walls[j], hulls[j])))
+    lines = dict(zip(mak.ids, mak.landmarks(), strict=True))
+    seen = [i for i in lines if np.isfinite(hulls[i]).all()]
+    found = [
+        (squared_difference(mak, seen[a], seen[b]), (seen[a], seen[b]))
+        for a, b in _near(np.array([lines[i] for i in seen]), np.array([hulls[i] for i in seen]))
     ]
-    d2, pair = min(near, default=(np.inf, None))
+    d2, pair = min(found, default=(np.inf, None))
     return pair if d2 < MERGE_GATE else None
+
+
+def _near(lines, hulls):
+    """Rows a < b of (n, 2) lines that are parallel, and of which b begins or ends near a."""
+    if len(lines) < 2:
+        return []
+    rho, alpha = lines.T
+    normals, ways = (np.column_stack([np.cos(a), np.sin(a)]) for a in (alpha, alpha + np.pi / 2))
+    ends = (rho[:, None] * normals)[:, None] + hulls[..., None] * ways[:, None]
+    along = np.einsum("ak,bek->abe", ways, ends)
+    off = np.abs(np.einsum("ak,bek->abe", normals, ends) - rho[:, None, None]).max(axis=2)
+    near = (along.min(axis=2) <= hulls[:, 1:] + MAX_GAP) & (off <= MAX_GAP)
+    near &= along.max(axis=2) >= hulls[:, :1] - MAX_GAP
+    near &= np.abs(wrap(alpha[:, None] - alpha)) < MAX_TURN
+    return np.argwhere(np.triu(near, 1)).tolist()
 
 
 def ends_of(line, extents):
