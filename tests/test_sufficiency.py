@@ -65,7 +65,7 @@ def test_on_the_intel_log_nobody_says_anything(name):
     except FileNotFoundError as error:
         pytest.skip(str(error))
     with sources.open(str(path)) as log:
-        assert told(name, log, 400) == ""
+        assert told(name, log, 450) == ""
 
 
 def test_a_run_says_it_on_the_terminal_and_in_its_summary(tmp_path, capsys):
@@ -81,7 +81,7 @@ def test_of_a_few_steps_nothing_is_said():
     unsure = MAK(np.zeros(3), np.eye(3))
     assert thin_matches(19, 19, 0) == mostly_unknown(19, 19) == []
     assert hardly_surer(unsure, unsure, 19) == []
-    assert len(hardly_surer(unsure, unsure, 20)) == len(mostly_unknown(6, 20)) == 1
+    assert len(hardly_surer(unsure, unsure, 20)) == len(mostly_unknown(7, 20)) == 1
     assert len(thin_matches(11, 20, 0)) == 1 and "no match" in thin_matches(0, 9, 11)[0]
 
 

@@ -8,7 +8,8 @@ import numpy as np
 MIN_STEPS = 20  # matches or scans before which nothing is said: all begins with little
 THIN = 60  # points of a match; on fewer scan matching drifts more than wheels do
 SURER = 0.5  # share of odometry's own standard deviation above which a map helps little
-UNKNOWN = 0.25  # share of scans that show nothing known
+# share of scans that show nothing known: by ultrasound 0.4, by a lidar in a building 0.26
+UNKNOWN = 1 / 3
 
 
 def thin_matches(thin, matched, unmatched):
