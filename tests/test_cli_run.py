@@ -11,7 +11,7 @@ import pytest
 
 from slamlab import estimators, sources
 from slamlab.cli import main
-from slamlab.cli.run import COLUMNS
+from slamlab.cli.run import COLUMNS, picture
 from slamlab.estimators.runner import run
 from slamlab.sources import SourceError
 
@@ -45,10 +45,23 @@ def test_run_writes_trajectory_map_and_summary(tmp_path, capsys):
 
 
 @pytest.mark.parametrize("estimator", estimators.NAMES)
-def test_every_estimator_runs_and_draws(tmp_path, estimator):
+def test_every_estimator_runs_and_draws_odometrys_map_beside_its_own(
+    tmp_path, estimator, monkeypatch
+):
     world = "sim:landmarks" if estimator.startswith("mak") else "sim:polygon"
+    figures = []
+
+    def drawn(*results):
+        figures.append(picture(*results))
+        return figures[-1]
+
+    monkeypatch.setattr("slamlab.cli.run.picture", drawn)
     assert main(["run", world, "--estimator", estimator, "--out", str(tmp_path)]) == 0
     assert (tmp_path / "map.png").stat().st_size > 5000
+    axes = {ax.get_title(): ax for ax in figures[0].axes}
+    assert list(axes) == ["naive", "corrected"][: 1 if estimator == "odometry" else 2]
+    labels = {text.get_text() for text in axes["naive"].get_legend().get_texts()}
+    assert {"naive map", "naive track"} <= labels
 
 
 def test_convert_writes_what_run_reads(tmp_path, capsys):

@@ -3,6 +3,7 @@
 import csv
 import json
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 from slamlab.cli.common import SOURCES, Interruptible, damage_line, generator
@@ -17,8 +18,9 @@ def add_parser(subparsers):
         help="run a SLAM over a log or a simulation",
         description=(
             "Run an estimator over a source and say how far it got. With --out it writes "
-            "trajectory.csv, map.png and summary.json. Ctrl-C ends a run early, which is how a "
-            "live one ends: its robot stops, and what it came to until then is told and written."
+            "trajectory.csv, map.png (naive and corrected) and summary.json. Ctrl-C ends a run "
+            "early, which is how a live one ends: its robot stops, and what it came to until then "
+            "is told and written."
         ),
     )
     parser.add_argument("source", metavar="SOURCE", help=SOURCES)
@@ -61,12 +63,13 @@ def run(arguments) -> int:
                 arguments.out.mkdir(parents=True, exist_ok=True)
             if arguments.tum is not None:
                 arguments.tum.touch()
-            result = _with_progress(source, estimator)
+            naive = _naive_beside(estimator)
+            result = _with_progress(source, estimator, naive)
         if not result.frames:
             raise sources.SourceError(f"{source.name} gave no reading")
         summary = summarise(result, arguments.estimator, relations)
         if arguments.out is not None:
-            write(result, summary, arguments.out)
+            write(result, summary, arguments.out, naive)
         if arguments.tum is not None:
             evaluation.save_tum(result.trajectory, arguments.tum)
     except OSError as error:
@@ -118,6 +121,7 @@ def summarise(result, estimator, relations=None):
         "skipped": result.skipped,
         "seconds": round(result.seconds, 3),
         "damage": dict(result.source.damage),
+        "warnings": list(result.estimator.warnings),
     }
     if relations is not None:
         summary["relations"] = _errors(relations_error, result, relations)
@@ -140,7 +144,7 @@ def _errors(measure, result, trusted):
     }
 
 
-def write(result, summary, folder):
+def write(result, summary, folder, beside=None):
     """Write trajectory.csv, map.png and summary.json.
 
     Parameters
@@ -148,6 +152,7 @@ def write(result, summary, folder):
     result : Run
     summary : dict
     folder : Path, there already
+    beside : DeadReckoning or None, see :func:`picture`
     """
     from slamlab.views import png
 
@@ -158,17 +163,19 @@ def write(result, summary, folder):
             result.trajectory.times, result.trajectory.poses, result.naive.poses, strict=True
         ):
             table.writerow([repr(float(v)) for v in (time, *pose, *naive)])
-    (folder / "map.png").write_bytes(png(picture(result)))
+    (folder / "map.png").write_bytes(png(picture(result, beside)))
     text = json.dumps(summary, indent=2, ensure_ascii=False)
     (folder / "summary.json").write_text(text + "\n", encoding="utf-8")
 
 
-def picture(result):
+def picture(result, naive=None):
     """Draw the odometry-only (naive) map beside the corrected one, with trajectories.
 
     Parameters
     ----------
     result : Run
+    naive : DeadReckoning or None, run over the same readings; None where the estimator keeps a
+        naive map itself
 
     Returns
     -------
@@ -177,10 +184,13 @@ def picture(result):
     from slamlab.layers import Ellipses, Grid, Points, Poses
     from slamlab.views import COLOURS, draw, legend, panels
 
-    layers = result.estimator.layers()
-    naive = [layer for layer in layers if layer.name == "naive"]
-    rest = [layer for layer in layers if layer.name != "naive"]
-    shown = [(title, group) for title, group in (("naive", naive), ("corrected", rest)) if group]
+    layers = [] if naive is result.estimator else result.estimator.layers()
+    groups = {"naive": [], "corrected": []}
+    for layer in layers:
+        groups["naive" if layer.name == "naive" else "corrected"].append(layer)
+    if naive is not None:
+        groups["naive"] = [replace(layer, name="naive") for layer in naive.layers()]
+    shown = [(title, group) for title, group in groups.items() if group]
     fig, all_axes = panels([title for title, _ in shown], size=(6 * len(shown), 6))
     for ax, (title, group) in zip(all_axes, shown, strict=True):
         for layer in group:
@@ -196,7 +206,17 @@ def picture(result):
     return fig
 
 
-def _with_progress(source, estimator):
+def _naive_beside(estimator):
+    """Dead reckoning to run beside an estimator that has no naive map; None where it has one."""
+    from slamlab.estimators import DeadReckoning
+
+    if isinstance(estimator, DeadReckoning):
+        return estimator
+    has_one = any(layer.name == "naive" for layer in estimator.layers())
+    return None if has_one else DeadReckoning()
+
+
+def _with_progress(source, estimator, naive=None):
     from rich.console import Console
     from rich.progress import Progress
 
@@ -206,7 +226,13 @@ def _with_progress(source, estimator):
     console = Console(stderr=True, force_jupyter=False)
     with Progress(console=console, transient=True) as progress:
         bar = progress.add_task("running", total=len(source) or None)
-        return feed(source, estimator, lambda reading, estimator: progress.advance(bar))
+
+        def on_step(reading, estimator):
+            if naive not in (None, estimator):
+                naive.step(reading)
+            progress.advance(bar)
+
+        return feed(source, estimator, on_step)
 
 
 def _print(summary):

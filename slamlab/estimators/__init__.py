@@ -4,11 +4,12 @@ Read in this order:
 
 - ``base``: Estimator, what all offer; ``by_name``: make; ``runner``: run, over a whole source
 - ``dead_reckoning``: odometry alone
-- ``mak_slam``: EKF-SLAM, on ``landmark_observations``; ``wall_slam``, ``foot_slam``: with walls
+- ``mak_slam``: EKF-SLAM, on ``landmark_observations``; ``wall_slam``, on ``wall_merging``,
+  and ``foot_slam``: with walls
 - ``bor_slam``: boxes (set membership); ``montecarlo_slam``: particles, FastSLAM
 - ``icp_slam``: scan matching; ``graph_slam``: with keyframes, submaps and a pose graph,
   ``odometry_drift``, ``loop_closure`` and ``relocalisation``
-- ``timestamps``: anomalies of a log's clock
+- ``timestamps``: anomalies of a log's clock; ``sufficiency``: who works on too little says so
 """
 
 from slamlab._lazy import exports

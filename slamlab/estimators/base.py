@@ -15,9 +15,11 @@ class Estimator:
     Subclasses implement ``step`` and ``layers`` and keep ``pose`` up to date. ``trajectory`` is the
     past as believed now: a graph revises it, a filter does not. ``status`` is the status line,
     ``skipped`` counts readings with nothing usable in them, ``counts`` events and anomalies.
+    ``warnings`` says, a sentence each, where the estimate rests on too little to be believed.
     """
 
     status: str = ""
+    warnings: tuple[str, ...] | list[str] = ()
 
     def __init__(self):
         self.pose = np.zeros(3)
@@ -44,8 +46,9 @@ class Estimator:
         self._poses.append(np.array(self.pose, dtype=float))
 
     def status_line(self, *parts):
-        """The status line: the given parts, then the counted events."""
-        return ", ".join([*parts, *(f"{n} {what}" for what, n in sorted(self.counts.items()))])
+        """The status line: the given parts, then the counted events, then the warnings."""
+        told = ", ".join([*parts, *(f"{n} {what}" for what, n in sorted(self.counts.items()))])
+        return "; ".join([told, *(f"warning: {warning}" for warning in self.warnings)])
 
     def trajectory(self) -> Trajectory:
         """The estimated trajectory: every pose so far, as believed now.

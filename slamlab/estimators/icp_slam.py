@@ -8,6 +8,7 @@ from odometry alone. There is no loop closure: a place seen again is not recogni
 import numpy as np
 
 from slamlab.estimators.base import Estimator
+from slamlab.estimators.sufficiency import THIN, thin_matches
 from slamlab.geometry import between, compose, transform
 from slamlab.layers import Points, Poses
 from slamlab.scanmatching import point_to_line, point_to_point
@@ -31,7 +32,7 @@ class IcpSlam(Estimator):
     def __init__(self, plain=False):
         super().__init__()
         self.naive_pose = np.zeros(3)
-        self.unmatched = 0
+        self.matched, self.unmatched, self._thin = 0, 0, 0
         self.plain = plain
         self._reference_scan = None  # the points of the last good scan
         self._reference_pose = np.zeros(3)  # the corrected pose of the last good scan
@@ -59,6 +60,11 @@ class IcpSlam(Estimator):
         self.record(reading.time)
         self.status = self.status_line(f"{len(self._map)} scans mapped, {self.unmatched} unmatched")
 
+    @property
+    def warnings(self):
+        """What it says where it matches on too little: list of sentences."""
+        return thin_matches(self._thin, self.matched, self.unmatched)
+
     def layers(self):
         """Naive and corrected map, naive and corrected trajectory."""
         return [
@@ -76,6 +82,8 @@ class IcpSlam(Estimator):
             match = self._scan_to_scan(points)
             if match.share >= MIN_INLIERS:  # even one not converged beats odometry
                 self.pose = compose(self._reference_pose, match.pose)
+                self.matched += 1
+                self._thin += match.share * len(points) < THIN
                 if match.share < LOW_INLIERS:
                     self.counts["matches with few inliers"] += 1
             else:

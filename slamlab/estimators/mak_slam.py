@@ -8,6 +8,7 @@ from slamlab.estimators.landmark_observations import (
     observed_landmarks,
     require_landmarks,
 )
+from slamlab.estimators.sufficiency import hardly_surer
 from slamlab.filters.data_association import gated_nearest_neighbours, squared_distances
 from slamlab.filters.mak import MAK
 from slamlab.geometry import compose, wrap
@@ -41,6 +42,7 @@ class MakSlam(Estimator):
         self.robot, self.sensor, self.smoothing = robot, sensor, smoothing
         # the first pose is where the map's frame is laid: nothing about it is uncertain
         self.filter = MAK(np.zeros(3), np.zeros((3, 3)), first_estimates=first_estimates)
+        self._alone, self._steps = MAK(np.zeros(3), np.zeros((3, 3)), capacity=0), 0
         self.rng = np.random.default_rng(0) if rng is None else rng
         self.association = DataAssociation()
 
@@ -52,13 +54,22 @@ class MakSlam(Estimator):
         reading : Reading
         """
         odometry = predict(self.filter, reading, self.robot)
+        predict(self._alone, reading, self.robot)
+        self._steps += 1
         observations = observed_landmarks(reading, self.sensor, self.rng)
         if len(observations.z):
             self._correct(observations)
         self.pose = self._smoothed(odometry)
         self.record(reading.time)
         landmarks, ambiguous = len(self.filter.ids), self.association.ambiguous
-        self.status = f"{landmarks} landmarks, {ambiguous} ambiguous observations"
+        self.status = self.status_line(
+            f"{landmarks} landmarks", f"{ambiguous} ambiguous observations"
+        )
+
+    @property
+    def warnings(self):
+        """What it says where its landmarks correct hardly anything: list of sentences."""
+        return hardly_surer(self.filter, self._alone, self._steps)
 
     def layers(self):
         """Landmarks and robot with their 95 % covariance ellipses, the trajectory."""

@@ -8,6 +8,8 @@ import numpy as np
 
 from slamlab.estimators.base import Estimator
 from slamlab.estimators.mak_slam import predict
+from slamlab.estimators.sufficiency import hardly_surer, mostly_unknown
+from slamlab.estimators.wall_merging import ends_of, merge_pieces
 from slamlab.filters.data_association import squared_distances
 from slamlab.filters.landmark_models import LINES
 from slamlab.filters.mak import MAK
@@ -15,16 +17,20 @@ from slamlab.geometry import transform
 from slamlab.landmarks.downsampling import DownsampledPoints
 from slamlab.landmarks.ransac import lines
 from slamlab.landmarks.tentative_walls import TentativeWalls, extent, overlap
-from slamlab.landmarks.wall_segments import split_at_gaps, union
+from slamlab.landmarks.wall_segments import hull, split_at_gaps, union
 from slamlab.layers import Ellipses, Points, Poses, Segments
 from slamlab.models.observation import g_line
 
 GATE = 13.8  # χ² gate, 2 degrees of freedom: a true pairing fails it once in a thousand
+ONLY_NEW = "scans of only new walls"
 AMBIGUITY_GATE = 4 * GATE  # χ²: beyond the gate and below this ambiguous, neither used nor new
 
 
 class WallSlam(Estimator):
     """EKF-SLAM (MAK) on line landmarks: the walls that RANSAC finds in each scan.
+
+    A landmark is one side of one wall, without what stands beyond a door: pieces of it that were
+    found apart and have grown together are merged, see :mod:`slamlab.estimators.wall_merging`.
 
     Parameters
     ----------
@@ -46,8 +52,9 @@ class WallSlam(Estimator):
         self.tentative = TentativeWalls(sightings, lives)
         self.extents: dict[int, np.ndarray] = {}  # stretches of each wall, along its line [m]
         self.points = DownsampledPoints()
-        self.ambiguous = 0
-        self._started = False
+        self.ambiguous, self.merged = 0, 0
+        self._alone = MAK(np.zeros(3), np.zeros((3, 3)), capacity=0)
+        self._started, self._next, self._scans = False, 0, 0
 
     def step(self, reading):
         """Process a reading: predict by odometry, correct by confirmed walls, queue tentative ones.
@@ -56,22 +63,34 @@ class WallSlam(Estimator):
         ----------
         reading : Reading
         """
-        predict(self.filter, reading, self.robot)
+        for each in (self.filter, self._alone):
+            predict(each, reading, self.robot)
         if reading.scan is None or not reading.scan.valid.any():
             self.skipped += 1
         else:
+            self._scans += 1
             found = lines(reading.scan, self.sensor, self.rng, self.ransac)
             known, new = self._associate(found)
             if self._started and new and not known:  # the robot may have been carried
-                self.counts["scans of only new walls"] += 1
+                self.counts[ONLY_NEW] += 1
             self._update(reading.scan, known, new)
+            self.merged += merge_pieces(self.filter, self.extents)
             self.points.add(transform(self.filter.pose, reading.scan.points()))
         self.pose = self.filter.pose
         self.record(reading.time)
         self.status = self.status_line(
             f"{len(self.filter.ids)} walls, {len(self.tentative.tentative)} tentative",
+            f"{self.merged} merged",
             f"{self.ambiguous} ambiguous observations",
         )
+
+    @property
+    def warnings(self):
+        """What it says where it sees too little, or too little again: list of sentences."""
+        return [
+            *hardly_surer(self.filter, self._alone, self._scans),
+            *mostly_unknown(self.counts[ONLY_NEW], self._scans),
+        ]
 
     def layers(self):
         """Points, walls as far as seen, the trajectory, the robot's 95 % covariance ellipse."""
@@ -85,13 +104,8 @@ class WallSlam(Estimator):
 
     def walls(self):
         """(k, 4) line segments of the map, where walls were seen, doors open: x1 y1 x2 y2 [m]."""
-        rows = []
-        for i, (rho, alpha) in self._map_lines().items():
-            normal, way = (np.array([np.cos(a), np.sin(a)]) for a in (alpha, alpha + np.pi / 2))
-            rows += [
-                [*(rho * normal + a * way), *(rho * normal + b * way)] for a, b in self.extents[i]
-            ]
-        return np.array(rows).reshape(-1, 4)
+        pieces = [ends_of(line, self.extents[i]) for i, line in self._map_lines().items()]
+        return np.concatenate([np.empty((0, 2, 2)), *pieces]).reshape(-1, 4)
 
     def _map_lines(self):
         """The line landmarks of the map as estimated now: id to (ρ, α)."""
@@ -110,7 +124,7 @@ class WallSlam(Estimator):
                 (distance, i)
                 for distance, i in zip(row, walls, strict=True)
                 if distance < AMBIGUITY_GATE
-                and overlap(_hull(self.extents[i]), extent(walls[i], ends))
+                and overlap(hull(self.extents[i]), extent(walls[i], ends))
             ]
             distance, i = min(near, default=(np.inf, None))
             if i is None:
@@ -128,11 +142,12 @@ class WallSlam(Estimator):
             self.filter.update(list(known), z, R)
         pose = self.filter.pose
         placed = [(g_line(pose, line.z), transform(pose, line.ends)) for line in new]
-        # the first scan lays the map's frame: what it shows is surest there, without any drift
+        # the first scan lays the map's frame: what it shows is surest there, and waits for nothing
         first, self._started = not self._started, True
-        for line, due in zip(new, self.tentative.sight(placed), strict=True):
-            if due or first:
-                i = len(self.extents)
+        confirmed = [True] * len(new) if first else self.tentative.sight(placed)
+        for line, due in zip(new, confirmed, strict=True):
+            if due:
+                i, self._next = self._next, self._next + 1
                 self.filter.add([i], line.z[None], line.R)
                 known[i], self.extents[i] = line, np.empty((0, 2))
         walls = self._map_lines()
@@ -141,11 +156,6 @@ class WallSlam(Estimator):
             hits = pose[:2] + r[:, None] * np.column_stack([np.cos(beta), np.sin(beta)])
             along = hits @ [-np.sin(walls[i][1]), np.cos(walls[i][1])]
             self.extents[i] = union(self.extents[i], split_at_gaps(along))
-
-
-def _hull(parts):
-    """(2,) from the first to the last of some pieces [m]."""
-    return np.array([parts[0, 0], parts[-1, 1]]) if len(parts) else np.array([np.inf, -np.inf])
 
 
 def for_source(slam, source, rng=None):

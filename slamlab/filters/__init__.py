@@ -4,7 +4,8 @@ Read in this order:
 
 - ``linear_kalman``; ``ekf_localisation`` and ``known_pose_mapping``, the two halves of SLAM
 - ``mak``: EKF-SLAM, on ``augmented_state``, ``landmark_models``, ``update_result``
-- ``data_association``: which landmark was seen; ``relative_map``, ``triangular_covariance``
+- ``data_association``: which landmark was seen; ``merging``: two that are one; ``relative_map``,
+  ``triangular_covariance``
 - ``compressed_ekf``, ``submaps`` (map joining): the same belief at less cost
 - ``bor``: set-membership filtering with boxes; ``montecarlo``: particle filters
 - ``argument_checks``: what a filter refuses

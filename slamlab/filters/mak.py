@@ -103,8 +103,28 @@ class MAK(AugmentedState):
         rows = self.rows(ids)
         z, R = observations(z, R, len(rows) // 2)
         v, H, index = self._linearise(rows, z)
-        PHt = dgemm(1.0, self._P.columns(index), H.T)
-        S = H @ PHt[index]
+        return self.correct(v, H, index, R)
+
+    def correct(self, v, H, columns, R):
+        """Kalman update by any linear observation, an exact one included: v = H δx + noise of R.
+
+        Parameters
+        ----------
+        v : (2m,) innovation
+        H : (2m, k) its Jacobian over some columns of the state
+        columns : (k,) int, which those are
+        R : (m, 2, 2) noise of each two rows, or 0: exact
+
+        Returns
+        -------
+        UpdateResult
+
+        Raises
+        ------
+        ValueError : S = H P Hᵀ + R is singular; nothing was changed
+        """
+        PHt = dgemm(1.0, self._P.columns(columns), H.T)
+        S = H @ PHt[columns]
         _diagonal_blocks(S)[...] += R
         root, failed = dpotrf(S, lower=1, clean=1)
         if failed:
@@ -115,7 +135,7 @@ class MAK(AugmentedState):
         self._P.downdate(B)
         if self.drop_cross_terms:
             self._drop_cross_covariances()
-        return UpdateResult(v, S, root, B, H, index)
+        return UpdateResult(v, S, root, B, H, columns)
 
     def add(self, ids, z, R):
         """Landmark initialisation by state augmentation: new landmarks enter (Smolec (16), (17)).

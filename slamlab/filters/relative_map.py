@@ -1,4 +1,7 @@
-"""The relative map: vectors between landmarks; uncertainty never grows (MAK thesis, 4.3.5)."""
+"""The relative map: vectors between landmarks; uncertainty never grows (MAK thesis, 4.3.5).
+
+Of two walls' lines it is the difference of their (ρ, α), the angle wrapped.
+"""
 
 import numpy as np
 
@@ -13,7 +16,7 @@ def relative_vector(mak, i, j):
 
     Returns
     -------
-    (2,) [m], (2, 2) [m²]
+    (2,) [m] or of lines [m, rad], (2, 2) its covariance
 
     Raises
     ------
@@ -21,7 +24,8 @@ def relative_vector(mak, i, j):
     """
     rows = mak.rows([i, j])
     D = np.hstack([-np.eye(2), np.eye(2)])
-    return D @ mak.x[rows], D @ mak.block(rows) @ D.T
+    p_i, p_j = mak.x[rows].reshape(2, 2)
+    return mak.kind.minus(p_j, p_i), D @ mak.block(rows) @ D.T
 
 
 def relative_map(mak, pairs):

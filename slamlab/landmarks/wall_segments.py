@@ -22,6 +22,20 @@ def split_at_gaps(t, gap=MAX_GAP):
     return np.array([[part[0], part[-1]] for part in parts if len(part) > 1]).reshape(-1, 2)
 
 
+def hull(parts):
+    """From the first to the last of some segments of a line.
+
+    Parameters
+    ----------
+    parts : (k, 2) from and to [m], in order
+
+    Returns
+    -------
+    (2,) from and to [m]; of none (∞, −∞), which nothing overlaps
+    """
+    return np.array([parts[0, 0], parts[-1, 1]]) if len(parts) else np.array([np.inf, -np.inf])
+
+
 def union(first, second):
     """Union of the segments of one line: those that overlap are merged.
 

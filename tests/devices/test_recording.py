@@ -223,6 +223,21 @@ def test_the_recorder_writes_every_byte_with_its_time_in_the_pieces_that_were_re
     assert times == sorted(times) and times[3] - times[2] >= 1.5
 
 
+def test_a_port_that_is_closed_while_a_thread_reads_it_has_lost_no_connection(tmp_path):
+    clock = SimulatedClock()
+    with Recorder(tmp_path / "a", {}, clock) as recorder:
+        opener = recorder.opener(
+            "emir", lambda name, baud: MemoryPort(Scripted([]), clock, name, baud)
+        )
+        port = opener("p", 9600)
+        port.close()
+        for act in (lambda: port.read(1, 0.1), lambda: port.write(b"stop")):
+            with pytest.raises(ConnectionLost):
+                act()
+    events = [r.data for r in load(tmp_path / "a").records if r.kind == EVENT]
+    assert events == [b"opened p at 9600 baud", b"closed"]
+
+
 def test_within_a_second_all_is_in_the_file_and_what_is_there_stays(tmp_path):
     clock = SimulatedClock()
     recorder, sizes = Recorder(tmp_path / "a", {}, clock), []

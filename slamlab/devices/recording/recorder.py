@@ -139,6 +139,7 @@ class RecordedPort(Transport):
 
     def __init__(self, port, recorder, channel):
         self._port, self._recorder, self._channel = port, recorder, channel
+        self._closed = False
         self.name, self.baud = port.name, port.baud
 
     def read(self, n, timeout):
@@ -161,6 +162,7 @@ class RecordedPort(Transport):
 
     def close(self):
         """See :meth:`Transport.close`."""
+        self._closed = True  # before it: a thread that reads meanwhile loses no connection by it
         self._port.close()
         self._recorder.event(self._channel, "closed")
 
@@ -169,5 +171,6 @@ class RecordedPort(Transport):
         try:
             yield
         except ConnectionLost as error:
-            self._recorder.event(self._channel, f"gap: {error.what}")
+            if not self._closed:
+                self._recorder.event(self._channel, f"gap: {error.what}")
             raise

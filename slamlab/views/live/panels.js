@@ -18,7 +18,9 @@ function panel(g, camera, title, curves, top) {
   for (const { rows } of curves) {
     for (let i = 0; i < rows.length; i += 2) widen(box, rows[i], rows[i + 1]);
   }
-  const [t0, t1, low, high] = box[0] < box[1] ? box : [box[0] || 0, (box[0] || 0) + 1, 0, 1];
+  // of no value or one there is no range yet
+  const begin = Number.isFinite(box[0]) ? box[0] : 0;
+  const [t0, t1, low, high] = box[0] < box[1] ? box : [begin, begin + 1, 0, 1];
   const px = (t) => left + (t - t0) / (t1 - t0) * w;
   const py = (v) => top + h - (v - low) / ((high - low) || 1) * h;
   g.strokeStyle = AXIS;

@@ -1,0 +1,90 @@
+"""Who works on too little says so: in the status, in the summary, on the terminal."""
+
+import json
+from itertools import islice
+
+import numpy as np
+import pytest
+
+from slamlab import estimators, sources
+from slamlab.cli import main
+from slamlab.estimators.sufficiency import hardly_surer, mostly_unknown, thin_matches
+from slamlab.filters.mak import MAK
+from slamlab.simulation.range_scanners import ULTRASONIC
+from slamlab.sources import simulation
+
+
+def told(name, source, steps=None):
+    """What an estimator warns of after a source's first readings."""
+    slam = estimators.make(name, source)
+    for reading in islice(source, steps):
+        slam.step(reading)
+    for sentence in slam.warnings:
+        assert f"warning: {sentence}" in slam.status
+    assert slam.warnings or "warning" not in slam.status
+    return " / ".join(slam.warnings)
+
+
+@pytest.mark.parametrize(
+    ("name", "says"),
+    [
+        ("icp", "most matches rest on under 60 points"),
+        ("walls", "hardly surer than by odometry alone"),
+        ("walls", "scans show only unknown walls"),
+        ("mak", "hardly surer than by odometry alone"),
+    ],
+)
+@pytest.mark.parametrize("seed", [1, 2])
+def test_ultrasound_is_too_little_and_each_says_so(name, says, seed):
+    rng = np.random.default_rng(seed)
+    assert says in told(name, simulation("room", rng, lidar=ULTRASONIC))
+
+
+@pytest.mark.parametrize(
+    ("name", "says"), [("icp", "under 60 points"), ("walls", "hardly surer than by odometry")]
+)
+def test_among_the_arenas_boxes_scan_matching_and_walls_say_so(name, says):
+    assert says in told(name, simulation("arena", np.random.default_rng(1)))
+
+
+@pytest.mark.parametrize("world", ["room", "situation-2"])
+@pytest.mark.parametrize("name", ["icp", "walls", "mak"])
+def test_where_a_lidar_sees_a_room_nobody_says_anything(name, world):
+    assert told(name, simulation(world, np.random.default_rng(1))) == ""
+
+
+@pytest.mark.parametrize(("name", "world"), [("mak", "arena"), ("mak", "landmarks")])
+def test_what_sees_enough_corners_again_says_nothing(name, world):
+    assert told(name, simulation(world, np.random.default_rng(1))) == ""
+
+
+@pytest.mark.parametrize("name", ["icp", "walls", "mak"])
+def test_on_the_intel_log_nobody_says_anything(name):
+    try:
+        path = sources.recording("intel")
+    except FileNotFoundError as error:
+        pytest.skip(str(error))
+    with sources.open(str(path)) as log:
+        assert told(name, log, 450) == ""
+
+
+def test_a_run_says_it_on_the_terminal_and_in_its_summary(tmp_path, capsys):
+    assert main(["run", "sim:arena", "--estimator", "icp", "--out", str(tmp_path)]) == 0
+    (sentence,) = json.loads((tmp_path / "summary.json").read_text())["warnings"]
+    assert f"warning: {sentence}" in capsys.readouterr().out
+    assert main(["run", "sim:room", "--out", str(tmp_path)]) == 0
+    assert json.loads((tmp_path / "summary.json").read_text())["warnings"] == []
+    assert "warning" not in capsys.readouterr().out
+
+
+def test_of_a_few_steps_nothing_is_said():
+    unsure = MAK(np.zeros(3), np.eye(3))
+    assert thin_matches(19, 19, 0) == mostly_unknown(19, 19) == []
+    assert hardly_surer(unsure, unsure, 19) == []
+    assert len(hardly_surer(unsure, unsure, 20)) == len(mostly_unknown(7, 20)) == 1
+    assert len(thin_matches(11, 20, 0)) == 1 and "no match" in thin_matches(0, 9, 11)[0]
+
+
+def test_a_robot_whose_odometry_is_perfect_is_not_blamed_for_a_map_that_helps_nothing():
+    sure = MAK(np.zeros(3), np.zeros((3, 3)))
+    assert hardly_surer(sure, sure, 100) == []
