@@ -43,6 +43,9 @@ def add_parser(subparsers):
         help="trusted relative poses to judge by, lines of t1 t2 x y z roll pitch yaw",
     )
     parser.add_argument("--seed", metavar="N", type=int, default=0, help="of a simulation's noise")
+    parser.add_argument(
+        "--merge", metavar="N", type=int, help="turns of a lidar that become one scan (1)"
+    )
     parser.set_defaults(run=run)
 
 
@@ -57,6 +60,8 @@ def run(arguments) -> int:
         if arguments.relations is not None:
             relations = evaluation.load_relations(arguments.relations)
         with sources.open(arguments.source, generator(arguments.seed)) as opened:
+            if arguments.merge is not None:
+                opened.merge(arguments.merge)
             source = Interruptible(opened)
             estimator = estimators.make(arguments.estimator, source)
             if arguments.out is not None:

@@ -1,5 +1,6 @@
 """Lidar and robot as a source of readings: one clock, odometry between turns, drivable."""
 
+import json
 from dataclasses import replace
 
 import numpy as np
@@ -345,6 +346,20 @@ def test_a_recording_is_converted_and_run_as_any_log(tmp_path, capsys):
     told = capsys.readouterr().out
     assert "scans mapped" in told  # the estimator's own words
     assert (tmp_path / "out" / "map.png").exists()
+
+
+def test_turns_are_merged_where_there_are_turns(tmp_path, capsys):
+    path = tmp_path / "a.raw"
+    recorded(path, worlds.by_name("room"), COURSE)
+    assert main(["run", str(path), "--merge", "4", "--out", str(tmp_path)]) == 0
+    frames = json.loads((tmp_path / "summary.json").read_text())["frames"]
+    assert frames == -(-len(list(sources.open(path))) // 4)
+    for words, said in (
+        (["sim:room", "--merge", "2"], "no turns"),
+        ([str(path), "--merge", "0"], "one turn"),
+    ):
+        assert main(["run", *words]) == 2
+        assert said in capsys.readouterr().err
 
 
 def test_taking_readings_keeps_the_robot_going():
