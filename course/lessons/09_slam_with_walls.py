@@ -102,7 +102,7 @@ views.show(
 # | **extract** | the scan's lines, as (ρ, α) seen from the robot, each with its R | lesson 08 |
 # | **pair** | which line is which wall of the map? | lesson 08 |
 # | **update** | walls seen again correct everything | lesson 06 |
-# | **welcome** | new lines on trial; at the third sighting into x and P | lesson 08 |
+# | **welcome** | new lines are tentative; at the third sighting they are confirmed, into x and P | lesson 08 |
 # | **merge** | two pieces that have turned out to be one wall become one | here |
 # | **draw** | points of the scan, thinned, for people | here |
 #

@@ -258,8 +258,11 @@ for start in starts:
     assert sum(point.start_flag for point in points) >= 1
     assert sum(500 < point.distance < 3000 for point in points) > 1500
     lidar.stop()
-    time.sleep(0.3)
-    lidar.lidar_serial._serial.reset_input_buffer()
+    time.sleep(0.5)
+    port = lidar.lidar_serial._serial
+    while port.in_waiting:  # it takes what comes next for the answer
+        port.reset_input_buffer()
+        time.sleep(0.5)
 lidar.set_motor_pwm(0)
 lidar.disconnect()
 """

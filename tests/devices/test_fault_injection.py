@@ -3,9 +3,13 @@
 import time
 from contextlib import contextmanager
 
+import numpy as np
 import pytest
 
+from slamlab import worlds
+from slamlab.devices.clock import SimulatedClock
 from slamlab.devices.emir import Emir
+from slamlab.devices.emulator.emulator_runner import run_emulators
 from slamlab.devices.errors import ConnectionLost, DeviceFault
 from slamlab.devices.recording import Recorder, load
 from slamlab.devices.recording.decoding import turns
@@ -15,7 +19,7 @@ from slamlab.devices.rplidar.requests import Command
 from slamlab.devices.rplidar.responses import AnswerType, Health
 from slamlab.devices.transport import open_port
 from tests.devices.byte_streams import stream
-from tests.devices.test_emulator_ports import ENDS, LOCAL, needs_pty, running
+from tests.devices.test_emulator_ports import ENDS, running
 from tests.patience import PATIENCE, until
 
 PERIOD = 0.1  # of a turn [s]
@@ -56,28 +60,26 @@ def test_a_lidar_that_scans_on_for_a_program_that_died_is_taken_over(tcp, mode):
             assert not driver.stats["bytes dropped"]
 
 
-@pytest.mark.parametrize(
-    ("tcp", "latest"), [(LOCAL, False), pytest.param(None, True, marks=needs_pty)]
-)
-def test_who_takes_half_a_second_a_scan_gets_the_newest_and_the_rest_is_counted(tcp, latest):
-    with lidar(tcp) as (it, driver):
-        first = driver.turn(timeout=PATIENCE)
+@pytest.mark.parametrize("latest", [True, False])
+def test_who_takes_half_a_second_a_scan_gets_the_newest_and_the_rest_is_counted(latest):
+    it = run_emulators(worlds.polygon(), np.random.default_rng(0), clock=SimulatedClock())
+    with RPLidar(it.ports["lidar"], opener=it.opener, clock=it.clock) as driver:
+        first = driver.turn()
         number, taken = driver.stats["turns dropped"] + 1, 1
-        for _ in range(5):
-            time.sleep(0.5)
+        for _ in range(8):
+            it.clock.sleep(0.5)
             made = driver.stats["turns"]
-            turn = driver.turn(latest, timeout=PATIENCE)
+            turn = driver.turn(latest)
             taken += 1
             # which turn it is, its own times tell; two are kept
             this = number + round((turn.times[-1] - first.times[-1]) / PERIOD)
-            assert this >= made - (0 if latest else 1)
+            assert this == made - (0 if latest else 1)
         driver.stop()
         stats = driver.stats
-        assert stats["turns dropped"] > 2 * taken  # whatever the machine: it slept 25 turns' time
-        # of those not dropped all were taken, or passed over, or are among the two kept
-        passed = taken if latest else 0
-        assert 0 <= stats["turns"] - stats["turns dropped"] - taken <= 2 + passed
-        assert not it.dropped["lidar"] and not stats["bytes dropped"]
+        assert stats["turns"] == 40 + 1 and not stats["bytes dropped"]
+        # those not dropped were taken, or passed over, or the last one is kept
+        passed, kept = (8, 0) if latest else (0, 1)
+        assert stats["turns dropped"] == stats["turns"] - taken - passed - kept
 
 
 @both
