@@ -213,7 +213,7 @@ def picture(result, naive=None):
 
 def _naive_beside(estimator):
     """Dead reckoning to run beside an estimator that has no naive map; None where it has one."""
-    from slamlab.estimators import DeadReckoning
+    from slamlab.estimators.dead_reckoning import DeadReckoning
 
     if isinstance(estimator, DeadReckoning):
         return estimator
