@@ -129,7 +129,8 @@ class SimulatedClock:
             self._changed.wait_for(lambda: self._running is None)
             thread = min(self._wakes, key=self._wakes.get, default=None)
             if thread is None or self._wakes[thread] > end:
-                self._now = max(self._now, end) if end < inf else self._now
+                if end < inf:
+                    self._now = max(self._now, end)
                 return False
             self._now, self._running = max(self._now, self._wakes[thread]), thread
             self._changed.notify_all()

@@ -14,9 +14,9 @@ from slamlab import views
 from slamlab.layers import Points, Poses
 from slamlab.readings import Reading
 from slamlab.sources.base import Source
-from slamlab.views.live import run_loop as loops
+from slamlab.views.live import run_loop
 
-loops.FRAME_RATE = 1000  # as many as the browser takes
+run_loop.FRAME_RATE = 1000  # as many as the browser takes
 
 class Clock(Source):
     def __iter__(self):

@@ -9,10 +9,10 @@ from slamlab import estimators, worlds
 from slamlab.devices.clock import SimulatedClock
 from slamlab.devices.emir import Calibration, Emir
 from slamlab.devices.emir.wheel_odometry import Odometry
+from slamlab.devices.emulator.memory_emulators import MemoryEmulators
 from slamlab.devices.emulator.robot_body import COUNT_SIZE
 from slamlab.devices.emulator.synthetic_recording import record_synthetic_drive
 from slamlab.devices.errors import PortError
-from slamlab.devices.memory_port import MemoryPort
 from slamlab.devices.recording import load
 from slamlab.devices.recording.decoding import statuses, turns
 from slamlab.devices.recording.playback import playback
@@ -125,12 +125,9 @@ def test_a_rehearsed_drive_is_of_the_mode_that_was_asked_for(tmp_path, mode, poi
 
 def test_drivers_find_their_answers_when_a_rehearsed_drive_is_replayed(tmp_path):
     rehearsed(tmp_path / "drive")
-    clock, found = SimulatedClock(), playback(load(tmp_path / "drive"))
-
-    def opener(name, baud):
-        return MemoryPort(found[name], clock, name, baud)
-
-    shared = {"opener": opener, "clock": clock}
+    clock = SimulatedClock()
+    found = MemoryEmulators(playback(load(tmp_path / "drive")), clock)
+    shared = {"opener": found.opener, "clock": clock}
     with Emir("emir", **shared) as emir, RPLidar("lidar", **shared) as lidar:
         assert lidar.turn(timeout=PATIENCE).complete
         assert emir.wait() is not None

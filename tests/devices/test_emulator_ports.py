@@ -310,8 +310,8 @@ COMMAND = """
 import sys
 from slamlab import cli
 from slamlab.devices.emir import session
-from slamlab.devices.rplidar import scan_stream as stream
-session.RECEIVE_TIMEOUT = stream.RECEIVE_TIMEOUT = 30.0
+from slamlab.devices.rplidar import scan_stream
+session.RECEIVE_TIMEOUT = scan_stream.RECEIVE_TIMEOUT = 30.0
 sys.exit(cli.main())
 """
 

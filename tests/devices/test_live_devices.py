@@ -15,11 +15,11 @@ from slamlab.devices.emir import Calibration, Emir, commands
 from slamlab.devices.emir.session import Session
 from slamlab.devices.emir.wheel_odometry import Odometry
 from slamlab.devices.emulator.emir_emulator import EmirEmulator
+from slamlab.devices.emulator.memory_emulators import MemoryEmulators
 from slamlab.devices.emulator.motion_distortion import MovingLidar
 from slamlab.devices.emulator.robot_body import COUNT_SIZE, RobotBody
 from slamlab.devices.emulator.rplidar_emulator import RPLidarEmulator
 from slamlab.devices.errors import ConnectionLost
-from slamlab.devices.memory_port import MemoryPort
 from slamlab.devices.recording import Recorder, load
 from slamlab.devices.recording.decoding import turns
 from slamlab.devices.rplidar import RPLidar
@@ -172,10 +172,7 @@ def test_live_the_readings_follow_the_robot():
     rng, clock = np.random.default_rng(0), SimulatedClock()
     body = RobotBody(worlds.by_name("room"), rng)
     machines = {"e": EmirEmulator(body), "l": RPLidarEmulator(MovingLidar(body, rng))}
-
-    def opener(name, baud):
-        return MemoryPort(machines[name], clock, name, baud)
-
+    opener = MemoryEmulators(machines, clock).opener
     counts = Calibration(path=COUNT_SIZE[0], angle=COUNT_SIZE[1])
     emir = Emir("e", opener=opener, calibration=counts, clock=clock)
     start, believed = body.pose, np.zeros(3)
@@ -268,11 +265,7 @@ def recorded(path, world, course, saturates=False):
         "lidar": RPLidarEmulator(MovingLidar(body, rng)),
         "emir": EmirEmulator(body, saturates=saturates),
     }
-    true = []
-
-    def memory(name, baud):
-        return MemoryPort(machines[name], clock, name, baud)
-
+    true, memory = [], MemoryEmulators(machines, clock).opener
     with Recorder(path, {}, clock) as recorder:
         openers = {name: recorder.opener(name, memory) for name in machines}
         lidar = openers["lidar"]("lidar", 115200)

@@ -6,10 +6,10 @@ from slamlab.devices.clock import SimulatedClock
 from slamlab.devices.emir import commands
 from slamlab.devices.emulator.emir_emulator import EmirEmulator
 from slamlab.devices.emulator.emulator_runner import EMIR, LIDAR
+from slamlab.devices.emulator.memory_emulators import MemoryEmulators
 from slamlab.devices.emulator.motion_distortion import MovingLidar
 from slamlab.devices.emulator.robot_body import RobotBody
 from slamlab.devices.emulator.rplidar_emulator import RPLidarEmulator
-from slamlab.devices.memory_port import MemoryPort
 from slamlab.devices.recording.recorder import Recorder
 from slamlab.devices.rplidar.driver import DEFAULT_PWM
 from slamlab.devices.rplidar.session import Session
@@ -41,17 +41,13 @@ def record_synthetic_drive(path, world, rng, course, mode=1):
     """
     clock, body, times, poses = SimulatedClock(), RobotBody(world, rng), [], []
     lidar = RPLidarEmulator(MovingLidar(body, rng), rng=rng, typical=mode)
-    machines = {LIDAR: lidar, EMIR: EmirEmulator(body, rng=rng)}
-
-    def open_memory_port(name, baud):
-        return MemoryPort(machines[name], clock, name, baud)
-
+    emulators = MemoryEmulators({LIDAR: lidar, EMIR: EmirEmulator(body, rng=rng)}, clock)
     ports = {name: {"port": "emulated", "baud": baud} for name, baud in BAUD_RATES.items()}
     with Recorder(path, ports, clock) as recorder:
         # as the drivers begin, so that they find their answers when it is replayed
-        robot = recorder.opener(EMIR, open_memory_port)(EMIR, BAUD_RATES[EMIR])
+        robot = recorder.opener(EMIR, emulators.opener)(EMIR, BAUD_RATES[EMIR])
         robot.write(commands.stop() + commands.info(True))
-        lidar_opener = recorder.opener(LIDAR, open_memory_port)
+        lidar_opener = recorder.opener(LIDAR, emulators.opener)
         session = Session(LIDAR, (BAUD_RATES[LIDAR],), lidar_opener, clock)
         _, typical = session.modes()
         session.start_scan(typical, DEFAULT_PWM)
