@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 
 from slamlab.estimators.landmark_observations import (
+    CORNER_REACH,
+    SHORT_RANGE_RANSAC,
     DataAssociation,
     measurement_noise,
     observed_landmarks,
@@ -124,6 +126,39 @@ def test_ids_are_the_sources_else_a_known_landmarks_else_new_and_negative():
     association = DataAssociation()
     found = Observations(np.ones((5, 2)), np.array([4, -1, -1, -1, 4]), np.ones((5, 2, 2)))
     pair = {0: 1}, [2]  # of the three without a name: the first is known, the second is ambiguous
-    assert association.associate(found, [10, 11], lambda z, R: pair) == {4: 0, 11: 1, -1: 3}
+    assert association.associate(found, [10, 11], lambda nameless: pair) == {4: 0, 11: 1, -1: 3}
     assert association.ambiguous == 2
-    assert association.associate(found, [10, 11], lambda z, R: ({}, [0])) == {4: 0, -2: 1}
+    assert association.associate(found, [10, 11], lambda nameless: ({}, [0])) == {4: 0, -2: 1}
+
+
+def seen_from(world, pose, scanner=RPLIDAR_A2):
+    reading = Reading(0.0, scan=scanner.scan(world, np.array(pose), RNG(1)))
+    return observed_landmarks(reading, scanner.model, RNG(2))
+
+
+@pytest.mark.parametrize("theta", [0.0, 0.7, 3.0, -2.0])
+def test_a_rooms_corners_are_concave_and_open_to_its_middle(theta):
+    pose = np.array([0.3, -0.2, theta])
+    found = seen_from(World(box((0, 0), (4.0, 3.0))), pose)
+    assert len(found.z) == 4 and not found.convex.any()
+    quadrants = np.sign(g(pose, found.z))
+    to_middle = np.arctan2(-quadrants[:, 1], -quadrants[:, 0])
+    assert np.abs(wrap(found.bisectors + theta - to_middle)).max() < 0.05
+
+
+def test_a_boxs_corners_are_convex_and_open_into_the_box():
+    found = seen_from(World(box((3.0, 0.0), (1.0, 1.0), np.pi / 4)), np.array([0.0, 0.0, 0.5]))
+    (bisector,), (convex,) = found.bisectors, found.convex
+    assert convex and abs(wrap(bisector + 0.5)) < 0.05  # away from the robot
+
+
+def test_corners_of_a_short_sighted_sensor_are_held_for_less_sure_than_their_lines_say():
+    source = ArenaRun(RNG(1), laps=1)
+    near = observed_with_corner = None
+    for reading in source:
+        near = observed_landmarks(reading, source.sensor, RNG(2))
+        if len(near.z):
+            pieces = lines(reading.scan, source.sensor, RNG(2), SHORT_RANGE_RANSAC)
+            observed_with_corner = corners(pieces, reach=CORNER_REACH)
+            break
+    np.testing.assert_allclose(near.R[0], 2 * observed_with_corner[0].R)

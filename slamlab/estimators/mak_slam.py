@@ -53,7 +53,7 @@ class MakSlam(Estimator):
         self._alone, self._steps = MAK(np.zeros(3), np.zeros((3, 3)), capacity=0), 0
         self.rng = np.random.default_rng(0) if rng is None else rng
         self.association = DataAssociation()
-        self.named = {}  # what the last reading showed: {id: row of its observations}
+        self.observations, self.named = None, {}  # of the last reading, {id: row of them}
         self._openings = {}  # of each corner when first seen: bisector in the map, whether convex
 
     def step(self, reading):
@@ -66,10 +66,10 @@ class MakSlam(Estimator):
         odometry = predict(self.filter, reading, self.robot)
         predict(self._alone, reading, self.robot)
         self._steps += 1
+        self.observations = observed_landmarks(reading, self.sensor, self.rng)
         self.named = {}
-        observations = observed_landmarks(reading, self.sensor, self.rng)
-        if len(observations.z):
-            self._correct(observations)
+        if len(self.observations.z):
+            self._correct(self.observations)
         self.pose = self._smoothed(odometry)
         self.record(reading.time)
         landmarks, ambiguous = len(self.filter.ids), self.association.ambiguous
@@ -176,13 +176,14 @@ def Q_arc(pose, odometry, robot):
     return noise.Q(W, C + noise.C_wheels((d, turn), robot.slip, robot.base))
 
 
-def mak(source, first_estimates=False):
+def mak(source, first_estimates=False, smoothing=0.0):
     """Make the EKF-SLAM (MAK) estimator for a source.
 
     Parameters
     ----------
     source : Source
     first_estimates : bool
+    smoothing : float
 
     Returns
     -------
@@ -193,4 +194,4 @@ def mak(source, first_estimates=False):
     ValueError : no reading holds landmarks or a scan
     """
     require_landmarks(source, "mak")
-    return MakSlam(source.robot, source.sensor, first_estimates)
+    return MakSlam(source.robot, source.sensor, first_estimates, smoothing)

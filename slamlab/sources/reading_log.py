@@ -107,7 +107,11 @@ class ReadingLog(LogFile):
             ids = np.array(row["observations"]["ids"], dtype=int).reshape(len(z))
             told = {
                 key: _decode_array(row["observations"][key], shape)
-                for key, shape in {"R": (len(z), 2, 2), "bisectors": len(z), "convex": len(z)}.items()
+                for key, shape in {
+                    "R": (len(z), 2, 2),
+                    "bisectors": len(z),
+                    "convex": len(z),
+                }.items()
                 if row["observations"].get(key) is not None
             }
             if "convex" in told:
