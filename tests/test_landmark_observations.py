@@ -100,6 +100,7 @@ def test_a_far_sighted_sensor_has_the_usual_corners():
     usual = corners(lines(reading.scan, RPLIDAR_A2.model, RNG(2)))
     np.testing.assert_array_equal(found.z, [corner.z for corner in usual])
     assert len(found.z) == 4 and np.all(found.ids == -1)
+    assert found.bisectors is None  # it sees thin walls from either side
 
 
 def test_parameters_of_ones_own_are_used():
@@ -131,24 +132,26 @@ def test_ids_are_the_sources_else_a_known_landmarks_else_new_and_negative():
     assert association.associate(found, [10, 11], lambda nameless: ({}, [0])) == {4: 0, -2: 1}
 
 
-def seen_from(world, pose, scanner=RPLIDAR_A2):
-    reading = Reading(0.0, scan=scanner.scan(world, np.array(pose), RNG(1)))
-    return observed_landmarks(reading, scanner.model, RNG(2))
+def corners_from(world, pose, scanner=RPLIDAR_A2):
+    """Places z, bisectors and whether convex, of the corners seen from a pose."""
+    scan = scanner.scan(world, np.array(pose), RNG(1))
+    found = corners(lines(scan, scanner.model, RNG(2)))
+    return (np.array([getattr(c, name) for c in found]) for name in ("z", "bisector", "convex"))
 
 
 @pytest.mark.parametrize("theta", [0.0, 0.7, 3.0, -2.0])
 def test_a_rooms_corners_are_concave_and_open_to_its_middle(theta):
     pose = np.array([0.3, -0.2, theta])
-    found = seen_from(World(box((0, 0), (4.0, 3.0))), pose)
-    assert len(found.z) == 4 and not found.convex.any()
-    quadrants = np.sign(g(pose, found.z))
+    z, bisectors, convex = corners_from(World(box((0, 0), (4.0, 3.0))), pose)
+    assert len(z) == 4 and not convex.any()
+    quadrants = np.sign(g(pose, z))
     to_middle = np.arctan2(-quadrants[:, 1], -quadrants[:, 0])
-    assert np.abs(wrap(found.bisectors + theta - to_middle)).max() < 0.05
+    assert np.abs(wrap(bisectors + theta - to_middle)).max() < 0.05
 
 
 def test_a_boxs_corners_are_convex_and_open_into_the_box():
-    found = seen_from(World(box((3.0, 0.0), (1.0, 1.0), np.pi / 4)), np.array([0.0, 0.0, 0.5]))
-    (bisector,), (convex,) = found.bisectors, found.convex
+    cube, pose = World(box((3.0, 0.0), (1.0, 1.0), np.pi / 4)), (0.0, 0.0, 0.5)
+    _, (bisector,), (convex,) = corners_from(cube, pose)
     assert convex and abs(wrap(bisector + 0.5)) < 0.05  # away from the robot
 
 

@@ -167,10 +167,10 @@ def test_the_six_logs_are_written_and_read_again(tmp_path, monkeypatch, capsys):
 
 
 @pytest.mark.skipif(not TABLE.exists(), reason="the table has not been made")
-def test_the_stored_table_is_of_a_hundred_runs_and_whole():
+def test_the_stored_table_is_of_eighty_runs_and_whole():
     table = json.loads(TABLE.read_text())
     runs = table["seeds"][1] - table["seeds"][0] + 1
-    assert runs >= 100
+    assert runs >= 80
     assert [(line["seed"], line["snagged"]) for line in table["six"]] == list(SETS)
     assert list(table["many"]) == ["free", "snagged", "own_names"]
     for kind, rows in table["many"].items():

@@ -22,6 +22,9 @@ beside one. No Gaussian has such a tail; twice the variance costs little and is 
 def observed_landmarks(reading, sensor, rng, ransac=None):
     """Landmark observations of a reading: those it names, else the corners of its scan (features).
 
+    Corners of a short-sighted sensor say how they open. A lidar's do not: through doors it sees
+    either side of thin walls, and one corner is convex here and concave there.
+
     Parameters
     ----------
     reading : Reading
@@ -42,14 +45,11 @@ def observed_landmarks(reading, sensor, rng, ransac=None):
     z, R, bisectors, convex = (
         [getattr(corner, name) for corner in found] for name in ("z", "R", "bisector", "convex")
     )
-    factor = CORNER_R_FACTOR if sensor.range_max < SHORT_RANGE else 1.0
-    return Observations(
-        np.reshape(z, (-1, 2)),
-        np.full(len(found), -1),
-        factor * np.reshape(R, (-1, 2, 2)),
-        np.array(bisectors, dtype=float),
-        np.array(convex, dtype=bool),
-    )
+    seen = Observations(np.reshape(z, (-1, 2)), np.full(len(found), -1), np.reshape(R, (-1, 2, 2)))
+    if sensor.range_max >= SHORT_RANGE:
+        return seen
+    openings = {"bisectors": np.array(bisectors, float), "convex": np.array(convex, bool)}
+    return replace(seen, R=CORNER_R_FACTOR * seen.R, **openings)
 
 
 class DataAssociation:
