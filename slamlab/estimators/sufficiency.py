@@ -97,7 +97,8 @@ def box_too_wide(bor, alone, scans):
             f"its box is {sides.max():.2f} m wide: by it the place is no surer than by odometry "
             "alone"
         )
-    middles = bor.boxes().reshape(-1, 2, 2).mean(axis=2)
+    boxes = bor.boxes()
+    middles = (boxes[:, ::2] + boxes[:, 1::2]) / 2
     if len(middles) > 1 and np.any(sides > np.ptp(middles, axis=0)):
         found.append("its box is wider than all that it has mapped")
     return found
