@@ -10,8 +10,8 @@ from slamlab.estimators.wall_slam import WallSlam
 from slamlab.evaluation import nees
 from slamlab.geometry import compose, wrap
 from slamlab.landmarks.ransac import lines
-from slamlab.models.parameters import SensorModel
-from slamlab.readings import Scan
+from slamlab.models.parameters import RobotModel, SensorModel
+from slamlab.readings import Reading, Scan
 from slamlab.simulation.range_scanners import GP2D120, RPLIDAR_A2
 from slamlab.sources.arena_runs import ArenaRun
 from slamlab.studies.three import LOST
@@ -131,3 +131,15 @@ def test_no_beam_goes_through_walls_from_where_the_robot_is_and_many_do_from_beh
     assert through == [0, 1, 0, 0]
     empty = Scan(angles, np.full(41, np.nan), range_max=4.0)
     assert share_through_walls(np.zeros(3), empty, ahead, SensorModel(range_max=4.0)) == 1
+
+
+def test_a_sensor_without_a_range_and_a_map_without_walls_are_no_trouble():
+    endless = Scan(np.linspace(-1, 1, 9), np.array([2.0] * 8 + [np.nan]))
+    no_walls, sensor = np.empty((0, 4)), SensorModel(range_curvature=0.1)
+    assert share_through_walls(np.zeros(3), endless, no_walls, sensor) == 0
+    assert np.isinf(wall_errors(np.zeros((1, 3)), endless.points(), no_walls)).all()
+    slam = WallSlam(RobotModel(), sensor, np.random.default_rng(0))
+    straight = np.linspace(-1, 1, 81)
+    for ranges in (np.full(81, np.nan), 1 / np.cos(straight), 1.5 / np.cos(straight)):
+        slam.step(Reading(0.0, np.array([0.1, 0, 0]), scan=Scan(straight, ranges)))
+    assert slam.counts[RELOCALISATIONS] == 0

@@ -65,7 +65,8 @@ def share_through_walls(pose, scan, pieces, sensor):
     walls = [ends_of(line, part) for line, part in zip(lines, pieces[:, 2:], strict=True)]
     walls = np.reshape(walls, (-1, 4))[facing]
     expected = cast(pose[:2], scan.angles + pose[2], walls)
-    expected = np.minimum(expected, scan.range_max)
+    near = expected < scan.range_max
     # what came from nowhere was as far away as the sensor sees
-    ranges = np.where(scan.valid, scan.ranges, scan.range_max)
-    return float(np.mean(ranges > expected + BLUR + MAX_ERROR * sensor.sigma(expected)))
+    ranges, expected = np.where(scan.valid, scan.ranges, scan.range_max)[near], expected[near]
+    through = ranges > expected + BLUR + MAX_ERROR * sensor.sigma(expected)
+    return np.count_nonzero(through) / len(near)
