@@ -10,12 +10,13 @@ from slamlab.estimators.base import Estimator
 from slamlab.estimators.mak_slam import predict
 from slamlab.estimators.sufficiency import hardly_surer, mostly_unknown
 from slamlab.estimators.wall_merging import ends_of, merge_pieces
+from slamlab.estimators.wall_observations import observed_walls
+from slamlab.estimators.wall_relocalisation import WallRelocalisation
 from slamlab.filters.data_association import squared_distances
 from slamlab.filters.landmark_models import LINES
 from slamlab.filters.mak import MAK
 from slamlab.geometry import transform
 from slamlab.landmarks.downsampling import DownsampledPoints
-from slamlab.landmarks.ransac import lines
 from slamlab.landmarks.tentative_walls import TentativeWalls, extent, overlap
 from slamlab.landmarks.wall_segments import hull, split_at_gaps, union
 from slamlab.layers import Ellipses, Points, Poses, Segments
@@ -30,20 +31,32 @@ class WallSlam(Estimator):
     """EKF-SLAM (MAK) on line landmarks: the walls that RANSAC finds in each scan.
 
     A landmark is one side of one wall, without what stands beyond a door: pieces of it that were
-    found apart and have grown together are merged, see :mod:`slamlab.estimators.wall_merging`.
+    found apart and have grown together are merged, see :mod:`slamlab.estimators.wall_merging`. A
+    robot whose wheels slip is found again, see :mod:`slamlab.estimators.wall_relocalisation`.
 
     Parameters
     ----------
     robot : RobotModel
     sensor : SensorModel
     rng : numpy.random.Generator, for RANSAC
-    ransac : Ransac, its defaults when None
+    ransac : Ransac, what the sensor asks for when None
     sightings : int, observations that confirm a tentative landmark; the first scan's are at once
     lives : int, how many scans a tentative landmark survives unseen
     first_estimates : bool, see :class:`MAK`; without, a map of lines soon believes it knows north
+    relocalise : bool, whether it looks for the robot where a slip may have put it
     """
 
-    def __init__(self, robot, sensor, rng, ransac=None, sightings=3, lives=3, first_estimates=True):
+    def __init__(
+        self,
+        robot,
+        sensor,
+        rng,
+        ransac=None,
+        sightings=3,
+        lives=3,
+        first_estimates=True,
+        relocalise=True,
+    ):
         super().__init__()
         self.robot, self.sensor, self.rng, self.ransac = robot, sensor, rng, ransac
         self.filter = MAK(
@@ -52,7 +65,8 @@ class WallSlam(Estimator):
         self.tentative = TentativeWalls(sightings, lives)
         self.extents: dict[int, np.ndarray] = {}  # stretches of each wall, along its line [m]
         self.points = DownsampledPoints()
-        self.ambiguous, self.merged = 0, 0
+        self.ambiguous = self.merged = 0
+        self.relocalise, self.relocalisation = relocalise, WallRelocalisation(self, rng.spawn(1)[0])
         self._alone = MAK(np.zeros(3), np.zeros((3, 3)), capacity=0)
         self._started, self._next, self._scans = False, 0, 0
 
@@ -65,17 +79,12 @@ class WallSlam(Estimator):
         """
         for each in (self.filter, self._alone):
             predict(each, reading, self.robot)
+        self.relocalisation.predict(reading.odometry)
         if reading.scan is None or not reading.scan.valid.any():
             self.skipped += 1
         else:
             self._scans += 1
-            found = lines(reading.scan, self.sensor, self.rng, self.ransac)
-            known, new = self._associate(found)
-            if self._started and new and not known:  # the robot may have been carried
-                self.counts[ONLY_NEW] += 1
-            self._update(reading.scan, known, new)
-            self.merged += merge_pieces(self.filter, self.extents)
-            self.points.add(transform(self.filter.pose, reading.scan.points()))
+            self._take_in(reading)
         self.pose = self.filter.pose
         self.record(reading.time)
         self.status = self.status_line(
@@ -90,6 +99,7 @@ class WallSlam(Estimator):
         return [
             *hardly_surer(self.filter, self._alone, self._scans),
             *mostly_unknown(self.counts[ONLY_NEW], self._scans),
+            *self.relocalisation.warnings,
         ]
 
     def layers(self):
@@ -110,6 +120,18 @@ class WallSlam(Estimator):
     def _map_lines(self):
         """The line landmarks of the map as estimated now: id to (ρ, α)."""
         return dict(zip(self.filter.ids, self.filter.landmarks(), strict=True))
+
+    def _take_in(self, reading):
+        """Find the walls of a scan, tell which they are and whether the wheels slipped; learn."""
+        found = observed_walls(reading.scan, self.sensor, self.rng, self.ransac)
+        known, new = self._associate(found)
+        lost = bool(self._started and new and not known)  # the wheels may have slipped
+        self.counts.update([ONLY_NEW] * lost)
+        if self.relocalisation.update(reading.scan, self.relocalise and lost):
+            known, new = self._associate(found)
+        self._update(reading.scan, known, new)
+        self.merged += merge_pieces(self.filter, self.extents)
+        self.points.add(transform(self.filter.pose, reading.scan.points()))
 
     def _associate(self, found):
         """Data association: observations of confirmed walls, as id to Line, and the others."""

@@ -1,0 +1,23 @@
+"""Walls of a scan as lines, extracted as the kind of sensor asks for."""
+
+from slamlab.estimators.landmark_observations import SHORT_RANGE, SHORT_RANGE_RANSAC
+from slamlab.landmarks.ransac import lines
+
+
+def observed_walls(scan, sensor, rng, ransac=None):
+    """Line landmarks (walls) that a scan shows.
+
+    Parameters
+    ----------
+    scan : Scan
+    sensor : SensorModel
+    rng : numpy.random.Generator, for RANSAC
+    ransac : Ransac; when None its defaults, or ``SHORT_RANGE_RANSAC`` for a sensor of less than 1 m
+
+    Returns
+    -------
+    list of Line, the best supported first
+    """
+    if ransac is None and sensor.range_max < SHORT_RANGE:
+        ransac = SHORT_RANGE_RANSAC
+    return lines(scan, sensor, rng, ransac)
