@@ -27,7 +27,6 @@ import sympy as sp
 from IPython.display import Markdown
 
 from slamlab import estimators, models, views
-from slamlab.estimators import MENDS, DeadReckoning, FootSlam
 from slamlab.models import symbolic
 from slamlab.estimators.mak_slam import Q_arc
 from slamlab.estimators.wall_merging import ends_of, pieces_of_one_wall
@@ -44,7 +43,7 @@ from slamlab.landmarks.line_fitting import cloud
 from slamlab.landmarks.ransac import THESIS, lines
 from slamlab.landmarks.downsampling import DownsampledPoints
 from slamlab.layers import Ellipses, Points, Poses, Segments
-from slamlab.estimators import run
+from slamlab.estimators import MENDS, DeadReckoning, FootSlam, run
 from slamlab.sources import simulation
 from slamlab.sources.simulated_robot import THESIS_LIDAR
 from slamlab.worlds import World
@@ -922,7 +921,8 @@ Markdown("\n".join(rows))
 # times as many beams help?
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-rows = ["| slip | beams | odometry | as printed | all mends | (ρ, α), grown lines |", "|---" * 6 + "|"]
+names = "slip | beams | odometry | as printed | all mends | (ρ, α), grown lines"
+rows = [f"| {names} |", "|---" * 6 + "|"]
 for row in feet_study["verdicts"]:
     others = " | ".join(more(row[name]) for name in ("as printed", "all mends", "walls"))
     odometry = 100 * row["odometry"]["rms_m"]
