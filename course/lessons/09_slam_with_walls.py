@@ -799,22 +799,22 @@ rows = ["| mend | printed | mended |", "|---" * 3 + "|"]
 rows += [f"| {name} | {mend.printed} | {mend.mended} |" for name, mend in MENDS.items()]
 Markdown("\n".join(rows))
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
+# %% [markdown] slideshow={"slide_type": "slide"}
 # **Predict:** with none of them, will the robot get through situation 2, which was the easy one? And
 # which one would you switch on first?
 
 
-# %% slideshow={"slide_type": "slide"}
+# %% slideshow={"slide_type": "fragment"}
 def listing(situation, steps, beams=400, **options):
     """The listing after the first steps of a drive, odometry, and the true poses."""
     lidar = replace(THESIS_LIDAR, beams=beams)
     source = simulation(situation, np.random.default_rng(1), lidar=lidar)
     slam = FootSlam(source.robot, source.sensor, np.random.default_rng(1), **options)
-    naive = DeadReckoning()
+    alone = DeadReckoning()
     for reading in list(source)[:steps]:
         slam.step(reading)
-        naive.step(reading)
-    return slam, naive, source.truth.poses[:steps]
+        alone.step(reading)
+    return slam, alone, source.truth.poses[:steps]
 
 
 def as_he_draws(ax, slam):
@@ -880,8 +880,8 @@ def off_by(each, true):
 
 
 for c in (1e-5, 1e-4, 1e-3, 1e-2, 1e-1):
-    slam, naive, true = listing("situation-2", 60, c=c)
-    print(f"c = {c:g}: {off_by(slam, true):.0f} cm; odometry {off_by(naive, true):.0f} cm")
+    slam, alone, true = listing("situation-2", 60, c=c)
+    print(f"c = {c:g}: {off_by(slam, true):.0f} cm; odometry {off_by(alone, true):.0f} cm")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # On this drive none of them helps. So which of the eleven mends matter? Each is left out alone, the
@@ -904,7 +904,7 @@ for name, row in feet_study["left_out"].items():
     rows.append(f"| {name} | {told[0]} | {100 * row['rms_m']:.0f} cm | {told[1]} |")
 Markdown("\n".join(rows))
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
+# %% [markdown] slideshow={"slide_type": "slide"}
 # **See:** four of the eleven matter: degrees, the stale pose, and an R that is too sure, each by two
 # metres or more, and Q. For the other seven, six drives do not tell: their intervals lie on both
 # sides of zero. A wrong sign in H is not seen beside what the foot itself does, and neither is the
@@ -932,7 +932,7 @@ rows += ["", f"Situation 2, {last + 1} drives: the median error of odometry's pl
 rows += ["others err more on the same drive: its median, with a 95 % interval."]
 Markdown("\n".join(rows))
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
+# %% [markdown] slideshow={"slide_type": "slide"}
 # **See:** as printed it is worse than odometry in every row, by metres. With all mends and 360 or 900
 # beams six drives cannot tell it from odometry, at any slip: the better the wheels, the smaller the
 # errors of both. With 3600 beams it is worse than odometry, again at any slip: 25 readings span 2.5°,
@@ -952,13 +952,13 @@ Markdown("\n".join(rows))
 
 # %% slideshow={"slide_type": "fragment"}
 def constants(sightings, lives, offset_in_m, tolerance_in_mm, beams, as_printed):
-    slam, naive, true = listing(
+    slam, alone, true = listing(
         *("situation-2", 60, beams),
         mends=() if as_printed else MENDS,
         ransac=replace(THESIS, band=tolerance_in_mm / 1000),
         **{"sightings": sightings, "lives": lives, "offset": offset_in_m},
     )
-    title = f"off by {off_by(slam, true):.0f} cm, odometry by {off_by(naive, true):.0f} cm"
+    title = f"off by {off_by(slam, true):.0f} cm, odometry by {off_by(alone, true):.0f} cm"
     fig, ax = views.axes(title, (7, 4.2))
     as_he_draws(ax, slam)
     beside = {"loc": "upper left", "bbox_to_anchor": (1, 1), "fontsize": "small"}
