@@ -1,12 +1,13 @@
 """Scan registration: point-to-line ICP by robust, reweighted Gauss-Newton from an initial guess."""
 
 from dataclasses import dataclass
-from math import cos, sin, sqrt
+from math import sqrt
 
 import numpy as np
 from scipy.linalg import lapack
 
 from slamlab.scanmatching.local_line_fits import median
+from slamlab.scanmatching.surfaces import rotation
 
 KERNEL_SHRINK = 0.7  # factor of the robust kernel's width, from iteration to iteration, at most [1]
 MIN_NORMAL_COSINE = 0.7  # cosine of the largest angle between the two normals of a pair [1]
@@ -17,7 +18,7 @@ SPURIOUS_INFORMATION = 3.0  # times the information that the normals' noise feig
 # pairs flip: converged when so many iterations moved it by less than this share of the noise
 OSCILLATION_ROUNDS, OSCILLATION_STEP = 10, 0.5
 RENEWAL_STEP = 0.5  # share of the noise by which the pose moves before pairs are found anew [1]
-STEP_TOLERANCE = 0.2  # converged when a step is below this share of the pose's standard deviation
+STEP_TOLERANCE = 0.5  # converged when a step is below this share of the pose's standard deviation
 IDENTITY = np.eye(3)
 
 
@@ -82,8 +83,7 @@ def find_correspondences(source, target, pose, association=None):
     Pairs
     """
     tx, ty, theta = pose
-    c, s = cos(theta), sin(theta)
-    x, y = np.array([[c, -s], [s, c]]) @ source.points_and_normals
+    x, y = rotation(theta) @ source.points_and_normals
     n = len(source)
     points = px, py = x[:n] + tx, y[:n] + ty
     if association is None:

@@ -1,6 +1,7 @@
 """Point clouds preprocessed for scan matching: ordered by bearing if a scan, with local lines."""
 
 from functools import cached_property
+from math import cos, sin
 
 import numpy as np
 from scipy.spatial import cKDTree
@@ -57,6 +58,11 @@ class Surface:
         return max(float(np.sqrt(self.ranges @ self.ranges / len(self))), 1e-12)
 
     @cached_property
+    def beam_spacing(self):
+        """Beam spacing: how far apart a scan's beams are where they usually hit [m]."""
+        return self.step * median(self.ranges)
+
+    @cached_property
     def points_and_normals(self):
         """Points, then normals: (2, 2n) columns that one product turns [m, 1]."""
         return np.array([[self.x, self.fits.nx], [self.y, self.fits.ny]]).reshape(2, -1)
@@ -98,6 +104,12 @@ class Surface:
         place = ((ring[1:] + ring[:-1]) / 2).searchsorted(middles)
         near = np.abs(ring[place] - middles) < MAX_BEARING_GAP * self.step
         return (place - 1) % len(self), near, count / FULL_TURN
+
+
+def rotation(theta):
+    """Rotation matrix (2, 2) of an angle [rad]."""
+    c, s = cos(theta), sin(theta)
+    return np.array([[c, -s], [s, c]])
 
 
 def surface(points, name="cloud"):
