@@ -85,7 +85,8 @@ class MAK(AugmentedState):
     def update(self, ids, z, R):
         """EKF measurement update by landmarks in the map, all observations of a scan at once.
 
-        P ← P − K S Kᵀ with K = P Hᵀ S⁻¹ (the Kalman gain), as P − B Bᵀ with B = P (L⁻¹ H)ᵀ, S = L Lᵀ.
+        P ← P − K S Kᵀ with K = P Hᵀ S⁻¹ (the Kalman gain), as P − B Bᵀ with B = P (L⁻¹ H)ᵀ and
+        S = L Lᵀ.
 
         Parameters
         ----------

@@ -10,10 +10,11 @@ import numpy as np
 
 from slamlab.geometry import wrap
 from slamlab.scanmatching.correlative_search import candidate_poses
+from slamlab.scanmatching.correspondences import Pairs
 from slamlab.scanmatching.match_covariance import Observability, censi, observability
 from slamlab.scanmatching.match_quality import MatchQuality, assess
 from slamlab.scanmatching.match_result import Match, Round, check_pose
-from slamlab.scanmatching.registration import Pairs, align, min_pairs
+from slamlab.scanmatching.registration import align, min_pairs
 from slamlab.scanmatching.surfaces import surface
 
 
