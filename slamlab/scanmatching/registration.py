@@ -23,7 +23,8 @@ def align(source, target, pose, rounds, callback=None):
     """Align a surface to another: iterate Gauss-Newton until the steps are lost in the noise.
 
     Each round weighs the pairs by w = 1 / (v (1 + (r/c)²)²), v the variance that noise gives r, and
-    takes the Gauss-Newton step on Σ w r². The width c follows the residuals down to the noise.
+    takes the Gauss-Newton step on Σ w r². The width c follows the residuals down to the noise. The
+    association is kept as long as the pose moves by less than half the noise.
 
     Parameters
     ----------
