@@ -4,8 +4,8 @@ Read in this order:
 
 - ``base``: Estimator, what all offer; ``by_name``: make; ``runner``: run, over a whole source
 - ``dead_reckoning``: odometry alone
-- ``mak_slam``: EKF-SLAM, on ``landmark_observations``; ``wall_slam``, on ``wall_merging``,
-  and ``foot_slam``: with walls
+- ``mak_slam``: EKF-SLAM, on ``landmark_observations``; ``wall_slam``, on ``wall_merging``
+  and ``wall_observations``, and ``foot_slam``: with walls
 - ``bor_slam``: boxes (set membership); ``montecarlo_slam``: particles, FastSLAM
 - ``icp_slam``: scan matching; ``graph_slam``: with keyframes, submaps and a pose graph,
   ``odometry_drift``, ``loop_closure`` and ``relocalisation``

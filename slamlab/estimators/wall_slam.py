@@ -10,12 +10,13 @@ from slamlab.estimators.base import Estimator
 from slamlab.estimators.mak_slam import predict
 from slamlab.estimators.sufficiency import hardly_surer, mostly_unknown
 from slamlab.estimators.wall_merging import ends_of, merge_pieces
+from slamlab.estimators.wall_observations import observed_walls
 from slamlab.filters.data_association import squared_distances
 from slamlab.filters.landmark_models import LINES
 from slamlab.filters.mak import MAK
 from slamlab.geometry import transform
 from slamlab.landmarks.downsampling import DownsampledPoints
-from slamlab.landmarks.ransac import lines
+from slamlab.landmarks.sonar_lines import slant
 from slamlab.landmarks.tentative_walls import TentativeWalls, extent, overlap
 from slamlab.landmarks.wall_segments import hull, split_at_gaps, union
 from slamlab.layers import Ellipses, Points, Poses, Segments
@@ -27,7 +28,7 @@ AMBIGUITY_GATE = 4 * GATE  # χ²: beyond the gate and below this ambiguous, nei
 
 
 class WallSlam(Estimator):
-    """EKF-SLAM (MAK) on line landmarks: the walls that RANSAC finds in each scan.
+    """EKF-SLAM (MAK) on line landmarks: the walls of each scan, found as its sensor asks for.
 
     A landmark is one side of one wall, without what stands beyond a door: pieces of it that were
     found apart and have grown together are merged, see :mod:`slamlab.estimators.wall_merging`.
@@ -38,17 +39,22 @@ class WallSlam(Estimator):
     sensor : SensorModel
     rng : numpy.random.Generator, for RANSAC
     ransac : Ransac, its defaults when None
-    sightings : int, observations that confirm a tentative landmark; the first scan's are at once
+    sightings : int, observations that confirm a tentative landmark, 3 when None, of a sonar 2; the
+        first scan's are at once
     lives : int, how many scans a tentative landmark survives unseen
     first_estimates : bool, see :class:`MAK`; without, a map of lines soon believes it knows north
     """
 
-    def __init__(self, robot, sensor, rng, ransac=None, sightings=3, lives=3, first_estimates=True):
+    def __init__(
+        self, robot, sensor, rng, ransac=None, sightings=None, lives=3, first_estimates=True
+    ):
         super().__init__()
         self.robot, self.sensor, self.rng, self.ransac = robot, sensor, rng, ransac
         self.filter = MAK(
             np.zeros(3), np.zeros((3, 3)), kind=LINES, first_estimates=first_estimates
         )
+        if sightings is None:  # a sonar hears few walls, and each has shown a slope
+            sightings = 2 if sensor.half_cone else 3
         self.tentative = TentativeWalls(sightings, lives)
         self.extents: dict[int, np.ndarray] = {}  # stretches of each wall, along its line [m]
         self.points = DownsampledPoints()
@@ -69,7 +75,7 @@ class WallSlam(Estimator):
             self.skipped += 1
         else:
             self._scans += 1
-            found = lines(reading.scan, self.sensor, self.rng, self.ransac)
+            found = observed_walls(reading.scan, self.sensor, self.rng, self.ransac)
             known, new = self._associate(found)
             if self._started and new and not known:  # the robot may have been carried
                 self.counts[ONLY_NEW] += 1
@@ -150,9 +156,10 @@ class WallSlam(Estimator):
                 i, self._next = self._next, self._next + 1
                 self.filter.add([i], line.z[None], line.R)
                 known[i], self.extents[i] = line, np.empty((0, 2))
-        walls = self._map_lines()
+        walls, half_cone = self._map_lines(), self.sensor.half_cone
         for i, line in known.items():
-            r, beta = scan.ranges[line.beams], scan.angles[line.beams] + pose[2]
+            r, u = scan.ranges[line.beams], slant(scan.angles[line.beams], line.z[1], half_cone)
+            beta = pose[2] + line.z[1] + u
             hits = pose[:2] + r[:, None] * np.column_stack([np.cos(beta), np.sin(beta)])
             along = hits @ [-np.sin(walls[i][1]), np.cos(walls[i][1])]
             self.extents[i] = union(self.extents[i], split_at_gaps(along))
