@@ -1,4 +1,4 @@
-"""Sonar line extraction: walls in an ultrasonic scan, by the cone model of their echoes.
+"""Sonar lines: walls in an ultrasonic scan, by the sonar cone model of their echoes.
 
 A beam of half opening δ hears the nearest surface in its cone. Of a wall at distance ρ, its normal
 in direction α, that is the foot of the perpendicular as long as the cone holds it: the range stays
