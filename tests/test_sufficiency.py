@@ -30,7 +30,6 @@ def told(name, source, steps=None):
     [
         ("icp", "most matches rest on under 60 points"),
         ("walls", "hardly surer than by odometry alone"),
-        ("walls", "scans show only unknown walls"),
         ("mak", "hardly surer than by odometry alone"),
     ],
 )

@@ -1,11 +1,12 @@
-"""Walls of a scan as lines, extracted as the kind of sensor asks for."""
+"""Wall observations: the lines of a scan, found by what its sensor is."""
 
 from slamlab.estimators.landmark_observations import SHORT_RANGE, SHORT_RANGE_RANSAC
 from slamlab.landmarks.ransac import lines
+from slamlab.landmarks.sonar_lines import sonar_lines
 
 
 def observed_walls(scan, sensor, rng, ransac=None):
-    """Line landmarks (walls) that a scan shows.
+    """Line landmarks (walls) that a scan shows: by the cone model for a sonar, else by RANSAC.
 
     Parameters
     ----------
@@ -18,6 +19,8 @@ def observed_walls(scan, sensor, rng, ransac=None):
     -------
     list of Line, the best supported first
     """
+    if sensor.half_cone:
+        return sonar_lines(scan, sensor)
     if ransac is None and sensor.range_max < SHORT_RANGE:
         ransac = SHORT_RANGE_RANSAC
     return lines(scan, sensor, rng, ransac)

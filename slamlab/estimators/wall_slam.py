@@ -17,6 +17,7 @@ from slamlab.filters.landmark_models import LINES
 from slamlab.filters.mak import MAK
 from slamlab.geometry import transform
 from slamlab.landmarks.downsampling import DownsampledPoints
+from slamlab.landmarks.sonar_lines import slant
 from slamlab.landmarks.tentative_walls import TentativeWalls, extent, overlap
 from slamlab.landmarks.wall_segments import hull, split_at_gaps, union
 from slamlab.layers import Ellipses, Points, Poses, Segments
@@ -28,7 +29,7 @@ AMBIGUITY_GATE = 4 * GATE  # χ²: beyond the gate and below this ambiguous, nei
 
 
 class WallSlam(Estimator):
-    """EKF-SLAM (MAK) on line landmarks: the walls that RANSAC finds in each scan.
+    """EKF-SLAM (MAK) on line landmarks: the walls of each scan, found as its sensor asks for.
 
     A landmark is one side of one wall, without what stands beyond a door: pieces of it that were
     found apart and have grown together are merged, see :mod:`slamlab.estimators.wall_merging`. A
@@ -40,10 +41,12 @@ class WallSlam(Estimator):
     sensor : SensorModel
     rng : numpy.random.Generator, for RANSAC
     ransac : Ransac, what the sensor asks for when None
-    sightings : int, observations that confirm a tentative landmark; the first scan's are at once
+    sightings : int, observations that confirm a tentative landmark, 3 when None, of a sonar 2; the
+        first scan's are at once
     lives : int, how many scans a tentative landmark survives unseen
     first_estimates : bool, see :class:`MAK`; without, a map of lines soon believes it knows north
-    relocalise : bool, whether it looks for the robot where a slip may have put it
+    relocalise : bool, whether it looks for the robot where a slip may have put it; a sonar's scans
+        are too coarse for that
     """
 
     def __init__(
@@ -52,7 +55,7 @@ class WallSlam(Estimator):
         sensor,
         rng,
         ransac=None,
-        sightings=3,
+        sightings=None,
         lives=3,
         first_estimates=True,
         relocalise=True,
@@ -62,11 +65,14 @@ class WallSlam(Estimator):
         self.filter = MAK(
             np.zeros(3), np.zeros((3, 3)), kind=LINES, first_estimates=first_estimates
         )
+        if sightings is None:  # a sonar hears few walls, and each has shown a slope
+            sightings = 2 if sensor.half_cone else 3
         self.tentative = TentativeWalls(sightings, lives)
         self.extents: dict[int, np.ndarray] = {}  # stretches of each wall, along its line [m]
         self.points = DownsampledPoints()
         self.ambiguous = self.merged = 0
-        self.relocalise, self.relocalisation = relocalise, WallRelocalisation(self, rng.spawn(1)[0])
+        self.relocalise = relocalise and not sensor.half_cone
+        self.relocalisation = WallRelocalisation(self, rng.spawn(1)[0])
         self._alone = MAK(np.zeros(3), np.zeros((3, 3)), capacity=0)
         self._started, self._next, self._scans = False, 0, 0
 
@@ -172,9 +178,10 @@ class WallSlam(Estimator):
                 i, self._next = self._next, self._next + 1
                 self.filter.add([i], line.z[None], line.R)
                 known[i], self.extents[i] = line, np.empty((0, 2))
-        walls = self._map_lines()
+        walls, half_cone = self._map_lines(), self.sensor.half_cone
         for i, line in known.items():
-            r, beta = scan.ranges[line.beams], scan.angles[line.beams] + pose[2]
+            r, u = scan.ranges[line.beams], slant(scan.angles[line.beams], line.z[1], half_cone)
+            beta = pose[2] + line.z[1] + u
             hits = pose[:2] + r[:, None] * np.column_stack([np.cos(beta), np.sin(beta)])
             along = hits @ [-np.sin(walls[i][1]), np.cos(walls[i][1])]
             self.extents[i] = union(self.extents[i], split_at_gaps(along))
