@@ -9,17 +9,25 @@ from slamlab.estimators.landmark_observations import (
     require_landmarks,
 )
 from slamlab.estimators.sufficiency import hardly_surer
-from slamlab.filters.data_association import gated_nearest_neighbours, squared_distances
+from slamlab.filters.data_association import (
+    compatible_corners,
+    gated_nearest_neighbours,
+    squared_distances,
+)
 from slamlab.filters.mak import MAK
 from slamlab.geometry import compose, wrap
 from slamlab.layers import Ellipses, Points, Poses
 from slamlab.models import noise
+from slamlab.models.observation import g
+
+CLOSEST_CORNERS = 0.08  # m, from a known corner within which another is held for a phantom of it
 
 
 class MakSlam(Estimator):
     """EKF-SLAM with point landmarks: those the source names, else the corners of its scans.
 
-    Data association without names: the nearest landmark by Mahalanobis distance, inside the gate.
+    Data association without names: the nearest landmark by Mahalanobis distance, inside the gate;
+    of corners the nearest that opens alike, see :func:`compatible_corners`.
 
     Parameters
     ----------
@@ -51,6 +59,8 @@ class MakSlam(Estimator):
         self._alone, self._steps = MAK(np.zeros(3), np.zeros((3, 3)), capacity=0), 0
         self.rng = np.random.default_rng(0) if rng is None else rng
         self.association = DataAssociation()
+        self.observations, self.named = None, {}  # of the last reading, {id: row of them}
+        self._openings = {}  # of each corner when first seen: bisector in the map, whether convex
 
     def step(self, reading):
         """Process a reading: predict by odometry, correct by known landmarks, augment by new ones.
@@ -62,9 +72,10 @@ class MakSlam(Estimator):
         odometry = predict(self.filter, reading, self.robot)
         predict(self._alone, reading, self.robot)
         self._steps += 1
-        observations = observed_landmarks(reading, self.sensor, self.rng)
-        if len(observations.z):
-            self._correct(observations)
+        self.observations = observed_landmarks(reading, self.sensor, self.rng)
+        self.named = {}
+        if len(self.observations.z):
+            self._correct(self.observations)
         self.pose = self._smoothed(odometry)
         if self.landmark_smoothing:
             self._smooth_landmarks()
@@ -97,16 +108,33 @@ class MakSlam(Estimator):
 
     def _correct(self, observations):
         """Update by observations of known landmarks, augment the state by new ones."""
-        rows = self.association.associate(observations, self.filter.ids, self._associate)
+        self.named = rows = self.association.associate(
+            observations, self.filter.ids, self._associate
+        )
         known = set(self.filter.ids)
         for correct_or_add, is_known in ((self.filter.update, True), (self.filter.add, False)):
             ids = [i for i in rows if (i in known) == is_known]
             if ids:
                 k = [rows[i] for i in ids]
                 correct_or_add(ids, observations.z[k], observations.R[k])
+        if observations.bisectors is not None:
+            absolute = observations.bisectors + self.filter.pose[2]
+            for i, k in rows.items():
+                self._openings.setdefault(i, (absolute[k], observations.convex[k]))
 
-    def _associate(self, z, R):
-        return gated_nearest_neighbours(squared_distances(self.filter, z, R))
+    def _associate(self, seen):
+        """Nearest neighbours; of corners only among those that open alike."""
+        d2 = squared_distances(self.filter, seen.z, seen.R)
+        if seen.bisectors is None:
+            return gated_nearest_neighbours(d2)
+        known = [self._openings.get(i, (np.nan, False)) for i in self.filter.ids]
+        bisectors, convex = np.reshape(known, (-1, 2)).T
+        absolute = seen.bisectors + self.filter.pose[2]
+        d2[~compatible_corners(absolute, seen.convex, bisectors, convex)] = np.inf
+        pairs, new = gated_nearest_neighbours(d2)
+        off = g(self.filter.pose, seen.z)[:, None] - self.filter.landmarks()
+        crowded = (np.hypot(*off.T).T < CLOSEST_CORNERS).any(axis=1)
+        return pairs, [k for k in new if not crowded[k]]
 
     def _smoothed(self, odometry):
         """The pose to show: s ← s ⊕ odometry, then (1 − smoothing) of the way to the estimate."""
@@ -167,13 +195,14 @@ def Q_arc(pose, odometry, robot):
     return noise.Q(W, C + noise.C_wheels((d, turn), robot.slip, robot.base))
 
 
-def mak(source, first_estimates=False):
+def mak(source, first_estimates=False, smoothing=0.0):
     """Make the EKF-SLAM (MAK) estimator for a source.
 
     Parameters
     ----------
     source : Source
     first_estimates : bool
+    smoothing : float
 
     Returns
     -------
@@ -184,4 +213,4 @@ def mak(source, first_estimates=False):
     ValueError : no reading holds landmarks or a scan
     """
     require_landmarks(source, "mak")
-    return MakSlam(source.robot, source.sensor, first_estimates)
+    return MakSlam(source.robot, source.sensor, first_estimates, smoothing)
