@@ -192,7 +192,7 @@ def for_source(slam, source, rng=None):
 
     Parameters
     ----------
-    slam : WallSlam or FootSlam, the class
+    slam : callable(robot, sensor, rng), such as WallSlam or FootSlam
     source : Source
     rng : numpy.random.Generator, seed 0 when None
 
