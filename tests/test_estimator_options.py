@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 
-from slamlab import estimators
+from slamlab import estimators, sources
 from slamlab.cli import main
 from slamlab.estimators.bor_slam import BOUNDS
 from slamlab.estimators.corner_names import NAMERS
@@ -18,12 +18,14 @@ def brief():
 
 
 def test_every_estimator_takes_its_options_at_their_least_value():
+    room = sources.simulation("room", np.random.default_rng(0))
     for name, taken in TAKES.items():
         assert name in estimators.NAMES
         for option in taken:
             each = OPTIONS[option]
             for value in getattr(each, "values", (getattr(each, "low", None),)):
-                assert estimators.make(name, brief(), **{option: value}).pose.shape == (3,)
+                source = room if name.startswith("walls") else brief()
+                assert estimators.make(name, source, **{option: value}).pose.shape == (3,)
 
 
 def test_the_words_on_offer_are_those_the_estimators_know():
@@ -42,6 +44,7 @@ def test_the_words_on_offer_are_those_the_estimators_know():
         ("montecarlo", {"close": "nan"}, "close of montecarlo is a number from 0.0, not 'nan'"),
         ("montecarlo", {"close": -0.1}, "close of montecarlo"),
         ("montecarlo", {"close": None}, "close of montecarlo"),
+        ("walls-foot", {"mends": "some"}, "mends of walls-foot is none or all, not 'some'"),
         ("mak", {"smoothing": "1"}, "from 0.0 to below 1.0"),
     ],
 )
@@ -65,3 +68,11 @@ def test_the_command_hands_them_on_and_says_them_in_its_summary_and_help(tmp_pat
         main(["run", "--help"])
     shown = capsys.readouterr().out
     assert all(f"--{option}" in shown for option in OPTIONS)
+
+
+def test_mends_and_relocalisation_are_switched_by_their_words():
+    room = sources.simulation("room", np.random.default_rng(0))
+    assert estimators.make("walls-foot", room).mends == frozenset()
+    assert estimators.make("walls-foot", room, mends="all").mends == frozenset(estimators.MENDS)
+    assert estimators.make("walls", room).relocalise
+    assert not estimators.make("walls", room, relocalise="no").relocalise

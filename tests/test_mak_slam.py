@@ -146,10 +146,31 @@ def test_smoothing_makes_the_shown_pose_calmer_and_wrong_and_leaves_the_filter_a
     np.testing.assert_array_equal(filters[0].x, filters[1].x)
 
 
+def test_smoothed_landmarks_follow_the_recursion_and_leave_the_filter_alone():
+    source, keep = LandmarkRun(Loop(steps=60), np.random.default_rng(3)), 0.8
+    calm, plain = (
+        MakSlam(source.robot, source.sensor, landmark_smoothing=share) for share in (keep, 0.0)
+    )
+    expected = {}
+    for reading in source:
+        calm.step(reading)
+        plain.step(reading)
+        np.testing.assert_array_equal(calm.filter.x, plain.filter.x)
+        np.testing.assert_array_equal(plain.landmarks(), plain.filter.landmarks())
+        for i, p in zip(plain.filter.ids, plain.filter.landmarks(), strict=True):
+            expected[i] = (1 - keep) * p + keep * expected.get(i, p)
+        shown = [expected[i] for i in calm.filter.ids]
+        np.testing.assert_allclose(calm.landmarks(), np.reshape(shown, (-1, 2)), atol=1e-12)
+    np.testing.assert_array_equal(calm.layers()[0].xy, calm.landmarks())
+    np.testing.assert_array_equal(calm.trajectory().poses, plain.trajectory().poses)
+    assert np.abs(calm.landmarks() - plain.landmarks()).max() > 1e-3
+
+
 @pytest.mark.parametrize("smoothing", [-0.1, 1.0, np.nan])
-def test_a_smoothing_outside_its_range_is_refused(smoothing):
+@pytest.mark.parametrize("which", ["smoothing", "landmark_smoothing"])
+def test_a_smoothing_outside_its_range_is_refused(smoothing, which):
     with pytest.raises(ValueError, match="smoothing is from 0"):
-        MakSlam(RobotModel(), Loop().sensor, smoothing=smoothing)
+        MakSlam(RobotModel(), Loop().sensor, **{which: smoothing})
 
 
 def test_before_anything_is_seen_there_is_a_robot_and_no_landmark():

@@ -216,7 +216,8 @@ def picture(result, naive=None):
     for ax, (title, group) in zip(all_axes, shown, strict=True):
         for layer in group:
             around = f"{layer.name} 95 %"
-            kinds = {Points: "map", Grid: "map", Poses: "track", Ellipses: around}
+            points = "landmark" if layer.name == "landmark" else "map"
+            kinds = {Points: points, Grid: "map", Poses: "track", Ellipses: around}
             what = kinds.get(type(layer), layer.name)
             colour = (
                 COLOURS["robot"] if what == "track" else COLOURS.get(layer.name, COLOURS[title])

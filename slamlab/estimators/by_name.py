@@ -4,6 +4,7 @@ from functools import partial
 
 from slamlab.estimators.bor_slam import bor
 from slamlab.estimators.dead_reckoning import DeadReckoning
+from slamlab.estimators.foot_mends import MENDS
 from slamlab.estimators.foot_slam import FootSlam
 from slamlab.estimators.graph_slam import GraphSlam
 from slamlab.estimators.icp_slam import IcpSlam
@@ -23,8 +24,12 @@ FACTORIES = {
     "bor": bor,
     "montecarlo": montecarlo,
     "fastslam": fastslam,
-    "walls": lambda source: for_source(WallSlam, source),
-    "walls-foot": lambda source: for_source(FootSlam, source),
+    "walls": lambda source, relocalise="yes": for_source(
+        partial(WallSlam, relocalise=relocalise == "yes"), source
+    ),
+    "walls-foot": lambda source, mends="none": for_source(
+        partial(FootSlam, mends=MENDS if mends == "all" else ()), source
+    ),
 }
 NAMES = tuple(FACTORIES)  # of all estimators, as the command line takes them
 

@@ -36,6 +36,7 @@ class MakSlam(Estimator):
     first_estimates : bool, take every Jacobian at the first estimate, see :class:`MAK`
     smoothing : float from 0 to below 1, share of the last shown pose that the next one keeps: the
         recursive filter behind the update of the EKF note. The filter's own state is left alone.
+    landmark_smoothing : float from 0 to below 1, the same of each shown landmark
     rng : numpy.random.Generator, for RANSAC; seed 0 when None
 
     Raises
@@ -43,11 +44,16 @@ class MakSlam(Estimator):
     ValueError : a smoothing outside
     """
 
-    def __init__(self, robot, sensor, first_estimates=False, smoothing=0.0, rng=None):
+    def __init__(
+        self, robot, sensor, first_estimates=False, smoothing=0.0, rng=None, landmark_smoothing=0.0
+    ):
         super().__init__()
-        if not 0 <= smoothing < 1:
-            raise ValueError(f"smoothing is from 0 (none) to below 1, not {smoothing}")
+        for share in (smoothing, landmark_smoothing):
+            if not 0 <= share < 1:
+                raise ValueError(f"smoothing is from 0 (none) to below 1, not {share}")
         self.robot, self.sensor, self.smoothing = robot, sensor, smoothing
+        self.landmark_smoothing = landmark_smoothing
+        self._shown: dict[int, np.ndarray] = {}  # landmarks, where they are smoothed
         # the first pose is where the map's frame is laid: nothing about it is uncertain
         self.filter = MAK(np.zeros(3), np.zeros((3, 3)), first_estimates=first_estimates)
         self._alone, self._steps = MAK(np.zeros(3), np.zeros((3, 3)), capacity=0), 0
@@ -71,6 +77,8 @@ class MakSlam(Estimator):
         if len(self.observations.z):
             self._correct(self.observations)
         self.pose = self._smoothed(odometry)
+        if self.landmark_smoothing:
+            self._smooth_landmarks()
         self.record(reading.time)
         landmarks, ambiguous = len(self.filter.ids), self.association.ambiguous
         self.status = self.status_line(
@@ -85,13 +93,18 @@ class MakSlam(Estimator):
     def layers(self):
         """Landmarks and robot with their 95 % covariance ellipses, the trajectory."""
         P_rr, _, P_ii = self.filter.blocks()
-        landmarks = self.filter.landmarks()
+        landmarks = self.landmarks()
         return [
             Points("landmark", landmarks),
             Ellipses("landmark", landmarks, P_ii),
             Poses("corrected", self.trajectory().poses),
             Ellipses("robot", self.pose[None, :2], P_rr[None, :2, :2]),
         ]
+
+    def landmarks(self):
+        """(N, 2) landmarks to show, in the order of the filter's ids: estimates, smoothed [m]."""
+        estimates = zip(self.filter.ids, self.filter.landmarks(), strict=True)
+        return np.reshape([self._shown.get(i, p) for i, p in estimates], (-1, 2))
 
     def _correct(self, observations):
         """Update by observations of known landmarks, augment the state by new ones."""
@@ -130,6 +143,12 @@ class MakSlam(Estimator):
         shown = self.filter.pose + self.smoothing * back
         shown[2] = wrap(shown[2])
         return shown
+
+    def _smooth_landmarks(self):
+        """The landmarks to show: (1 − smoothing) of the way to the estimate; new ones are there."""
+        estimates = dict(zip(self.filter.ids, self.filter.landmarks(), strict=True))
+        keep = self.landmark_smoothing
+        self._shown = {i: p + keep * (self._shown.get(i, p) - p) for i, p in estimates.items()}
 
 
 def predict(filter, reading, robot):

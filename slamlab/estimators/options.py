@@ -78,6 +78,8 @@ OPTIONS = {
         low=0.0,
     ),
     "samples": Number("samples of the robot (montecarlo 1000, fastslam 200)", low=1, kind=int),
+    "relocalise": Choice("whether a robot whose wheels slipped is looked for", ("yes", "no")),
+    "mends": Choice("mends of the listing: as it is printed, or with all of them", ("none", "all")),
     "smoothing": Number("share of the last shown pose that the next keeps (0)", low=0.0, below=1.0),
 }
 TAKES = {
@@ -86,6 +88,8 @@ TAKES = {
     "bor": ("bounds", "names"),
     "montecarlo": ("names", "close", "samples"),
     "fastslam": ("names", "samples"),
+    "walls": ("relocalise",),
+    "walls-foot": ("mends",),
 }
 """The options of each estimator; of those that are not here, none."""
 

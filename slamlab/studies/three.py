@@ -31,6 +31,7 @@ FILTERS = {
     "Monte Carlo": partial(make, "montecarlo"),
     "Monte Carlo, never frozen": partial(make, "montecarlo", close=0),
     "FastSLAM": partial(make, "fastslam"),
+    "walls": partial(make, "walls"),
 }
 """Makers of a filter for a source. Corners get their names of one EKF-SLAM, for all alike."""
 OWN_NAMES = {
