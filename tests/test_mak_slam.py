@@ -222,10 +222,13 @@ def test_corners_at_one_place_are_one_only_if_they_open_alike():
         assert (len(slam.filter.ids), slam.association.ambiguous) == (landmarks, ambiguous)
 
 
-def test_beyond_eight_centimetres_of_a_known_corner_there_may_be_another():
-    for r, landmarks in ((0.27, 1), (0.29, 2)):
+@pytest.mark.parametrize(("bisector", "least"), [(0.0, 0.08), (3.0, 0.2)])
+def test_beside_a_known_corner_there_may_be_another_and_farther_off_one_that_opens_alike(
+    bisector, least
+):
+    for apart, landmarks in ((least - 0.01, 1), (least + 0.01, 2)):
         slam = MakSlam(RobotModel(), ArenaRun.scanner.model)
-        for reading in (corner(0.2, 0.0, 3.0, True), corner(r, 0.0, 0.0, True)):
+        for reading in (corner(0.2, 0.0, 3.0, True), corner(0.2 + apart, 0.0, bisector, True)):
             slam.step(reading)
         assert len(slam.filter.ids) == landmarks
 

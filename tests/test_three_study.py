@@ -194,8 +194,9 @@ def test_the_stored_table_says_that_the_error_does_not_grow_and_the_honest_box_h
 
 
 def test_a_sighting_is_false_where_its_landmark_was_first_seen_elsewhere():
-    places = [("a", 0.0), ("b", 0.12), ("a", 0.05), ("a", 0.11), ("c", 0.13)]
-    found = association_errors([(i, np.array([x, 0.0])) for i, x in places])
+    corners = np.array([[0.0, 0.0], [0.12, 0.0]])
+    places = [("a", -0.02), ("b", 0.12), ("a", 0.05), ("a", 0.11), ("c", 0.13)]
+    found = association_errors([(i, np.array([x, 0.0])) for i, x in places], corners)
     assert found == {"false": 1, "duplicates": 1}  # a at 0.11; c is b again
 
 

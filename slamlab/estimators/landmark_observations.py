@@ -11,11 +11,11 @@ from slamlab.readings import Observations
 
 SHORT_RANGE = 1.0  # m, a sensor of shorter range sees walls of a few centimetres
 SHORT_RANGE_RANSAC = Ransac(window=6, min_inliers=5, gap=0.05, max_hidden=2.5, min_length=0.05)
-CORNER_REACH = 0.04  # m, that a corner may lie beyond a wall's seen end
+CORNER_REACH = 0.02  # m, that a corner may lie beyond a wall's seen end
 """For the infrared scanner: at most 0.28 m away its readings are 3 to 20 mm apart on a wall. Beyond
-4 cm a line meets the wrong one: one corner in thirty is then none."""
+2 cm a line may meet the wrong one: of the corners between 2 and 3 cm one in thirty is none."""
 CORNER_R_FACTOR = 2.0  # by which R of a short-sighted sensor's corners is enlarged
-"""The lines' R is right for all but one corner in 250: that one is where no corner is, some 6 cm
+"""The lines' R is right for all but one corner in 200: that one is where no corner is, some 6 cm
 beside one. No Gaussian has such a tail; twice the variance costs little and is hurt less by it."""
 
 

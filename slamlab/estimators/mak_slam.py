@@ -21,6 +21,9 @@ from slamlab.models import noise
 from slamlab.models.observation import g
 
 CLOSEST_CORNERS = 0.08  # m, from a known corner within which another is held for a phantom of it
+CLOSEST_ALIKE = (
+    0.2  # m; one that opens alike is the known one, seen by who is farther off than sure
+)
 
 
 class MakSlam(Estimator):
@@ -130,11 +133,13 @@ class MakSlam(Estimator):
         known = [self._openings.get(i, (np.nan, False)) for i in self.filter.ids]
         bisectors, convex = np.reshape(known, (-1, 2)).T
         absolute = seen.bisectors + self.filter.pose[2]
-        d2[~compatible_corners(absolute, seen.convex, bisectors, convex)] = np.inf
+        alike = compatible_corners(absolute, seen.convex, bisectors, convex)
+        d2[~alike] = np.inf
         pairs, new = gated_nearest_neighbours(d2)
         off = g(self.filter.pose, seen.z)[:, None] - self.filter.landmarks()
-        crowded = (np.hypot(*off.T).T < CLOSEST_CORNERS).any(axis=1)
-        return pairs, [k for k in new if not crowded[k]]
+        least = np.where(alike, CLOSEST_ALIKE, CLOSEST_CORNERS)
+        crowded = least > np.hypot(*off.T).T
+        return pairs, [k for k in new if not crowded[k].any()]
 
     def _smoothed(self, odometry):
         """The pose to show: s ← s ⊕ odometry, then (1 − smoothing) of the way to the estimate."""

@@ -56,31 +56,40 @@ def record(slam, source, readings):
             boxes.append((slam.filter.robot, slam.filter.heading, pose))
     errors = np.hypot(*(slam.trajectory().poses - source.truth.poses)[:, :2].T)
     landmarks = len(slam.filter.ids) if hasattr(slam, "filter") else 0
-    told = association_errors(places) if hasattr(slam, "named") else {}
+    corners = np.unique(source.world.walls.reshape(-1, 2).round(9), axis=0)
+    told = association_errors(places, corners) if hasattr(slam, "named") else {}
     if boxes:
         told["widths"] = np.array([np.diff(robot)[::2].max() for robot, _, _ in boxes])
         told["outside"] = sum(not holds(*each) for each in boxes)
     return Record(errors, landmarks, **told)
 
 
-def association_errors(places):
+def association_errors(places, corners):
     """Count false associations and duplicate landmarks, by where things were seen in truth.
 
     A sighting is of another corner than its landmark where it lies more than ``SAME_CORNER`` from
-    where that was first seen; two landmarks first seen nearer than that are of one corner.
+    where that was first seen, and nearest to another true corner; either alone may be one corner
+    seen badly, or where the lines of two boxes cross. Two landmarks first seen nearer to each other
+    than that are of one corner.
 
     Parameters
     ----------
     places : list of (id, (2,) place of the sighting, from the true pose [m]), as they came
+    corners : (k, 2) true corners [m]
 
     Returns
     -------
     dict: false, duplicates
     """
     first, false, duplicates = {}, 0, 0
+
+    def nearest(place):
+        return np.hypot(*(corners - place).T).argmin()
+
     for i, place in places:
         if i in first:
-            false += np.hypot(*(place - first[i])) > SAME_CORNER
+            apart = np.hypot(*(place - first[i])) > SAME_CORNER
+            false += apart and nearest(place) != nearest(first[i])
             continue
         duplicates += any(np.hypot(*(place - p)) < SAME_CORNER for p in first.values())
         first[i] = place
