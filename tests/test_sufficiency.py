@@ -29,6 +29,7 @@ def told(name, source, steps=None):
     ("name", "says"),
     [
         ("icp", "most matches rest on under 60 points"),
+        ("graph", "most matches rest on under 60 points"),
         ("walls", "hardly surer than by odometry alone"),
         ("walls", "scans show only unknown walls"),
         ("mak", "hardly surer than by odometry alone"),
@@ -48,7 +49,7 @@ def test_among_the_arenas_boxes_scan_matching_and_walls_say_so(name, says):
 
 
 @pytest.mark.parametrize("world", ["room", "situation-2"])
-@pytest.mark.parametrize("name", ["icp", "walls", "mak"])
+@pytest.mark.parametrize("name", ["icp", "graph", "walls", "mak"])
 def test_where_a_lidar_sees_a_room_nobody_says_anything(name, world):
     assert told(name, simulation(world, np.random.default_rng(1))) == ""
 
@@ -58,7 +59,7 @@ def test_what_sees_enough_corners_again_says_nothing(name, world):
     assert told(name, simulation(world, np.random.default_rng(1))) == ""
 
 
-@pytest.mark.parametrize("name", ["icp", "walls", "mak"])
+@pytest.mark.parametrize("name", ["icp", "graph", "walls", "mak"])
 def test_on_the_intel_log_nobody_says_anything(name):
     try:
         path = sources.recording("intel")

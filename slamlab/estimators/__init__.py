@@ -8,7 +8,7 @@ Read in this order:
   and ``foot_slam``: with walls
 - ``bor_slam``: boxes (set membership); ``montecarlo_slam``: particles, FastSLAM
 - ``icp_slam``: scan matching; ``graph_slam``: with keyframes, submaps and a pose graph,
-  ``odometry_drift``, ``loop_closure`` and ``relocalisation``
+  ``odometry_drift``, ``odometry_calibration``, ``loop_closure`` and ``relocalisation``
 - ``timestamps``: anomalies of a log's clock; ``sufficiency``: who works on too little says so
 """
 

@@ -17,7 +17,7 @@ RANGE_MAX = 80.0  # [m]; a SICK LMS reports 81.83 or 81.91 m where nothing came 
 MAX_ODOMETRY = 1e7  # no robot's odometry is beyond this [m]
 SATURATION_BAND = 0.995  # share of the greatest range from which ranges are no returns [1]
 MIN_SATURATED, SATURATION_RATIO = 20, 5.0  # at least so many, and so many times those below [1]
-SATURATION_DISTANCE = 3.0  # times the median range, or it is a wall [1]
+SATURATION_DISTANCE = 3.0  # times the median of the others, or it is a wall [1]
 ANGLE_INCREMENTS = {180: 1.0, 181: 1.0, 360: 0.5, 361: 0.5, 400: 0.25, 401: 0.25}
 """Angle increment from beam to beam, by number of beams [degree]."""
 
@@ -97,11 +97,13 @@ def saturation(scans, range_max):
     ranges = ranges[ranges < range_max]
     if len(ranges) == 0:
         return range_max
-    limit, top = SATURATION_BAND * ranges.max(), ranges.max()
-    saturated = np.count_nonzero(ranges >= limit)
-    below = np.count_nonzero(ranges >= 0.9 * top) - saturated
-    far = top > SATURATION_DISTANCE * np.median(ranges)
-    return limit if far and saturated > max(MIN_SATURATED, SATURATION_RATIO * below) else range_max
+    top = ranges.max()
+    limit = SATURATION_BAND * top
+    rest = ranges[ranges < limit]
+    if len(rest) == 0 or top < SATURATION_DISTANCE * np.median(rest):
+        return range_max
+    saturated, below = len(ranges) - len(rest), np.count_nonzero(rest >= 0.9 * top)
+    return limit if saturated > max(MIN_SATURATED, SATURATION_RATIO * below) else range_max
 
 
 def parse_flaser(words, complete):
