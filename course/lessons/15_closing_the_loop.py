@@ -678,7 +678,7 @@ views.show(fig, "Two rooms off a corridor, sharp; and one room, both drawn into 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # **See:** left, two rooms, and loops only within each. On the right there is one room left: both
 # lie in each other, table on table, shelf on shelf. The corridor between them had to crumple, and
-# its end is drawn 7 m from where it is.
+# its end is drawn more than 6 m from where it is.
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # One such loop, looked at:
@@ -751,7 +751,7 @@ for count in (1, 5, 20, len(false)):
     print("{:11d}   {:5.2f} m   {:4.2f} m".format(count, *off))
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# One false loop that is trusted moves a room by 7 m; the same one does nothing with robust weights.
+# One false loop that is trusted moves a room by 6 m; the same one does nothing with robust weights.
 # But more of them do break the map, **although** each is robust: they contradict the wheels, not
 # each other, and where liars agree, the honest look like the outliers.
 #
