@@ -23,6 +23,7 @@ test: lint clients  ## Set up and run every test; TEST_ARGS go to pytest
 
 soak: env  ## Run what takes long, or needs a machine that has nothing else to do
 	$(RUN) pytest -m soak
+	SLAMLAB_BANK_SEEDS=100 $(RUN) pytest -n 2 tests/bank
 
 env:
 	@$(PYTHON) lab.py --venv $(ENV) --lock requirements-test.lock --install-only

@@ -17,7 +17,7 @@ from benchmarks import icp_peers
 from benchmarks.common import cpu_times, main, row, speed_rows
 from slamlab.geometry import between, transform
 from slamlab.scanmatching import match, point_to_line, point_to_point, rigid_fit, surface
-from slamlab.scanmatching.registration import find_correspondences
+from slamlab.scanmatching.correspondences import find_correspondences
 from slamlab.simulation.range_scanners import RPLIDAR_A2
 from slamlab.sources.simulated_robot import POLYGON_WRONG_STEPS, simulation, turn_then_drive
 

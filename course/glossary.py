@@ -10,7 +10,7 @@ from course.source import ROOT
 
 FILE = ROOT / "course" / "glossary.txt"
 MARK = "{{glossary}}"
-HEAD = "| term | what it is | where | lesson | in the sources |\n| --- | --- | --- | --- | --- |\n"
+HEAD = "| term | what it is, and where | lesson | in the sources |\n| --- | --- | --- | --- |\n"
 
 
 @dataclass(frozen=True)
@@ -77,7 +77,9 @@ def table(lessons):
     for entry in entries():
         term = f"**{entry.term}**" + (f" ({', '.join(entry.others)})" if entry.others else "")
         links = ", ".join(f"[{number}]({lessons[number]}.ipynb)" for number in entry.lessons)
-        rows.append(f"| {term} | {entry.meaning} | `{entry.where}` | {links} | {entry.source} |")
+        # a file's name does not break: in a column of its own it would squeeze the sentence
+        what = f"{entry.meaning} `{entry.where}`"
+        rows.append(f"| {term} | {what} | {links} | {entry.source} |")
     return HEAD + "\n".join(rows)
 
 

@@ -36,18 +36,27 @@ class Scan:
 
 @dataclass(frozen=True)
 class Observations:
-    """Landmark observations (measurements) of one moment: range, bearing, id.
+    """Landmark observations (measurements) of one moment: range, bearing, id; how corners open.
 
     Parameters
     ----------
     z : (m, 2) range [m] and bearing [rad]
     ids : (m,) int; -1 where the landmark is not known
     R : (m, 2, 2) covariances of z, or None where they are as the sensor's model says
+    bisectors : (m,) of corners, direction between the two walls in the robot's frame, or None [rad]
+    convex : (m,) bool, of corners, whether they are seen from outside, as a box's; or None
     """
 
     z: np.ndarray
     ids: np.ndarray
     R: np.ndarray | None = None
+    bisectors: np.ndarray | None = None
+    convex: np.ndarray | None = None
+
+    def subset(self, rows):
+        """The observations of some rows (k,), all of each."""
+        parts = vars(self).items()
+        return Observations(**{k: None if part is None else part[rows] for k, part in parts})
 
 
 @dataclass(frozen=True)

@@ -142,7 +142,7 @@ def test_a_log_is_the_run_again(tmp_path):
 
 
 class Corners(Source):
-    """The first readings of a run, corners in the place of scans."""
+    """The first readings of a run, with their corners."""
 
     name = "corners"
 
@@ -154,7 +154,7 @@ def test_a_log_of_corners_keeps_how_sure_they_are(tmp_path):
     sources.write(Corners(), tmp_path / "log")
     seen = 0
     for a, b in zip(Corners(), sources.open(tmp_path / "log"), strict=True):
-        for part in ("z", "ids", "R"):
+        for part in ("z", "ids", "R", "bisectors", "convex"):
             wrote, read = (getattr(r.observations, part) for r in (a, b))
             np.testing.assert_array_equal(wrote.ravel(), read.ravel())
         seen += len(a.observations.ids)

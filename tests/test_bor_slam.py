@@ -4,16 +4,20 @@ import numpy as np
 import pytest
 
 from slamlab import estimators
-from slamlab.estimators.bor_slam import BorSlam, bounds
+from slamlab.estimators.bor_slam import BOUNDS, BorSlam, bounds
+from slamlab.estimators.mak_slam import predict
 from slamlab.estimators.runner import run
+from slamlab.filters.mak import MAK
 from slamlab.layers import Boxes, Points, Poses
 from slamlab.models.noise import C_wheels
 from slamlab.models.parameters import RobotModel
 from slamlab.readings import Observations, Reading
 from slamlab.simulation.differential_drive import arc
 from slamlab.sources import simulation
+from slamlab.sources.arena_runs import ArenaRun
 from slamlab.sources.landmark_runs import LandmarkRun, Loop
 from slamlab.studies.boxes import inside, outside
+from slamlab.studies.three_records import holds
 
 CALM = Loop(steps=80, v_sigma=0.004, omega_sigma=0.002, range_sigma=0.02, bearing_sigma=0.005)
 
@@ -103,8 +107,41 @@ def test_standing_still_changes_nothing():
 
 @pytest.mark.parametrize("sigmas", [0, -1, np.nan, np.inf])
 def test_bounds_of_no_width_or_none_are_refused(sigmas):
-    with pytest.raises(ValueError, match="sigmas is a number above 0"):
-        BorSlam(RobotModel(), Loop().sensor, sigmas=sigmas)
+    for name in ("sigmas", "motion_sigmas", "way_sigmas"):
+        with pytest.raises(ValueError, match=f"^{name} is a number above 0"):
+            BorSlam(RobotModel(), Loop().sensor, **{name: sigmas})
+
+
+def test_a_known_map_has_its_own_names():
+    with pytest.raises(ValueError, match='say names="own"'):
+        BorSlam(RobotModel(), Loop().sensor, boxes={0: (0, 0, 1, 1)}, names="mak")
+
+
+@pytest.mark.parametrize("seed", range(4000, 4006))
+def test_in_the_arena_the_honest_box_holds_the_truth_and_is_never_wider_than_odometrys(seed):
+    source = ArenaRun(np.random.default_rng(seed), laps=1)
+    slam, alone = estimators.make("bor", source), MAK(np.zeros(3), np.zeros((3, 3)))
+    most = BOUNDS["honest"]["way_sigmas"]
+    for reading, pose in zip(source, source.truth.poses, strict=True):
+        slam.step(reading)
+        predict(alone, reading, source.robot)
+        assert holds(slam.filter.robot, slam.filter.heading, pose)
+        sides = np.diff(slam.filter.robot)[::2]
+        assert np.all(sides <= 2 * most * np.sqrt(np.diag(alone.P)[:2]) + 1e-9)
+    assert slam.lost == "" and len(slam.filter) > 8
+
+
+def test_without_landmarks_the_whole_ways_bound_grows_like_a_root_and_the_steps_like_a_sum():
+    robot, widths = RobotModel(distance_error=0, turn_error=0, turn_per_metre=0, slip=0.01), {}
+    for name, way_sigmas in (("steps", None), ("way", 3.0)):
+        slam = BorSlam(robot, Loop().sensor, sigmas=3.0, way_sigmas=way_sigmas)
+        widths[name] = []
+        for k in range(65):
+            slam.step(Reading(float(k), np.array([0.01, 0.0, 0.0])))
+            widths[name].append(np.diff(slam.filter.heading)[0])
+    ratio = {name: each[63] / each[3] for name, each in widths.items()}
+    assert ratio["steps"] == pytest.approx(16, rel=0.01)
+    assert ratio["way"] == pytest.approx(4, rel=0.01)
 
 
 def test_a_source_without_landmarks_and_scans_is_refused_in_one_line():

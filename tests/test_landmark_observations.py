@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 
 from slamlab.estimators.landmark_observations import (
+    CORNER_REACH,
+    SHORT_RANGE_RANSAC,
     DataAssociation,
     measurement_noise,
     observed_landmarks,
@@ -98,6 +100,7 @@ def test_a_far_sighted_sensor_has_the_usual_corners():
     usual = corners(lines(reading.scan, RPLIDAR_A2.model, RNG(2)))
     np.testing.assert_array_equal(found.z, [corner.z for corner in usual])
     assert len(found.z) == 4 and np.all(found.ids == -1)
+    assert found.bisectors is None  # it sees thin walls from either side
 
 
 def test_parameters_of_ones_own_are_used():
@@ -124,6 +127,41 @@ def test_ids_are_the_sources_else_a_known_landmarks_else_new_and_negative():
     association = DataAssociation()
     found = Observations(np.ones((5, 2)), np.array([4, -1, -1, -1, 4]), np.ones((5, 2, 2)))
     pair = {0: 1}, [2]  # of the three without a name: the first is known, the second is ambiguous
-    assert association.associate(found, [10, 11], lambda z, R: pair) == {4: 0, 11: 1, -1: 3}
+    assert association.associate(found, [10, 11], lambda nameless: pair) == {4: 0, 11: 1, -1: 3}
     assert association.ambiguous == 2
-    assert association.associate(found, [10, 11], lambda z, R: ({}, [0])) == {4: 0, -2: 1}
+    assert association.associate(found, [10, 11], lambda nameless: ({}, [0])) == {4: 0, -2: 1}
+
+
+def corners_from(world, pose, scanner=RPLIDAR_A2):
+    """Places z, bisectors and whether convex, of the corners seen from a pose."""
+    scan = scanner.scan(world, np.array(pose), RNG(1))
+    found = corners(lines(scan, scanner.model, RNG(2)))
+    return (np.array([getattr(c, name) for c in found]) for name in ("z", "bisector", "convex"))
+
+
+@pytest.mark.parametrize("theta", [0.0, 0.7, 3.0, -2.0])
+def test_a_rooms_corners_are_concave_and_open_to_its_middle(theta):
+    pose = np.array([0.3, -0.2, theta])
+    z, bisectors, convex = corners_from(World(box((0, 0), (4.0, 3.0))), pose)
+    assert len(z) == 4 and not convex.any()
+    quadrants = np.sign(g(pose, z))
+    to_middle = np.arctan2(-quadrants[:, 1], -quadrants[:, 0])
+    assert np.abs(wrap(bisectors + theta - to_middle)).max() < 0.05
+
+
+def test_a_boxs_corners_are_convex_and_open_into_the_box():
+    cube, pose = World(box((3.0, 0.0), (1.0, 1.0), np.pi / 4)), (0.0, 0.0, 0.5)
+    _, (bisector,), (convex,) = corners_from(cube, pose)
+    assert convex and abs(wrap(bisector + 0.5)) < 0.05  # away from the robot
+
+
+def test_corners_of_a_short_sighted_sensor_are_held_for_less_sure_than_their_lines_say():
+    source = ArenaRun(RNG(1), laps=1)
+    near = observed_with_corner = None
+    for reading in source:
+        near = observed_landmarks(reading, source.sensor, RNG(2))
+        if len(near.z):
+            pieces = lines(reading.scan, source.sensor, RNG(2), SHORT_RANGE_RANSAC)
+            observed_with_corner = corners(pieces, reach=CORNER_REACH)
+            break
+    np.testing.assert_allclose(near.R[0], 2 * observed_with_corner[0].R)

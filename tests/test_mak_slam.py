@@ -15,7 +15,9 @@ from slamlab.models.parameters import RobotModel
 from slamlab.readings import Observations, Reading
 from slamlab.simulation.differential_drive import arc
 from slamlab.sources import Source, simulation
+from slamlab.sources.arena_runs import ArenaRun
 from slamlab.sources.landmark_runs import LandmarkRun, Loop
+from slamlab.studies.three_records import record
 
 BRIEF = Loop(steps=60, landmarks=12)
 
@@ -144,10 +146,31 @@ def test_smoothing_makes_the_shown_pose_calmer_and_wrong_and_leaves_the_filter_a
     np.testing.assert_array_equal(filters[0].x, filters[1].x)
 
 
+def test_smoothed_landmarks_follow_the_recursion_and_leave_the_filter_alone():
+    source, keep = LandmarkRun(Loop(steps=60), np.random.default_rng(3)), 0.8
+    calm, plain = (
+        MakSlam(source.robot, source.sensor, landmark_smoothing=share) for share in (keep, 0.0)
+    )
+    expected = {}
+    for reading in source:
+        calm.step(reading)
+        plain.step(reading)
+        np.testing.assert_array_equal(calm.filter.x, plain.filter.x)
+        np.testing.assert_array_equal(plain.landmarks(), plain.filter.landmarks())
+        for i, p in zip(plain.filter.ids, plain.filter.landmarks(), strict=True):
+            expected[i] = (1 - keep) * p + keep * expected.get(i, p)
+        shown = [expected[i] for i in calm.filter.ids]
+        np.testing.assert_allclose(calm.landmarks(), np.reshape(shown, (-1, 2)), atol=1e-12)
+    np.testing.assert_array_equal(calm.layers()[0].xy, calm.landmarks())
+    np.testing.assert_array_equal(calm.trajectory().poses, plain.trajectory().poses)
+    assert np.abs(calm.landmarks() - plain.landmarks()).max() > 1e-3
+
+
 @pytest.mark.parametrize("smoothing", [-0.1, 1.0, np.nan])
-def test_a_smoothing_outside_its_range_is_refused(smoothing):
+@pytest.mark.parametrize("which", ["smoothing", "landmark_smoothing"])
+def test_a_smoothing_outside_its_range_is_refused(smoothing, which):
     with pytest.raises(ValueError, match="smoothing is from 0"):
-        MakSlam(RobotModel(), Loop().sensor, smoothing=smoothing)
+        MakSlam(RobotModel(), Loop().sensor, **{which: smoothing})
 
 
 def test_before_anything_is_seen_there_is_a_robot_and_no_landmark():
@@ -169,3 +192,47 @@ class Blind(Source):
 def test_a_source_with_neither_landmarks_nor_scans_is_refused_in_one_line():
     with pytest.raises(ValueError, match="blind holds neither landmarks nor scans"):
         estimators.make("mak", Blind())
+
+
+@pytest.mark.parametrize("seed", range(4000, 4004))
+def test_in_the_arena_no_corner_is_taken_for_another_and_none_is_in_the_map_twice(seed):
+    source = ArenaRun(np.random.default_rng(seed), laps=2)
+    told = record(MakSlam(source.robot, source.sensor), source, source)
+    assert told.false == told.duplicates == 0
+    assert 10 <= told.landmarks <= 20
+
+
+def corner(r, bearing, bisector, convex):
+    """A reading that shows one corner, a millimetre sure."""
+    z, R = np.array([[r, bearing]]), np.diag([1e-6, 1e-4])[None]
+    seen = Observations(z, np.array([-1]), R, np.array([bisector]), np.array([convex]))
+    return Reading(0.0, observations=seen)
+
+
+def test_corners_at_one_place_are_one_only_if_they_open_alike():
+    sensor = ArenaRun.scanner.model
+    for turned, convex, landmarks, ambiguous in (
+        (0.4, True, 1, 0),  # by less than 30°
+        (0.7, True, 1, 1),  # it opens elsewhere: not the known one, and too near it to be new
+        (0.0, False, 1, 1),
+    ):
+        slam = MakSlam(RobotModel(), sensor)
+        slam.step(corner(0.2, 0.0, 3.0, True))
+        slam.step(corner(0.2, 0.0, wrap(3.0 + turned), convex))
+        assert (len(slam.filter.ids), slam.association.ambiguous) == (landmarks, ambiguous)
+
+
+def test_beyond_eight_centimetres_of_a_known_corner_there_may_be_another():
+    for r, landmarks in ((0.27, 1), (0.29, 2)):
+        slam = MakSlam(RobotModel(), ArenaRun.scanner.model)
+        for reading in (corner(0.2, 0.0, 3.0, True), corner(r, 0.0, 0.0, True)):
+            slam.step(reading)
+        assert len(slam.filter.ids) == landmarks
+
+
+def test_how_a_corner_opens_is_compared_in_the_map_not_in_the_robots_frame():
+    slam = MakSlam(RobotModel(), ArenaRun.scanner.model)
+    slam.step(corner(0.2, 0.0, 3.0, True))
+    turned = replace(corner(0.2, -1.0, 2.0, True), odometry=np.array([0.0, 0.0, 1.0]))
+    slam.step(turned)
+    assert len(slam.filter.ids) == 1 and slam.association.ambiguous == 0

@@ -33,9 +33,9 @@ class Nameless(Source):
             )
 
 
-def ratio(name, source):
+def ratio(name, source, **options):
     """Error by odometry alone over the estimator's, and the estimator."""
-    result = run(source, estimators.make(name, source))
+    result = run(source, estimators.make(name, source, **options))
     found, naive = (absolute_error(t, source.truth) for t in (result.trajectory, result.naive))
     return naive.translation / found.translation, result.estimator
 
@@ -52,11 +52,18 @@ def test_it_beats_dead_reckoning_on_a_loop_and_finds_every_landmark_it_saw(name)
 @pytest.mark.parametrize("name", NAMES)
 def test_without_names_data_association_is_by_its_own_spread(name):
     source = Nameless(LandmarkRun(Loop(steps=150, landmarks=8), np.random.default_rng(1)))
-    better, slam = ratio(name, source)
+    better, slam = ratio(name, source, names="own")
     assert better > 1.5
     # sets believe more than they know, and take some of the eight for new ones in the second lap
     assert 6 <= len(slam.filter.ids) <= (12 if name == "fastslam" else 20)
     assert max(slam.filter.ids) < 0
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_named_by_an_ekf_slam_beside_there_are_as_many_landmarks_as_there_are(name):
+    source = Nameless(LandmarkRun(Loop(steps=150, landmarks=8), np.random.default_rng(1)))
+    better, slam = ratio(name, source)
+    assert better > 1.5 and len(slam.filter.ids) == 8 and slam.association.ambiguous == 0
 
 
 @pytest.mark.parametrize("name", NAMES)

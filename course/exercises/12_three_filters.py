@@ -227,4 +227,4 @@ def _():
 
 # %% [markdown]
 # "Once in six" may be anything from one in thirty to more than half. That is why the thesis' author
-# says himself that six sets are too few, and why the lesson drives two hundred.
+# says himself that six sets are too few, and why the lesson drives eighty times.

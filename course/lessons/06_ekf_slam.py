@@ -785,6 +785,57 @@ tell({"predict, update, augment": TextbookSlam, "augment, predict, update": Plac
 # numbers and prose. Say "probably". Such a bug survives because the map still looks like a map.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
+# ## May P start at zero?
+#
+# Ours does: the robot stands where it starts, by definition, so nothing is in doubt. Smolec warns of
+# it (§2.6): without some doubt on P's diagonal a *singular* matrix often turns up, so put some
+# there, even if you believe the start.
+#
+# **Question.** What does the filter invert? **Predict** what changes if the robot starts with 10 cm
+# and 5° of doubt: its error, what it claims, how sure it is of the distance of two landmarks?
+
+
+# %% slideshow={"slide_type": "fragment"}
+class StartsInDoubt(TextbookSlam):
+    """P starts with 10 cm and 5° on its diagonal."""
+
+    def __init__(self, robot, sensor):
+        super().__init__(robot, sensor)
+        self.P = np.diag([0.1, 0.1, np.radians(5)]) ** 2
+
+
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+tell({"P starts at zero": TextbookSlam, "P starts at 10 cm, 5°": StartsInDoubt})
+
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+exact, doubting = (
+    run(source, make(source.robot, source.sensor)).estimator
+    for make in (TextbookSlam, StartsInDoubt)
+)
+maps = [slam.x[3:].reshape(-1, 2) for slam in (exact, doubting)]
+shapes = [np.hypot(*(m[:, None] - m).T) for m in maps]  # all distances within each map
+print(f"landmarks up to {100 * np.hypot(*(maps[0] - maps[1]).T).max():.0f} cm apart,", end=" ")
+print(f"distances between two of them up to {100 * np.abs(shapes[0] - shapes[1]).max():.0f} cm")
+D = np.hstack([-np.eye(2), np.eye(2)])  # of the first two landmarks: p_b − p_a
+for name, P in (("zero", exact.P), ("10 cm", doubting.P)):
+    ab = P[3:7, 3:7]
+    place, apart = np.sqrt(np.trace(ab[:2, :2])), np.sqrt(np.linalg.eigvalsh(D @ ab @ D.T)[0])
+    print(f"P from {name:5}: σ of a's place {100 * place:4.1f} cm, of a to b {100 * apart:.1f} cm")
+try:
+    np.linalg.inv(np.zeros((3, 3)))
+except np.linalg.LinAlgError as error:
+    print("P⁻¹ at the start:", error)
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# **See:** what is inverted is S = H P Hᵀ + R, and R alone keeps S regular; in neither run is
+# anything singular. P itself is, at the start: who inverts P (lesson 03's NEES, or a filter that
+# carries P⁻¹) has to wait for the first steps, as we do. And the doubt buys nothing here: both maps
+# have the same shape and are as sure of it, but the second is moved and turned as a whole, so its
+# errors and what it claims of them are some four times as large. It is honest about a question that
+# nobody asked: where the start lies in a frame that begins there. Doubt belongs into P when the
+# frame is given from outside, say by a map that was there before the robot.
+
+# %% [markdown] slideshow={"slide_type": "slide"}
 # ## The package's MAK
 #
 # `slamlab.filters.mak.MAK` is the same filter, and `MakSlam` puts it behind a source.
@@ -1040,9 +1091,40 @@ views.explore(
 # **See:** the filter learns its error within a few scans. The shown pose glides after it and is
 # plainly the worse one for more than ten steps.
 
+# %% [markdown] slideshow={"slide_type": "slide"}
+# The note smooths the landmarks, too. They stand still, so their step 1 falls away:
+# $m \leftarrow \hat{m} + \lambda\,(m - \hat{m})$ for each one *shown*; the filter keeps its own.
+#
+# **Predict:** does that cost as much as it did for the pose?
+
+
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+def landmarks_shown(keep):
+    """How far shown landmarks are off at the end and move from step to step, ten drives [cm]."""
+    errors, moves = [], []
+    for seed in range(10):
+        one, before = LandmarkRun(LOOP, np.random.default_rng(seed)), {}
+        slam = MakSlam(one.robot, one.sensor, landmark_smoothing=keep)
+        for reading in one:
+            slam.step(reading)
+            now = dict(zip(slam.filter.ids, slam.landmarks(), strict=True))
+            moves += [np.sum((now[i] - before[i]) ** 2) for i in before]
+            before = now
+        errors += [np.sum((p - one.landmarks[i]) ** 2) for i, p in now.items()]
+    return rms(errors), rms(moves)
+
+
+for share in (0, 0.5, 0.8, 0.95):
+    print("λ {:.2f}: error {:.1f} cm, step {:.2f} cm".format(share, *landmarks_shown(share)))
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# **See:** as for the pose, the calm is paid for, and never does the error fall. Up to λ = 0.8 the
+# price is small, at 0.95 it is plain: when the loop closes all estimates move at once, and the shown
+# landmarks have not caught up by the end of the drive.
+
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* The note also smooths landmarks that found their match; the same holds for
-# them. Ask where smoothing *does* make sense: where the future is used as well, as in lesson 15.
+# *For the lecturer:* Ask where smoothing *does* make sense: where the future is used as well, as in
+# lesson 15.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## What you can do now

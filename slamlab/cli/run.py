@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from slamlab.cli.common import SOURCES, Interruptible, damage_line, generator
+from slamlab.estimators.options import OPTIONS, Number, checked, takers
 
 COLUMNS = ("time", "x", "y", "theta", "naive_x", "naive_y", "naive_theta")
 
@@ -46,6 +47,13 @@ def add_parser(subparsers):
     parser.add_argument(
         "--merge", metavar="N", type=int, help="turns of a lidar that become one scan (1)"
     )
+    of_estimators = parser.add_argument_group("options of some estimators")
+    for name, option in OPTIONS.items():
+        of_estimators.add_argument(
+            f"--{name}",
+            metavar=name[0].upper() if isinstance(option, Number) else "WORD",
+            help=f"{option.help}: {option.range}; of {', '.join(takers(name))}",
+        )
     parser.set_defaults(run=run)
 
 
@@ -63,7 +71,7 @@ def run(arguments) -> int:
             if arguments.merge is not None:
                 opened.merge(arguments.merge)
             source = Interruptible(opened)
-            estimator = estimators.make(arguments.estimator, source)
+            estimator = estimators.make(arguments.estimator, source, **_options(arguments))
             if arguments.out is not None:
                 arguments.out.mkdir(parents=True, exist_ok=True)
             if arguments.tum is not None:
@@ -72,7 +80,7 @@ def run(arguments) -> int:
             result = _with_progress(source, estimator, naive)
         if not result.frames:
             raise sources.SourceError(f"{source.name} gave no reading")
-        summary = summarise(result, arguments.estimator, relations)
+        summary = summarise(result, arguments.estimator, relations, _options(arguments))
         if arguments.out is not None:
             write(result, summary, arguments.out, naive)
         if arguments.tum is not None:
@@ -100,7 +108,13 @@ def run(arguments) -> int:
     return source.code
 
 
-def summarise(result, estimator, relations=None):
+def _options(arguments):
+    """The estimator's options that were given, as they were typed: {name: str}."""
+    given = {name: getattr(arguments, name) for name in OPTIONS}
+    return {name: value for name, value in given.items() if value is not None}
+
+
+def summarise(result, estimator, relations=None, options=None):
     """Summarise a run (trajectory errors, counts) as plain numbers for summary.json.
 
     Parameters
@@ -108,6 +122,7 @@ def summarise(result, estimator, relations=None):
     result : Run
     estimator : str, its name
     relations : Relations or None
+    options : {name: value} of the estimator, or None
 
     Returns
     -------
@@ -122,6 +137,7 @@ def summarise(result, estimator, relations=None):
     summary = {
         "source": result.source.name,
         "estimator": estimator,
+        "options": checked(estimator, options or {}),
         "frames": result.frames,
         "skipped": result.skipped,
         "seconds": round(result.seconds, 3),
@@ -200,7 +216,8 @@ def picture(result, naive=None):
     for ax, (title, group) in zip(all_axes, shown, strict=True):
         for layer in group:
             around = f"{layer.name} 95 %"
-            kinds = {Points: "map", Grid: "map", Poses: "track", Ellipses: around}
+            points = "landmark" if layer.name == "landmark" else "map"
+            kinds = {Points: points, Grid: "map", Poses: "track", Ellipses: around}
             what = kinds.get(type(layer), layer.name)
             colour = (
                 COLOURS["robot"] if what == "track" else COLOURS.get(layer.name, COLOURS[title])

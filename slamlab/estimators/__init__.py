@@ -2,11 +2,14 @@
 
 Read in this order:
 
-- ``base``: Estimator, what all offer; ``by_name``: make; ``runner``: run, over a whole source
+- ``base``: Estimator, what all offer; ``by_name``: make, ``options``: what it takes; ``runner``:
+  run, over a whole source
 - ``dead_reckoning``: odometry alone
-- ``mak_slam``: EKF-SLAM, on ``landmark_observations``; ``wall_slam``, on ``wall_merging``,
-  and ``foot_slam``: with walls
-- ``bor_slam``: boxes (set membership); ``montecarlo_slam``: particles, FastSLAM
+- ``mak_slam``: EKF-SLAM, on ``landmark_observations``; ``wall_slam``, on ``wall_observations``,
+  ``wall_merging`` and ``wall_relocalisation`` (after slip, by ``wall_map_fit``): with walls;
+  ``foot_slam`` is Smolec's listing, with ``foot_mends`` and ``foot_formulas``
+- ``bor_slam``: boxes (set membership); ``montecarlo_slam``: particles, FastSLAM; both take the
+  names of corners from ``corner_names``
 - ``icp_slam``: scan matching; ``graph_slam``: with keyframes, submaps and a pose graph,
   ``odometry_drift``, ``odometry_calibration``, ``loop_closure`` and ``relocalisation``
 - ``timestamps``: anomalies of a log's clock; ``sufficiency``: who works on too little says so
@@ -22,6 +25,7 @@ __all__ = exports(
         ".runner": ["Run", "run"],
         ".bor_slam": ["BorSlam"],
         ".dead_reckoning": ["DeadReckoning", "Odometry"],
+        ".foot_mends": ["MENDS"],
         ".foot_slam": ["FootSlam"],
         ".graph_slam": ["GraphSlam"],
         ".icp_slam": ["IcpSlam"],

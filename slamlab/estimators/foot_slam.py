@@ -4,122 +4,197 @@ The foot, from the world's origin, is computed through the estimated pose and gi
 a pseudo-observation, as if its range and bearing had been measured. ``WallSlam`` mends that.
 """
 
-from dataclasses import replace
-
 import numpy as np
 
 from slamlab.estimators.base import Estimator
-from slamlab.estimators.landmark_observations import measurement_noise
-from slamlab.estimators.mak_slam import predict
-from slamlab.filters.mak import MAK
+from slamlab.estimators.foot_formulas import R_feet, make_filter, predict
+from slamlab.estimators.foot_mends import checked
 from slamlab.geometry import transform
 from slamlab.landmarks.downsampling import DownsampledPoints
+from slamlab.landmarks.line_fitting import total_least_squares
 from slamlab.landmarks.ransac import THESIS, lines
-from slamlab.layers import Ellipses, Points, Poses
+from slamlab.landmarks.sampled_lines import ordinary_least_squares, sampled_lines
+from slamlab.layers import Ellipses, Points, Poses, Segments
 from slamlab.models.observation import g_line, h
 
 ASSOCIATION_DISTANCE = 0.5  # m, his LANDMARKOFFSET: a foot farther from every other is new
+SAMPLES = 40  # his RANSAC_SAMPLE: readings of a scan round which a wall is looked for
+START = np.diag([0.01, 0.01, np.radians(1)]) ** 2  # P of a start in doubt
 MIN_RANGE = 0.05  # m, a foot on which the robot stands has no bearing
 
 
 class FootSlam(Estimator):
-    """EKF-SLAM on feet of walls: nearest-neighbour association, tentative landmarks, lives.
+    """EKF-SLAM on feet of walls, as Smolec prints it; each of ``mends`` switches one mend on.
 
-    As in the thesis a landmark enters the state at its first sight and is used once confirmed, from
-    its N-th on (his code: 5); a scan without it costs a life, at none it leaves the state. Of two
-    observations of one in a scan the second is dropped. His lives and LANDMARKOFFSET stand in
-    figures only; these are ours.
+    A landmark enters the state at its first sight and is used once confirmed, from its N-th on (his
+    code: 5); a scan without it costs a life, at none it leaves the state. Of two observations of
+    one in a scan the second is dropped. See :mod:`slamlab.estimators.foot_mends` for what is
+    printed, and what is not.
 
     Parameters
     ----------
     robot : RobotModel
     sensor : SensorModel
     rng : numpy.random.Generator, for RANSAC
-    ransac : Ransac
+    ransac : Ransac; lines that grow need the mends "distinct-lines" and "orthogonal-fit"
     sightings : int, observations that confirm a tentative landmark: from then on it is used
     lives : int, scans that a landmark survives unseen
+    offset : float, LANDMARKOFFSET: a foot farther from every landmark is a new one [m]
+    samples : int, RANSAC_SAMPLE: readings round which a line is tried, unless "distinct-lines"
+    c : float, of Q as printed: variance as a share of the squared step [1]
+    mends : collection of names of MENDS; MENDS itself for all
+
+    Raises
+    ------
+    ValueError : a mend that there is not; a number out of its range
     """
 
-    def __init__(self, robot, sensor, rng, ransac=THESIS, sightings=5, lives=40):
+    def __init__(
+        self,
+        robot,
+        sensor,
+        rng,
+        ransac=THESIS,
+        sightings=5,
+        lives=40,
+        *,
+        offset=ASSOCIATION_DISTANCE,
+        samples=SAMPLES,
+        c=0.01,
+        mends=(),
+    ):
         super().__init__()
+        self.mends = checked(mends)
+        _check(ransac, self.mends, sightings, lives, samples, offset, c)
         self.robot, self.sensor, self.rng, self.ransac = robot, sensor, rng, ransac
-        self.sightings, self.lives = sightings, lives
-        self.filter = MAK(np.zeros(3), np.zeros((3, 3)))
+        self.sightings, self.lives, self.samples = sightings, lives, samples
+        self.offset, self.c = offset, c
+        start = np.zeros((3, 3)) if "exact-start" in self.mends else START
+        self.filter = make_filter(self.mends, start)
         self.observed: dict[int, int] = {}
         self.lives_left: dict[int, int] = {}
         self.points = DownsampledPoints()
         self._next = 0
 
     def step(self, reading):
-        """Process a reading: predict, associate feet, correct, augment, remove the long unseen.
+        """Process a reading: feet, association, predict, correct, augment, remove the long unseen.
 
         Parameters
         ----------
         reading : Reading
         """
-        predict(self.filter, reading, self.robot)
-        if reading.scan is None or not reading.scan.valid.any():
+        seen = reading.scan is not None and reading.scan.valid.any()
+        if "predict-first" in self.mends or not seen:
+            self._predict(reading)
+        if not seen:
             self.skipped += 1
         else:
-            found = lines(reading.scan, self.sensor, self.rng, self.ransac)
-            self._update(self._feet(found))
+            paired, new = self._associate(self._feet(reading.scan))
+            z = {i: h(self.filter.pose, foot) for i, foot in paired.items()}
+            if "predict-first" not in self.mends:
+                self._predict(reading)
+            self._update(z)
+            self._augment(new)
+            self._prune({*paired, *self.filter.ids[len(self.filter.ids) - len(new) :]})
             self.points.add(transform(self.filter.pose, reading.scan.points()))
         self.pose = self.filter.pose
         self.record(reading.time)
-        used = sum(count >= self.sightings for count in self.observed.values())
-        self.status = f"{used} confirmed of {len(self.observed)} landmarks"
+        self.status = self.status_line(
+            f"{len(self.feet())} confirmed of {len(self.observed)} landmarks"
+        )
+
+    def feet(self):
+        """(k, 2) the confirmed landmarks, the feet in use [m]."""
+        used = [self.observed[i] >= self.sightings for i in self.filter.ids]
+        return self.filter.landmarks()[np.array(used, dtype=bool)]
 
     def layers(self):
-        """Points, the confirmed landmarks, the trajectory, the robot's 95 % covariance ellipse."""
+        """Points, confirmed feet and their perpendiculars from the origin, trajectory, ellipse."""
         P_rr, _, _ = self.filter.blocks()
-        used = [self.observed[i] >= self.sightings for i in self.filter.ids]
+        feet = self.feet()
         return [
             Points("scan", self.points.xy),
-            Points("landmark", self.filter.landmarks()[np.array(used, dtype=bool)]),
+            Segments("perpendicular", np.hstack([np.zeros_like(feet), feet])),
+            Points("landmark", feet),
             Poses("corrected", self.trajectory().poses),
             Ellipses("robot", self.pose[None, :2], P_rr[None, :2, :2]),
         ]
 
-    def _feet(self, found):
+    def _predict(self, reading):
+        predict(self.filter, reading.odometry, self.robot, self.c, self.mends)
+
+    def _feet(self, scan):
         """(k, 2) the walls' feet in the world, through the pose as it is believed [m]."""
-        if not found:
+        found = self._lines(scan)
+        if not len(found):
             return np.empty((0, 2))
-        rho, alpha = g_line(self.filter.pose, np.array([line.z for line in found])).T
+        rho, alpha = np.transpose(found)
         feet = np.column_stack([rho * np.cos(alpha), rho * np.sin(alpha)])
         return feet[np.hypot(*(feet - self.filter.pose[:2]).T) > MIN_RANGE]
 
-    def _update(self, feet):
-        """Associate feet with landmarks by nearest neighbour; correct, augment, prune."""
+    def _lines(self, scan):
+        """The walls' lines in the world, (ρ, α) each."""
+        pose, orthogonal = self.filter.pose, "orthogonal-fit" in self.mends
+        fit = total_least_squares if orthogonal else ordinary_least_squares
+        if "distinct-lines" not in self.mends:
+            points = transform(pose, scan.points())
+            return sampled_lines(points, self.rng, self.ransac, self.samples, fit)
+        found = lines(scan, self.sensor, self.rng, self.ransac)
+        if orthogonal:
+            return [g_line(pose, line.z) for line in found]
+        points, beams = transform(pose, scan.points()), np.flatnonzero(scan.valid)
+        return [fit(points[np.isin(beams, line.beams)]) for line in found]
+
+    def _associate(self, feet):
+        """Associate feet with landmarks: a foot each, the first that came; and the new feet."""
         paired, new = {}, []
         for foot in feet:
             off = np.hypot(*(self.filter.landmarks() - foot).T)
-            if not len(off) or off.min() > ASSOCIATION_DISTANCE:
+            within = np.flatnonzero(off <= self.offset)
+            if not len(within):
                 new.append(foot)
             else:
-                paired.setdefault(self.filter.ids[int(off.argmin())], foot)
-        used = {}
-        for i, foot in paired.items():
+                k = off.argmin() if "nearest" in self.mends else within[0]
+                paired.setdefault(self.filter.ids[int(k)], foot)
+        return paired, new
+
+    def _update(self, z):
+        """Count the observations of landmarks; correct by the confirmed ones."""
+        for i in z:
             self.observed[i] += 1
-            if self.observed[i] >= self.sightings:
-                used[i] = foot
-        if used:
-            self.filter.update(list(used), *self._pseudo_observations(list(used.values())))
+        used = {i: seen for i, seen in z.items() if self.observed[i] >= self.sightings}
+        together = [list(used)] if "joint-update" in self.mends else [[i] for i in used]
+        for ids in together if used else []:
+            rows = np.array([used[i] for i in ids])
+            self.filter.update(ids, rows, R_feet(self.sensor, rows[:, 0], self.mends))
+
+    def _augment(self, new):
+        """Add new feet to the state, one after the other."""
         for foot in new:
             i, self._next = self._next, self._next + 1
-            self.filter.add([i], *self._pseudo_observations([foot]))
-            self.observed[i], paired[i] = 1, foot
-        self._prune(paired)
+            z = h(self.filter.pose, foot)[None]
+            self.filter.add([i], z, R_feet(self.sensor, z[:, 0], self.mends))
+            self.observed[i] = 1
 
-    def _pseudo_observations(self, feet):
-        """Feet as pseudo-observations, as if they had been seen: z and R."""
-        z = h(self.filter.pose, np.array(feet))
-        inflated = replace(self.sensor, bearing_sigma=max(self.sensor.bearing_sigma, 0.01))
-        return z, measurement_noise(inflated, z[:, 0])
-
-    def _prune(self, paired):
+    def _prune(self, sighted):
         """Remove landmarks: one not observed loses a life; at none it leaves database, x and P."""
         for i in list(self.observed):
-            self.lives_left[i] = self.lives if i in paired else self.lives_left[i] - 1
+            self.lives_left[i] = self.lives if i in sighted else self.lives_left[i] - 1
             if self.lives_left[i] <= 0:
                 self.filter.remove([i])
                 del self.observed[i], self.lives_left[i]
+
+
+def _check(ransac, mends, sightings, lives, samples, offset, c):
+    """Raise ValueError for what the listing cannot run with."""
+    counts = {"sightings": sightings, "lives": lives, "samples": samples}
+    for name, count in counts.items():
+        if count < 1:
+            raise ValueError(f"{name} is at least 1, not {count}")
+    if not offset > 0 or not c > 0:
+        raise ValueError(f"offset and c are above zero, not {offset} and {c}")
+    if not mends >= {"distinct-lines", "orthogonal-fit"} and (ransac.grow or ransac.band is None):
+        raise ValueError(
+            "lines that grow, or a band of the noise's own, need the mends 'distinct-lines' and "
+            "'orthogonal-fit'; or use THESIS"
+        )

@@ -3,11 +3,11 @@
 import numpy as np
 
 from slamlab.estimators.base import Estimator
-from slamlab.estimators.landmark_observations import (
-    DataAssociation,
-    observed_landmarks,
-    require_landmarks,
-)
+from slamlab.estimators.corner_names import CornerNames
+from slamlab.estimators.landmark_observations import DataAssociation, require_landmarks
+from slamlab.estimators.mak_slam import predict
+from slamlab.estimators.sufficiency import hardly_surer, mostly_ambiguous
+from slamlab.filters.mak import MAK
 from slamlab.filters.montecarlo.fastslam import FastSLAM
 from slamlab.filters.montecarlo.particle_association import associate
 from slamlab.filters.montecarlo.sample_sets import SampleSets
@@ -17,8 +17,8 @@ from slamlab.layers import Ellipses, Points, Poses, Samples
 class ParticleSlam(Estimator):
     """Particle-filter SLAM with point landmarks: those the source names, else corners of scans.
 
-    Data association without names gates by the particles' own spread; an ambiguous observation, of
-    a known landmark or a new one, is ignored and counted.
+    Its own data association gates by the particles' spread; an ambiguous observation, of a known
+    landmark or a new one, is ignored and counted.
 
     Parameters
     ----------
@@ -26,17 +26,30 @@ class ParticleSlam(Estimator):
     robot : RobotModel, how wrong the odometry is
     sensor : SensorModel
     rng : numpy.random.Generator, for RANSAC
+    names : str, who names corners, see :class:`CornerNames`
     """
 
-    def __init__(self, filter, robot, sensor, rng):
+    def __init__(self, filter, robot, sensor, rng, names="mak"):
         super().__init__()
-        self.filter, self.robot, self.sensor, self.rng = filter, robot, sensor, rng
+        self.filter, self.robot, self.sensor = filter, robot, sensor
+        self.names = CornerNames(names, robot, sensor, rng)
         self.association = DataAssociation()
+        self._alone = MAK(np.zeros(3), np.zeros((3, 3)), capacity=0)
+        self._steps, self._seen = 0, 0
 
     @property
     def ambiguous(self):
         """int, ambiguous observations that were ignored, see :class:`DataAssociation`."""
-        return self.association.ambiguous
+        return self.association.ambiguous + self.names.ambiguous
+
+    @property
+    def warnings(self):
+        """What it says where its landmarks correct hardly anything: list of sentences."""
+        P = self.filter.robot.moments.P
+        return [
+            *hardly_surer(P, self._alone, self._steps),
+            *mostly_ambiguous(self.ambiguous, self._seen + self.names.ambiguous),
+        ]
 
     def step(self, reading):
         """Process a reading: move the particles, weight them by landmarks, resample, add new ones.
@@ -46,12 +59,18 @@ class ParticleSlam(Estimator):
         reading : Reading
         """
         self.filter.predict(reading.odometry, self.robot)
-        found = observed_landmarks(reading, self.sensor, self.rng)
+        predict(self._alone, reading, self.robot)
+        self._steps += 1
+        found = self.names.observe(reading)
         if len(found.z):
             self._correct(found)
+        self._seen += len(found.z)
         self.pose = self.filter.robot.moments.x
         self.record(reading.time)
-        self.status = f"{len(self.filter.ids)} landmarks, {self.ambiguous} ambiguous observations"
+        self.status = self.status_line(*self._status_parts())
+
+    def _status_parts(self):
+        return f"{len(self.filter.ids)} landmarks", f"{self.ambiguous} ambiguous observations"
 
     def _correct(self, found):
         """Update by observations of known landmarks, add the new landmarks."""
@@ -62,22 +81,16 @@ class ParticleSlam(Estimator):
             if rows:
                 correct_or_add(list(rows.values()), found.z[list(rows)], found.R[list(rows)])
 
-    def _associate(self, z, R):
-        return associate(z, R, self.filter.expected_scan())
+    def _associate(self, found):
+        return associate(found.z, found.R, self.filter.expected_scan())
 
 
 class SampleSetSlam(ParticleSlam):
     """Sample-set SLAM, the thesis' algorithm 2: particles for the robot and for every landmark."""
 
-    def step(self, reading):
-        """Process a reading, see :class:`ParticleSlam`.
-
-        Parameters
-        ----------
-        reading : Reading
-        """
-        super().step(reading)
-        self.status += f", {len(self.filter.frozen)} frozen, {self.filter.depleted} sets depleted"
+    def _status_parts(self):
+        counts = f"{len(self.filter.frozen)} frozen", f"{self.filter.depleted} sets depleted"
+        return *super()._status_parts(), *counts
 
     def layers(self):
         """Particles of landmarks (points where frozen), the trajectory, the robot's particles."""
@@ -108,13 +121,14 @@ class FastSlam(ParticleSlam):
         ]
 
 
-def montecarlo(source, seed=0, **options):
+def montecarlo(source, seed=0, names="mak", **options):
     """Make the thesis' sample-set SLAM for a source.
 
     Parameters
     ----------
     source : Source
     seed : int; the same seed gives the same run
+    names : str, who names corners, see :class:`CornerNames`
     options : of :class:`SampleSets`
 
     Returns
@@ -126,16 +140,17 @@ def montecarlo(source, seed=0, **options):
     ValueError : no reading holds landmarks or a scan
     """
     rng, other = _generators("montecarlo", source, seed)
-    return SampleSetSlam(SampleSets(rng, **options), source.robot, source.sensor, other)
+    return SampleSetSlam(SampleSets(rng, **options), source.robot, source.sensor, other, names)
 
 
-def fastslam(source, seed=0, **options):
+def fastslam(source, seed=0, names="mak", **options):
     """Make FastSLAM for a source.
 
     Parameters
     ----------
     source : Source
     seed : int; the same seed gives the same run
+    names : str, who names corners, see :class:`CornerNames`
     options : of :class:`FastSLAM`
 
     Returns
@@ -147,7 +162,7 @@ def fastslam(source, seed=0, **options):
     ValueError : no reading holds landmarks or a scan
     """
     rng, other = _generators("fastslam", source, seed)
-    return FastSlam(FastSLAM(rng, **options), source.robot, source.sensor, other)
+    return FastSlam(FastSLAM(rng, **options), source.robot, source.sensor, other, names)
 
 
 def _generators(name, source, seed):

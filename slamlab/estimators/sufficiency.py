@@ -5,11 +5,15 @@
 
 import numpy as np
 
+from slamlab.filters.mak import MAK
+
 MIN_STEPS = 20  # matches or scans before which nothing is said: all begins with little
 THIN = 60  # points of a match; on fewer scan matching drifts more than wheels do
 SURER = 0.5  # share of odometry's own standard deviation above which a map helps little
-# share of scans that show nothing known: by ultrasound 0.4, by a lidar in a building 0.26
+# share of scans that show nothing known: a lidar's lines of ultrasound 0.4, in a building 0.26
 UNKNOWN = 1 / 3
+AMBIGUOUS = 1 / 3  # share of observations that are ambiguous above which a map is a muddle
+ROUNDING = 1e-6  # m, by which a box may be wider than odometry that makes no error
 
 
 def thin_matches(thin, matched, unmatched):
@@ -33,12 +37,12 @@ def thin_matches(thin, matched, unmatched):
     return found
 
 
-def hardly_surer(filter, alone, scans):
+def hardly_surer(P, alone, scans):
     """Warn of a map that corrects nothing, by the filter's own belief and odometry's.
 
     Parameters
     ----------
-    filter : MAK
+    P : (3, 3) covariance of the pose as the filter believes it, or the MAK that does
     alone : MAK without landmarks, predicted by the same odometry
     scans : int, readings with something in them so far
 
@@ -46,7 +50,8 @@ def hardly_surer(filter, alone, scans):
     -------
     list of str
     """
-    corrected, naive = (np.sqrt(np.trace(each.block([0, 1]))) for each in (filter, alone))
+    P = P.block([0, 1]) if isinstance(P, MAK) else P
+    corrected, naive = (np.sqrt(np.trace(each[:2, :2])) for each in (P, alone.block([0, 1])))
     if scans < MIN_STEPS or corrected <= SURER * naive:
         return []
     return ["its place is hardly surer than by odometry alone: too little is seen again"]
@@ -66,3 +71,49 @@ def mostly_unknown(unknown, scans):
     if scans < MIN_STEPS or unknown <= UNKNOWN * scans:
         return []
     return [f"{unknown} of {scans} scans show only unknown walls: the map may be of chance finds"]
+
+
+def box_too_wide(bor, alone, scans):
+    """Warn of a box so wide that it says no more than odometry, or nothing within its map.
+
+    A place that is drawn anywhere in a box of the sides w and h deviates by √((w² + h²)/12).
+
+    Parameters
+    ----------
+    bor : BOR
+    alone : MAK without landmarks, predicted by the same odometry
+    scans : int, readings with something in them so far
+
+    Returns
+    -------
+    list of str
+    """
+    if scans < MIN_STEPS:
+        return []
+    found, sides = [], np.diff(bor.robot)[::2]
+    naive = np.sqrt(np.trace(alone.block([0, 1])))
+    if np.hypot(*sides) / np.sqrt(12) > naive + ROUNDING:
+        found.append(
+            f"its box is {sides.max():.2f} m wide: by it the place is no surer than by odometry "
+            "alone"
+        )
+    middles = bor.boxes().reshape(-1, 2, 2).mean(axis=2)
+    if len(middles) > 1 and np.any(sides > np.ptp(middles, axis=0)):
+        found.append("its box is wider than all that it has mapped")
+    return found
+
+
+def mostly_ambiguous(ambiguous, observed):
+    """Warn of observations that were ignored because they may be of several landmarks.
+
+    Parameters
+    ----------
+    ambiguous, observed : int, those ignored, and all of them
+
+    Returns
+    -------
+    list of str
+    """
+    if observed < MIN_STEPS or ambiguous <= AMBIGUOUS * observed:
+        return []
+    return [f"{ambiguous} of {observed} observations are ambiguous and ignored"]

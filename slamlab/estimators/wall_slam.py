@@ -10,12 +10,14 @@ from slamlab.estimators.base import Estimator
 from slamlab.estimators.mak_slam import predict
 from slamlab.estimators.sufficiency import hardly_surer, mostly_unknown
 from slamlab.estimators.wall_merging import ends_of, merge_pieces
+from slamlab.estimators.wall_observations import observed_walls
+from slamlab.estimators.wall_relocalisation import WallRelocalisation
 from slamlab.filters.data_association import squared_distances
 from slamlab.filters.landmark_models import LINES
 from slamlab.filters.mak import MAK
 from slamlab.geometry import transform
 from slamlab.landmarks.downsampling import DownsampledPoints
-from slamlab.landmarks.ransac import lines
+from slamlab.landmarks.sonar_lines import slant
 from slamlab.landmarks.tentative_walls import TentativeWalls, extent, overlap
 from slamlab.landmarks.wall_segments import hull, split_at_gaps, union
 from slamlab.layers import Ellipses, Points, Poses, Segments
@@ -27,32 +29,50 @@ AMBIGUITY_GATE = 4 * GATE  # χ²: beyond the gate and below this ambiguous, nei
 
 
 class WallSlam(Estimator):
-    """EKF-SLAM (MAK) on line landmarks: the walls that RANSAC finds in each scan.
+    """EKF-SLAM (MAK) on line landmarks: the walls of each scan, found as its sensor asks for.
 
     A landmark is one side of one wall, without what stands beyond a door: pieces of it that were
-    found apart and have grown together are merged, see :mod:`slamlab.estimators.wall_merging`.
+    found apart and have grown together are merged, see :mod:`slamlab.estimators.wall_merging`. A
+    robot whose wheels slip is found again, see :mod:`slamlab.estimators.wall_relocalisation`.
 
     Parameters
     ----------
     robot : RobotModel
     sensor : SensorModel
     rng : numpy.random.Generator, for RANSAC
-    ransac : Ransac, its defaults when None
-    sightings : int, observations that confirm a tentative landmark; the first scan's are at once
+    ransac : Ransac, what the sensor asks for when None
+    sightings : int, observations that confirm a tentative landmark, 3 when None, of a sonar 2; the
+        first scan's are at once
     lives : int, how many scans a tentative landmark survives unseen
     first_estimates : bool, see :class:`MAK`; without, a map of lines soon believes it knows north
+    relocalise : bool, whether it looks for the robot where a slip may have put it; a sonar's scans
+        are too coarse for that
     """
 
-    def __init__(self, robot, sensor, rng, ransac=None, sightings=3, lives=3, first_estimates=True):
+    def __init__(
+        self,
+        robot,
+        sensor,
+        rng,
+        ransac=None,
+        sightings=None,
+        lives=3,
+        first_estimates=True,
+        relocalise=True,
+    ):
         super().__init__()
         self.robot, self.sensor, self.rng, self.ransac = robot, sensor, rng, ransac
         self.filter = MAK(
             np.zeros(3), np.zeros((3, 3)), kind=LINES, first_estimates=first_estimates
         )
+        if sightings is None:  # a sonar hears few walls, and each has shown a slope
+            sightings = 2 if sensor.half_cone else 3
         self.tentative = TentativeWalls(sightings, lives)
         self.extents: dict[int, np.ndarray] = {}  # stretches of each wall, along its line [m]
         self.points = DownsampledPoints()
-        self.ambiguous, self.merged = 0, 0
+        self.ambiguous = self.merged = 0
+        self.relocalise = relocalise and not sensor.half_cone
+        self.relocalisation = WallRelocalisation(self, rng.spawn(1)[0])
         self._alone = MAK(np.zeros(3), np.zeros((3, 3)), capacity=0)
         self._started, self._next, self._scans = False, 0, 0
 
@@ -65,17 +85,12 @@ class WallSlam(Estimator):
         """
         for each in (self.filter, self._alone):
             predict(each, reading, self.robot)
+        self.relocalisation.predict(reading.odometry)
         if reading.scan is None or not reading.scan.valid.any():
             self.skipped += 1
         else:
             self._scans += 1
-            found = lines(reading.scan, self.sensor, self.rng, self.ransac)
-            known, new = self._associate(found)
-            if self._started and new and not known:  # the robot may have been carried
-                self.counts[ONLY_NEW] += 1
-            self._update(reading.scan, known, new)
-            self.merged += merge_pieces(self.filter, self.extents)
-            self.points.add(transform(self.filter.pose, reading.scan.points()))
+            self._take_in(reading)
         self.pose = self.filter.pose
         self.record(reading.time)
         self.status = self.status_line(
@@ -90,6 +105,7 @@ class WallSlam(Estimator):
         return [
             *hardly_surer(self.filter, self._alone, self._scans),
             *mostly_unknown(self.counts[ONLY_NEW], self._scans),
+            *self.relocalisation.warnings,
         ]
 
     def layers(self):
@@ -110,6 +126,18 @@ class WallSlam(Estimator):
     def _map_lines(self):
         """The line landmarks of the map as estimated now: id to (ρ, α)."""
         return dict(zip(self.filter.ids, self.filter.landmarks(), strict=True))
+
+    def _take_in(self, reading):
+        """Find the walls of a scan, tell which they are and whether the wheels slipped; learn."""
+        found = observed_walls(reading.scan, self.sensor, self.rng, self.ransac)
+        known, new = self._associate(found)
+        lost = bool(self._started and new and not known)  # the wheels may have slipped
+        self.counts.update([ONLY_NEW] * lost)
+        if self.relocalisation.update(reading.scan, self.relocalise and lost):
+            known, new = self._associate(found)
+        self._update(reading.scan, known, new)
+        self.merged += merge_pieces(self.filter, self.extents)
+        self.points.add(transform(self.filter.pose, reading.scan.points()))
 
     def _associate(self, found):
         """Data association: observations of confirmed walls, as id to Line, and the others."""
@@ -150,9 +178,10 @@ class WallSlam(Estimator):
                 i, self._next = self._next, self._next + 1
                 self.filter.add([i], line.z[None], line.R)
                 known[i], self.extents[i] = line, np.empty((0, 2))
-        walls = self._map_lines()
+        walls, half_cone = self._map_lines(), self.sensor.half_cone
         for i, line in known.items():
-            r, beta = scan.ranges[line.beams], scan.angles[line.beams] + pose[2]
+            r, u = scan.ranges[line.beams], slant(scan.angles[line.beams], line.z[1], half_cone)
+            beta = pose[2] + line.z[1] + u
             hits = pose[:2] + r[:, None] * np.column_stack([np.cos(beta), np.sin(beta)])
             along = hits @ [-np.sin(walls[i][1]), np.cos(walls[i][1])]
             self.extents[i] = union(self.extents[i], split_at_gaps(along))
@@ -163,7 +192,7 @@ def for_source(slam, source, rng=None):
 
     Parameters
     ----------
-    slam : WallSlam or FootSlam, the class
+    slam : callable(robot, sensor, rng), such as WallSlam or FootSlam
     source : Source
     rng : numpy.random.Generator, seed 0 when None
 

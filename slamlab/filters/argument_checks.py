@@ -67,7 +67,7 @@ def covariance(name, value, size):
     ValueError
     """
     P = _finite(name, value, (size, size))
-    slack = SYMMETRY_TOLERANCE * np.abs(P).max(initial=0.0)
+    slack = SYMMETRY_TOLERANCE * max(map(abs, P.ravel().tolist()), default=0.0)
     symmetric = P.tobytes() == P.T.tobytes()  # nearly always, and cheap to ask
     if not symmetric and np.abs(P - P.T).max(initial=0.0) > slack:
         raise ValueError(f"{name} is not symmetric: a covariance equals its transpose")
@@ -128,7 +128,7 @@ def _finite(name, value, shape):
     if array.shape != shape and not _fits(array.shape, shape):
         want = tuple("any" if n is None else n for n in shape)
         raise ValueError(f"{name} has shape {array.shape}, expected {want}")
-    if not np.isfinite(array).all():
+    if not all(map(isfinite, array.ravel().tolist())):  # arguments are small: floats are faster
         raise ValueError(f"{name} holds NaN or infinity")
     return array
 

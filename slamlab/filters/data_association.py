@@ -11,6 +11,8 @@ import numpy as np
 from slamlab.filters.argument_checks import observations
 from slamlab.geometry import wrap
 
+BISECTOR_GATE = np.radians(30)  # corners of one map that might be confused differ by 90° or 180°
+
 
 def squared_distances(mak, z, R):
     """Squared Mahalanobis distance vᵀ S⁻¹ v of every observation to every landmark.
@@ -44,6 +46,26 @@ def squared_distances(mak, z, R):
     a, b, d = S[..., 0, 0], S[..., 0, 1], S[..., 1, 1]
     r, beta = v[..., 0], v[..., 1]
     return (d * r * r - 2 * b * r * beta + a * beta * beta) / (a * d - b * b)
+
+
+def compatible_corners(bisectors, convex, known_bisectors, known_convex, gate=BISECTOR_GATE):
+    """Which corners may be one and the same: they open in one direction, and both out or both in.
+
+    A landmark's bisector is compared, not measured: a heading corrected by it, too, would be held
+    for surer than it is, as bisector and place come from the same two lines.
+
+    Parameters
+    ----------
+    bisectors, known_bisectors : (m,) and (N,) directions in one frame [rad], NaN where no corner is
+    convex, known_convex : (m,) and (N,) bool
+    gate : float, most that bisectors of one corner differ [rad]
+
+    Returns
+    -------
+    (m, N) bool
+    """
+    apart = np.abs(wrap(np.subtract.outer(bisectors, known_bisectors)))
+    return (apart <= gate) & np.equal.outer(convex, known_convex)
 
 
 def gated_nearest_neighbours(d2, gate=13.8, new_landmark_gate=4 * 13.8):

@@ -75,8 +75,9 @@ class MAK(AugmentedState):
         L = self._P.lower
         L[0, 1], L[0, 2], L[1, 2] = L[1, 0], L[2, 0], L[2, 1]
         L[:3, :3] = A @ L[:3, :3] @ A.T + Q
-        L[3:, 0] -= dy * L[3:, 2]
-        L[3:, 1] += dx * L[3:, 2]
+        heading = L[3:, 2]
+        L[3:, 0] -= dy * heading
+        L[3:, 1] += dx * heading
         self._x[:2], self._x[2] = x[:2], wrap(x[2])
         self._predicted_position = x[:2].copy()
         return A
@@ -84,7 +85,8 @@ class MAK(AugmentedState):
     def update(self, ids, z, R):
         """EKF measurement update by landmarks in the map, all observations of a scan at once.
 
-        P ← P − K S Kᵀ with K = P Hᵀ S⁻¹ (the Kalman gain), as P − B Bᵀ with B = P Hᵀ L⁻ᵀ, S = L Lᵀ.
+        P ← P − K S Kᵀ with K = P Hᵀ S⁻¹ (the Kalman gain), as P − B Bᵀ with B = P (L⁻¹ H)ᵀ and
+        S = L Lᵀ.
 
         Parameters
         ----------
@@ -123,13 +125,14 @@ class MAK(AugmentedState):
         ------
         ValueError : S = H P Hᵀ + R is singular; nothing was changed
         """
-        PHt = dgemm(1.0, self._P.columns(columns), H.T)
-        S = H @ PHt[columns]
-        _diagonal_blocks(S)[...] += R
+        seen = self._P.columns(columns)
+        S = H @ seen[columns] @ H.T
+        blocks = _diagonal_blocks(S)
+        blocks += R
         root, failed = dpotrf(S, lower=1, clean=1)
         if failed:
             raise ValueError("R: S = H P Hᵀ + R is singular; give R a positive variance")
-        B = dtrsm(1.0, root, PHt, side=1, lower=1, trans_a=1, overwrite_b=1)
+        B = dgemm(1.0, seen, dtrsm(1.0, root, H, lower=1), trans_b=1)
         self._x[: self._P.n] += B @ dtrsv(root, v, lower=1)
         self._x[2] = wrap(self._x[2])
         self._P.downdate(B)

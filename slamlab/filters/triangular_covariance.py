@@ -47,7 +47,7 @@ class TriangularCovariance:
         (n, k) column-major
         """
         L = self.lower
-        out = np.asfortranarray(L[:, index])
+        out = L.T.take(index, axis=0).T
         for k, j in enumerate(index.tolist()):
             out[:j, k] = L[j, :j]
         return out

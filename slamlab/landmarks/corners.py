@@ -8,16 +8,20 @@ import numpy as np
 
 @dataclass(frozen=True)
 class Corner:
-    """A corner landmark as a scan shows it: range, bearing and their covariance.
+    """A corner landmark as a scan shows it: range, bearing, their covariance, and how it opens.
 
     Parameters
     ----------
     z : (2,) range [m] and bearing [rad]
     R : (2, 2) covariance of z
+    bisector : float, direction between its two walls, in the robot's frame [rad]
+    convex : bool, seen from outside, as of a box; from between its walls it is concave
     """
 
     z: np.ndarray
     R: np.ndarray
+    bisector: float
+    convex: bool
 
 
 def corners(lines, reach=0.4, min_angle=0.5):
@@ -42,7 +46,7 @@ def corners(lines, reach=0.4, min_angle=0.5):
             continue
         p, P = _intersection(first, second)
         if all(np.hypot(*(line.ends - p).T).min() <= reach for line in (first, second)):
-            found.append(_as_corner(p, P))
+            found.append(Corner(*_polar(p, P), *_opening(p, first, second)))
     return found
 
 
@@ -61,9 +65,16 @@ def _intersection(first, second):
     return p, P
 
 
-def _as_corner(p, P):
-    """A point in the robot's frame as range and bearing, its covariance P as R."""
+def _opening(p, *walls):
+    """Bisector of the walls that meet in p [rad], and whether p is convex to who looks from 0."""
+    along = [line.ends.mean(axis=0) - p for line in walls]
+    middle = np.sum([way / np.hypot(*way) for way in along], axis=0)
+    return float(np.arctan2(middle[1], middle[0])), bool(middle @ p > 0)
+
+
+def _polar(p, P):
+    """A point in the robot's frame as range and bearing z, its covariance P as R."""
     r2, r = p @ p, np.hypot(*p)
     J = np.array([[p[0] / r, p[1] / r], [-p[1] / r2, p[0] / r2]])
     R = J @ P @ J.T
-    return Corner(np.array([r, np.arctan2(p[1], p[0])]), (R + R.T) / 2)  # rounding aside, its own
+    return np.array([r, np.arctan2(p[1], p[0])]), (R + R.T) / 2  # rounding aside, its own

@@ -40,6 +40,8 @@ class SensorModel:
     range_sigma : float, standard deviation at range zero [m]
     bearing_sigma : float [rad]
     range_curvature : float, standard deviation per range squared, of sensors that triangulate [1/m]
+    half_cone : float, half opening angle of a beam that hears the nearest surface in it, as a
+        sonar's does; 0 of a lidar, whose beam is a ray [rad]
     """
 
     range_min: float = 0.0
@@ -49,6 +51,7 @@ class SensorModel:
     range_sigma: float = 0.0
     bearing_sigma: float = 0.005
     range_curvature: float = 0.0
+    half_cone: float = 0.0
 
     def sigma(self, ranges):
         """Standard deviation of the measurement noise of ranges.

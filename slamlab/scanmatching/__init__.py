@@ -5,7 +5,8 @@ Read in this order:
 - ``icp_point_to_point``, ``icp_point_to_line``, ``nearest_neighbours``: ICP as in lesson 13
 - ``matcher``: match, the one that the SLAMs use, a step each in:
   ``surfaces`` (with ``local_line_fits``, ``neighbourhoods``, ``normals``), ``correlative_search``,
-  ``registration``, ``match_covariance`` (degenerate directions), ``common_error``,
+  ``correspondences``, ``registration``, ``match_covariance`` (degenerate directions),
+  ``common_error``,
   ``match_quality``
 - ``submap``: several scans as one, to match the next with; ``match_result``: what comes back
 """

@@ -33,7 +33,7 @@ def residual_covariance(source, pairs, kernel_width):
     if lag >= len(source):
         return 0.0, 0.0, 0
     nx, ny, r = source.fits.nx, source.fits.ny, pairs.residuals
-    usable = pairs.used & (np.abs(r) < MAX_RESIDUAL * kernel_width)
+    usable = pairs.association.used & (np.abs(r) < MAX_RESIDUAL * kernel_width)
     alike = nx[:-lag] * nx[lag:] + ny[:-lag] * ny[lag:] > SAME_WALL
     both = usable[:-lag] & usable[lag:] & alike
     products = (r[:-lag] * r[lag:])[both]

@@ -11,6 +11,7 @@ CELLS = 64  # on the grid's side: a power of two suits the FFT
 EXTENT_QUANTILE = 0.95  # quantile of the ranges that the grid shall hold [1]
 MIN_PEAK_SHARE = 0.6  # of the best correlation: less is no candidate [1]
 MAX_PEAK_CELLS = 2000  # cells of the correlation examined for peaks
+TURNS_AT_ONCE = 16  # correlated together: their grids stay in the cache
 MIN_SEPARATION = 2  # cells, and steps of turn: least separation of two peaks
 
 
@@ -42,13 +43,16 @@ def candidate_poses(source, target, initial, turn=np.pi, count=6):
 def cross_correlation(source, target, turns, size):
     """Cross-correlation of source and target by FFT: (k, CELLS, CELLS), how many cells coincide,
     by turn and by shift along y and x, both from zero up and from minus one down."""
-    c, s = np.cos(turns)[:, None], np.sin(turns)[:, None]
-    seen = _rasterised(c * source.x - s * source.y, s * source.x + c * source.y, size)
     walls = _rasterised(target.x[None], target.y[None], size)
     near = sum(np.roll(walls, shift, axis) for axis in (1, 2) for shift in (-1, 1))
-    walls = np.maximum(walls, 0.5 * np.minimum(near, 1))
-    product = fft.rfft2(walls) * np.conj(fft.rfft2(seen))
-    return fft.irfft2(product, s=(CELLS, CELLS))
+    walls = fft.rfft2(np.maximum(walls, 0.5 * np.minimum(near, 1)))
+    score = np.empty((len(turns), CELLS, CELLS), dtype=np.float32)
+    for first in range(0, len(turns), TURNS_AT_ONCE):
+        some = slice(first, first + TURNS_AT_ONCE)
+        c, s = np.cos(turns[some])[:, None], np.sin(turns[some])[:, None]
+        seen = _rasterised(c * source.x - s * source.y, s * source.x + c * source.y, size)
+        score[some] = fft.irfft2(walls * np.conj(fft.rfft2(seen)), s=(CELLS, CELLS))
+    return score
 
 
 def _rasterised(x, y, size):

@@ -6,6 +6,7 @@ is the noise of the points, measured where they are.
 """
 
 from dataclasses import dataclass, replace
+from math import cos, hypot, sqrt
 
 import numpy as np
 from scipy.spatial import cKDTree
@@ -13,6 +14,7 @@ from scipy.spatial import cKDTree
 from slamlab.scanmatching.neighbourhoods import Windows, sliding_windows
 
 WALL_QUANTILE, NORMAL_QUANTILE = 0.3, 0.3853  # share of a scan that is wall; its |N(0, 1)| quantile
+MIN_NOISE_SHARE = 0.01  # least noise as a share of the points' spacing [1]
 MAX_NOISE_SHARE = 0.03  # largest noise as a share of the range: more is clutter [1]
 MAX_FLATNESS = 0.25  # largest spread across a line as a share of that along it [1]
 NORMAL_SIGMA = 0.06  # standard deviation wanted of a normal, which sets the window's width [rad]
@@ -63,8 +65,8 @@ def range_noise(r, step):
     float σ [m]
     """
     u = 1 / r
-    bent = np.abs(r[1:-1] ** 2 * (u[:-2] + u[2:] - 2 * np.cos(step) * u[1:-1]))
-    return quantile(bent, WALL_QUANTILE) / (np.sqrt(6) * NORMAL_QUANTILE)
+    bent = np.abs(r[1:-1] ** 2 * (u[:-2] + u[2:] - 2 * cos(step) * u[1:-1]))
+    return quantile(bent, WALL_QUANTILE) / (sqrt(6) * NORMAL_QUANTILE)
 
 
 def quantile(values, share):
@@ -96,13 +98,14 @@ def fit_scan_lines(x, y, r, step, closed):
     LineFits, and the float noise σ of the ranges [m]
     """
     n, median_range = len(x), median(r)
+    spacing = step * median_range
     sigma = min(range_noise(r, step), MAX_NOISE_SHARE * median_range)
     gaps = np.empty(n)  # from each point to the next
     gaps[:-1] = np.sqrt((x[1:] - x[:-1]) ** 2 + (y[1:] - y[:-1]) ** 2)
-    gaps[-1] = np.hypot(x[0] - x[-1], y[0] - y[-1])
+    gaps[-1] = hypot(x[0] - x[-1], y[0] - y[-1])
     # the gaps hold the noise, too: what lies across the beam does not
-    relative_noise = sigma / max(step * median_range, 1e-12)
-    window = (relative_noise * np.sqrt(12) / NORMAL_SIGMA) ** (2 / 3)
+    relative_noise = sigma / max(spacing, 1e-12)
+    window = (relative_noise * sqrt(12) / NORMAL_SIGMA) ** (2 / 3)
     k = round(min(max(window, MIN_LENGTH * relative_noise) / 2, MAX_NEIGHBOURS))
     k = min(max(MIN_NEIGHBOURS, k), (n - 1) // 2)
     jump = gaps > JUMP_FACTOR * step * r + 5 * sigma
@@ -113,13 +116,14 @@ def fit_scan_lines(x, y, r, step, closed):
     count = windows.count.astype(float)
     means = windows.sums(np.array((x, y, x * x, y * y, x * y))) / count
     fits = _lines_from_moments(count, *means, windows)
-    return fits, max(sigma, scatter(fits))  # ranges in whole centimetres show no noise but scatter
+    # ranges in whole centimetres show no noise but scatter
+    return fits, max(sigma, scatter(fits), MIN_NOISE_SHARE * spacing)
 
 
 def scatter(fits):
     """Standard deviation of the residuals across the lines, of the flattest half [m]."""
     known = fits.across_variance[fits.good]
-    return np.sqrt(median(known)) if len(known) else 0.0
+    return sqrt(median(known)) if len(known) else 0.0
 
 
 def fit_cloud_lines(points):
@@ -131,7 +135,7 @@ def fit_cloud_lines(points):
 
     Returns
     -------
-    LineFits, and the float median distance from a point to the next but one [m]
+    LineFits, the float noise σ across them, and the median distance to the next point but one [m]
     """
     k = min(CLOUD_NEIGHBOURS, len(points))
     distances, indices = cKDTree(points).query(points, k=k)
@@ -143,7 +147,8 @@ def fit_cloud_lines(points):
     means = (v.sum(axis=1) / count for v in (x, y, x * x, y * y, x * y))
     found = _lines_from_moments(count, *means)
     offset = found.offset + found.nx * points[:, 0] + found.ny * points[:, 1]
-    return replace(found, offset=offset), spacing
+    found = replace(found, offset=offset)
+    return found, max(scatter(found), MIN_NOISE_SHARE * spacing), spacing
 
 
 def _lines_from_moments(count, x, y, xx, yy, xy, windows=None):

@@ -89,7 +89,7 @@ def censi(source, target, pairs, kernel_width):
     (3, 3) covariance of [x, y, θ] [m, m, rad]
     """
     seen, g = observability(source, target, pairs, kernel_width)
-    M = (g * source.fits.across_variance) @ g.T + _target_noise(g, pairs.target_index, target)
+    M = (g * source.fits.across_variance) @ g.T + _target_noise(g, pairs.association, target)
     axes, degenerate = seen.directions, seen.degenerate
     back = axes * (~degenerate / np.where(degenerate, 1, seen.eigenvalues))
     P = back @ (axes.T @ M @ axes) @ back.T + (axes * (degenerate * seen.reach**2)) @ axes.T
@@ -97,9 +97,9 @@ def censi(source, target, pairs, kernel_width):
     return P * scale * scale[:, None]
 
 
-def _target_noise(g, target_index, target):
+def _target_noise(g, association, target):
     """Share of the target's noise: Σ_j G_j G_jᵀ v_j, G_j the summed sensitivity to its point j."""
-    windows = target.fits.windows
+    target_index, windows = association.target_index, target.fits.windows
     if windows is not None:
         g = g / windows.count[target_index]
     G = np.array([np.bincount(target_index, row, len(target)) for row in g])

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from slamlab.geometry import inverse
-from slamlab.scanmatching.registration import find_correspondences
+from slamlab.scanmatching.correspondences import find_correspondences
 
 # standard deviations, and share of the range [1]: within these a point is an inlier of its line
 INLIER_TOLERANCE = 3.0, 0.01
@@ -65,7 +65,8 @@ def assess(source, target, pairs):
     -------
     MatchQuality
     """
-    inliers = pairs.in_view & (np.abs(pairs.residuals) < _tolerance(pairs, *INLIER_TOLERANCE))
+    near = np.abs(pairs.residuals) < _tolerance(pairs, *INLIER_TOLERANCE)
+    inliers = pairs.association.in_view & near
     hits, against = np.count_nonzero(inliers), _count_contradictions(pairs, target)
     if source.bearings is not None and hits < AMPLE_OVERLAP * len(inliers):
         back = find_correspondences(target, source, inverse(pairs.pose))
@@ -78,10 +79,10 @@ def _count_contradictions(pairs, target):
     if target.bearings is None:
         return 0
     off = _tolerance(pairs, *CONTRADICTION_TOLERANCE)
-    short = target.ranges[pairs.target_index] - pairs.ranges > off
-    return np.count_nonzero(pairs.in_view & short & (np.abs(pairs.residuals) > off))
+    short = target.ranges[pairs.association.target_index] - pairs.ranges > off
+    return np.count_nonzero(pairs.association.in_view & short & (np.abs(pairs.residuals) > off))
 
 
 def _tolerance(pairs, deviations, share):
     """Inlier tolerance: (n,) largest residual that the noise allows a point [m]."""
-    return deviations * np.sqrt(pairs.variance) + share * pairs.ranges
+    return deviations * np.sqrt(pairs.association.variance) + share * pairs.ranges

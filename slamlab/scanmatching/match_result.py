@@ -1,6 +1,7 @@
 """Result of a scan match (pose, iterations, convergence), and checks of its point clouds."""
 
 from dataclasses import dataclass
+from math import isfinite
 
 import numpy as np
 
@@ -70,7 +71,7 @@ def check_clouds(source, target, initial):
 def check_pose(initial):
     """Validate an initial guess: a float array (3,) of its own; ValueError if not finite."""
     initial = np.array(initial, dtype=float)
-    if initial.shape != (3,) or not np.isfinite(initial).all():
+    if initial.shape != (3,) or not all(map(isfinite, initial.tolist())):
         raise ValueError(f"initial must be a finite pose [x, y, theta], got {initial.tolist()}")
     return initial
 
@@ -82,9 +83,10 @@ def check_cloud(points, name):
         raise ValueError(f"{name} must have shape (n, 2), got {points.shape}")
     if len(points) < 3:
         raise ValueError(f"{name} has {len(points)} points, a match needs at least 3")
-    if not np.isfinite(points).all():
+    farthest = np.abs(points).max()  # NaN where one is
+    if not isfinite(farthest):
         raise ValueError(f"{name} holds NaN or infinite points: leave out beams without return")
-    if np.abs(points).max() > MAX_COORDINATE:
+    if farthest > MAX_COORDINATE:
         raise ValueError(f"{name} has points beyond {MAX_COORDINATE:.0e} m: is it in metres?")
     return points
 

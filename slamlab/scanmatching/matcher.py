@@ -10,10 +10,11 @@ import numpy as np
 
 from slamlab.geometry import wrap
 from slamlab.scanmatching.correlative_search import candidate_poses
+from slamlab.scanmatching.correspondences import Pairs
 from slamlab.scanmatching.match_covariance import Observability, censi, observability
 from slamlab.scanmatching.match_quality import MatchQuality, assess
 from slamlab.scanmatching.match_result import Match, Round, check_pose
-from slamlab.scanmatching.registration import Pairs, align, min_pairs
+from slamlab.scanmatching.registration import align, min_pairs
 from slamlab.scanmatching.surfaces import surface
 
 
@@ -147,7 +148,7 @@ def _as_alignment(found, source, target, searched, rounds_kept):
         pose=_wrapped_pose(pairs),
         rounds=found.rounds,
         error=_mean_residual(pairs),
-        share=np.count_nonzero(pairs.used) / len(source),
+        share=np.count_nonzero(pairs.association.used) / len(source),
         converged=found.converged,
         verdict=verdict,
         history=tuple(rounds_kept),
@@ -160,7 +161,7 @@ def _as_alignment(found, source, target, searched, rounds_kept):
 
 def _reason_not_converged(found, source):
     """Why an attempt did not converge, in words."""
-    if np.count_nonzero(found.pairs.used) < min_pairs(source):
+    if np.count_nonzero(found.pairs.association.used) < min_pairs(source):
         return "lost: too few correspondences agree"
     return f"still moving after {found.rounds} rounds"
 
@@ -173,11 +174,12 @@ def _wrapped_pose(pairs):
 
 def _mean_residual(pairs):
     """Mean point-to-line residual of the inlier pairs [m]; NaN without any."""
-    return float(np.abs(pairs.residuals[pairs.used]).mean()) if pairs.used.any() else np.nan
+    sizes = np.abs(pairs.residuals[pairs.association.used])
+    return float(sizes.mean()) if len(sizes) else np.nan
 
 
 def _as_round(pairs, source, target):
     """An iteration as a Round, its pairs by the rows of the clouds that came in."""
-    used = np.flatnonzero(pairs.used)
-    rows = source.original_index(used), target.original_index(pairs.target_index[used])
+    used = np.flatnonzero(pairs.association.used)
+    rows = source.original_index(used), target.original_index(pairs.association.target_index[used])
     return Round(_wrapped_pose(pairs), _mean_residual(pairs), np.column_stack(rows))

@@ -53,9 +53,9 @@ def sliding_windows(jump, k):
     Windows
     """
     n = len(jump)
-    ring, place = np.arange(-k, n + k) % n, np.arange(n + 2 * k)
-    begins, ends = jump[ring - 1], jump[ring]
-    start = np.maximum.accumulate(np.where(begins, place, 0))[k : n + k]
-    stop = np.minimum.accumulate(np.where(ends, place, n + 2 * k)[::-1])[::-1][k : n + k]
-    own = place[k : n + k]
-    return Windows(ring, np.maximum(own - k, start), np.minimum(own + k, stop) + 1)
+    place = np.arange(n + 2 * k)
+    ring = np.concatenate([place[n - k : n], place[:n], place[:k]])
+    cuts = np.concatenate([[0], np.flatnonzero(jump[ring]) + 1, [n + 2 * k]])
+    own, length = place[k : n + k], cuts[1:] - cuts[:-1]
+    begin, end = (np.repeat(c, length)[k : n + k] for c in (cuts[:-1], cuts[1:]))
+    return Windows(ring, np.maximum(own - k, begin), np.minimum(own + k + 1, end))

@@ -1,93 +1,30 @@
 """Scan registration: point-to-line ICP by robust, reweighted Gauss-Newton from an initial guess."""
 
-from dataclasses import dataclass
-from math import cos, sin
+from math import sqrt
 
 import numpy as np
 from scipy.linalg import lapack
 
+from slamlab.scanmatching.correspondences import find_correspondences
 from slamlab.scanmatching.local_line_fits import median
 
 KERNEL_SHRINK = 0.7  # factor of the robust kernel's width, from iteration to iteration, at most [1]
-MIN_NORMAL_COSINE = 0.7  # cosine of the largest angle between the two normals of a pair [1]
-MAX_ALONG_WALL = 4.0  # gate along the wall: distance of the next point, in spacings [1]
 MIN_PAIRS = 10  # correspondences, or a tenth of the points where that is more
 DEGENERATE_SHARE = 1e-4  # an eigenvalue below this share of their sum is degenerate [1]
 SPURIOUS_INFORMATION = 3.0  # times the information that the normals' noise feigns: more is real [1]
 # pairs flip: converged when so many iterations moved it by less than this share of the noise
 OSCILLATION_ROUNDS, OSCILLATION_STEP = 10, 0.5
+RENEWAL_STEP = 0.5  # share of the noise by which the pose moves before pairs are found anew [1]
 STEP_TOLERANCE = 0.2  # converged when a step is below this share of the pose's standard deviation
 IDENTITY = np.eye(3)
-
-
-@dataclass
-class Pairs:
-    """Correspondences: the source's points on the target's lines, with residuals and Jacobian.
-
-    Parameters
-    ----------
-    pose : (3,) [m, m, rad]
-    target_index : (n,) int, the target's point for each of the source
-    in_view : (n,) bool, the target was seen there
-    used : (n,) bool, inliers of the gates: in view, both normals known and alike
-    ranges : (n,) of the source's points from the target's origin [m]
-    residuals : (n,) r, distances across the target's line [m]
-    J : (3, n) derivative of r with respect to [x, y, θ reach]: all in metres
-    variance : (n,) of r by the noise of both clouds [m²]
-    """
-
-    pose: np.ndarray
-    target_index: np.ndarray
-    in_view: np.ndarray
-    used: np.ndarray
-    ranges: np.ndarray
-    residuals: np.ndarray
-    J: np.ndarray
-    variance: np.ndarray
-
-
-def find_correspondences(source, target, pose):
-    """Find correspondences (data association): each source point with a line of the target.
-
-    r = n · (R p + t − c), with c and n of the line that faces p in the target.
-
-    Parameters
-    ----------
-    source, target : Surface
-    pose : (3,) floats [m, m, rad]
-
-    Returns
-    -------
-    Pairs
-    """
-    tx, ty, theta = pose
-    c, s = cos(theta), sin(theta)
-    arm_x, arm_y = c * source.x - s * source.y, s * source.x + c * source.y
-    px, py = arm_x + tx, arm_y + ty
-    j, in_view = target.associate(px, py)
-    fits, own = target.fits, source.fits
-    nx, ny = fits.nx[j], fits.ny[j]
-    residuals = nx * px + ny * py - fits.offset[j]
-    cosine = nx * (c * own.nx - s * own.ny) + ny * (s * own.nx + c * own.ny)
-    if not (source.oriented and target.oriented):
-        cosine = np.abs(cosine)
-    if target.bearings is None:  # beyond a wall's end there is nothing to be laid on
-        away = (px - target.x[j]) ** 2 + (py - target.y[j]) ** 2
-        in_view = away <= (np.abs(residuals) + MAX_ALONG_WALL * target.spacing) ** 2
-    used = in_view & fits.good[j] & own.good & (cosine > MIN_NORMAL_COSINE)
-    J = np.empty((3, len(px)))
-    J[0], J[1], J[2] = nx, ny, (arm_x * ny - arm_y * nx) / source.reach
-    noise = source.sigma**2 + target.sigma**2
-    variance = fits.across_variance[j] + own.across_variance + noise
-    ranges = np.sqrt(px * px + py * py)
-    return Pairs(pose, j, in_view, used, ranges, residuals, J, variance)
 
 
 def align(source, target, pose, rounds, callback=None):
     """Align a surface to another: iterate Gauss-Newton until the steps are lost in the noise.
 
     Each round weighs the pairs by w = 1 / (v (1 + (r/c)²)²), v the variance that noise gives r, and
-    takes the Gauss-Newton step on Σ w r². The width c follows the residuals down to the noise.
+    takes the Gauss-Newton step on Σ w r². The width c follows the residuals down to the noise. The
+    association is kept as long as the pose moves by less than half the noise.
 
     Parameters
     ----------
@@ -102,14 +39,19 @@ def align(source, target, pose, rounds, callback=None):
     whether no direction is degenerate
     """
     pose = tuple(map(float, pose))
-    noise = np.sqrt(source.sigma**2 + target.sigma**2)
-    required = min_pairs(source)
+    noise = sqrt(source.sigma**2 + target.sigma**2)
+    required, reach = min_pairs(source), source.reach
+    association = associated_at = None
     kernel_width, converged, well_constrained, past_poses = np.inf, False, False, []
     for done in range(rounds + 1):
-        pairs = find_correspondences(source, target, pose)
+        if association and step_length(pose, associated_at, reach) > RENEWAL_STEP * noise:
+            association = None
+        pairs = find_correspondences(source, target, pose, association)
+        if association is None:
+            association, associated_at = pairs.association, pose
         if callback is not None:
             callback(pairs)
-        sizes = np.abs(pairs.residuals[pairs.used])
+        sizes = np.abs(pairs.residuals[association.used])
         if converged or done == rounds or len(sizes) < required:
             return pairs, done, converged, kernel_width, well_constrained
         spread = 1.4826 * median(sizes)
@@ -119,8 +61,8 @@ def align(source, target, pose, rounds, callback=None):
         w = robust_weights(pairs, kernel_width, kernel_width < 6 * noise)
         step, well_constrained = gauss_newton_step(pairs, w, target)
         past_poses.append(pose)
-        pose = pose[0] + step[0], pose[1] + step[1], pose[2] + step[2] / source.reach
-        reach, limit = source.reach, STEP_TOLERANCE * noise / np.sqrt(len(sizes))
+        pose = pose[0] + step[0], pose[1] + step[1], pose[2] + step[2] / reach
+        limit = STEP_TOLERANCE * noise / sqrt(len(sizes))
         small = step_length(pose, past_poses[-1], reach) < limit
         # pairs that flip to and fro keep it moving on the spot; who creeps along a wall gets away
         oscillates = (
@@ -143,8 +85,8 @@ def min_pairs(source):
 
 def robust_weights(pairs, kernel_width, fine):
     """Robust kernel's weights w = used / (v (1 + (r/c)²)²); v = 1 while the fit is not fine."""
-    w = pairs.used / (1 + (pairs.residuals / kernel_width) ** 2) ** 2
-    return w / pairs.variance if fine else w
+    w = pairs.association.used / (1 + (pairs.residuals / kernel_width) ** 2) ** 2
+    return w / pairs.association.variance if fine else w
 
 
 def gauss_newton_step(pairs, w, target):
@@ -177,5 +119,5 @@ def information_floor(pairs, w, target, trace):
     A normal off by ε sees a motion along its wall as sin ε of one across it: the variances of the
     normals, weighed as the pairs are, sum up to information that nobody has.
     """
-    spurious = float(w @ target.fits.normal_variance[pairs.target_index])
+    spurious = float(w @ target.fits.normal_variance[pairs.association.target_index])
     return max(DEGENERATE_SHARE * trace, SPURIOUS_INFORMATION * spurious)

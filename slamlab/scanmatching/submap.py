@@ -2,9 +2,8 @@
 
 import numpy as np
 
-from slamlab.geometry import transform
 from slamlab.scanmatching.local_line_fits import LineFits, median
-from slamlab.scanmatching.surfaces import Surface
+from slamlab.scanmatching.surfaces import Surface, rotation
 
 
 def build_submap(surfaces, poses):
@@ -23,22 +22,23 @@ def build_submap(surfaces, poses):
     -------
     Surface
     """
-    cell = max(median(np.array([s.step * median(s.ranges) for s in surfaces])), 1e-6)
-    points = np.concatenate([transform(p, s.points) for s, p in zip(surfaces, poses, strict=True)])
-    fits = [_transformed(s.fits, p) for s, p in zip(surfaces, poses, strict=True)]
-    rows = np.floor(points / cell).astype(np.int64)
-    _, first = np.unique(rows[:, 0] * 2**31 + rows[:, 1], return_index=True)
+    cell = max(median(np.array([s.beam_spacing for s in surfaces])), 1e-6)
+    columns = zip(*map(_transformed, surfaces, poses), strict=True)
+    x, y, *lines = map(np.concatenate, columns)
+    column, row = (np.floor(v / cell).astype(np.int64) for v in (x, y))
+    _, first = np.unique(column * 2**31 + row, return_index=True)
     first.sort()
-    columns = (np.concatenate(column)[first] for column in zip(*fits, strict=True))
-    x, y = np.ascontiguousarray(points[first].T)
+    fits = LineFits(*(v[first] for v in lines))
     sigma = median(np.array([s.sigma for s in surfaces]))
-    return Surface(x, y, LineFits(*columns), sigma, spacing=cell, oriented=True)
+    return Surface(x[first], y[first], fits, sigma, spacing=cell, oriented=True)
 
 
-def _transformed(fits, pose):
-    """Transform a scan's local lines by its pose; their columns."""
+def _transformed(surface, pose):
+    """Transform a scan's points and local lines by its pose: x, y, and the columns of the fits."""
     tx, ty, theta = pose
-    c, s = np.cos(theta), np.sin(theta)
-    nx, ny = c * fits.nx - s * fits.ny, s * fits.nx + c * fits.ny
+    n, fits = len(surface), surface.fits
+    x, y = rotation(theta) @ surface.points_and_normals
+    nx, ny = x[n:], y[n:]
     offset = fits.offset + nx * tx + ny * ty
-    return nx, ny, offset, fits.across_variance, fits.normal_variance, fits.good
+    unchanged = fits.across_variance, fits.normal_variance, fits.good
+    return x[:n] + tx, y[:n] + ty, nx, ny, offset, *unchanged

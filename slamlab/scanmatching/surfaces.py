@@ -1,16 +1,16 @@
 """Point clouds preprocessed for scan matching: ordered by bearing if a scan, with local lines."""
 
 from functools import cached_property
+from math import cos, sin
 
 import numpy as np
 from scipy.spatial import cKDTree
 
-from slamlab.scanmatching.local_line_fits import fit_cloud_lines, fit_scan_lines, median, scatter
+from slamlab.scanmatching.local_line_fits import fit_cloud_lines, fit_scan_lines, median
 from slamlab.scanmatching.match_result import check_cloud
 
 FULL_TURN = 2 * np.pi  # [rad]
 MAX_BEARING_GAP = 2.0  # steps between beams: a bearing farther from any return was not seen [1]
-MIN_NOISE_SHARE = 0.01  # least noise as a share of the points' spacing [1]
 MIN_SCAN_POINTS = 5  # fewer are no scan
 SECTORS_PER_BEAM = 2  # resolution of the table of nearest beams
 
@@ -58,9 +58,19 @@ class Surface:
         return max(float(np.sqrt(self.ranges @ self.ranges / len(self))), 1e-12)
 
     @cached_property
+    def beam_spacing(self):
+        """Beam spacing: how far apart a scan's beams are where they usually hit [m]."""
+        return self.step * median(self.ranges)
+
+    @cached_property
+    def points_and_normals(self):
+        """Points, then normals: (2, 2n) columns that one product turns [m, 1]."""
+        return np.array([[self.x, self.fits.nx], [self.y, self.fits.ny]]).reshape(2, -1)
+
+    @cached_property
     def tree(self):
         """KD-tree of the points, for nearest neighbours."""
-        return cKDTree(self.points)
+        return cKDTree(self.points, balanced_tree=False)  # quicker to build, as quick to ask
 
     def associate(self, x, y):
         """Data association: the point of this surface that corresponds to each given one.
@@ -96,6 +106,12 @@ class Surface:
         return (place - 1) % len(self), near, count / FULL_TURN
 
 
+def rotation(theta):
+    """Rotation matrix (2, 2) of an angle [rad]."""
+    c, s = cos(theta), sin(theta)
+    return np.array([[c, -s], [s, c]])
+
+
 def surface(points, name="cloud"):
     """Preprocess a point cloud or scan for registration: order it and fit its local lines.
 
@@ -121,12 +137,12 @@ def surface(points, name="cloud"):
     x, y = np.ascontiguousarray(points.T)
     bearings = np.arctan2(y, x)
     rows = _bearing_order(bearings)
-    if rows is not None and points.any(axis=1).all():
+    if rows is not None and np.hypot(x, y).all():  # the origin itself has no bearing
         if len(rows):
             x, y, bearings = x[rows], y[rows], bearings[rows]
         return _scan_surface(x, y, bearings, rows if len(rows) else None)
-    fits, spacing = fit_cloud_lines(points)
-    return Surface(x, y, fits, max(scatter(fits), MIN_NOISE_SHARE * spacing), spacing=spacing)
+    fits, sigma, spacing = fit_cloud_lines(points)
+    return Surface(x, y, fits, sigma, spacing=spacing)
 
 
 def _scan_surface(x, y, bearings, rows=None):
@@ -143,8 +159,7 @@ def _scan_surface(x, y, bearings, rows=None):
     """
     made = Surface(x, y, None, 0.0, bearings, rows, oriented=True)
     r, over = made.ranges, bearings[0] + FULL_TURN - bearings[-1]
-    made.fits, sigma = fit_scan_lines(x, y, r, made.step, over < 3 * made.step)
-    made.sigma = max(sigma, MIN_NOISE_SHARE * made.step * median(r))
+    made.fits, made.sigma = fit_scan_lines(x, y, r, made.step, over < 3 * made.step)
     return made
 
 
@@ -161,7 +176,7 @@ def _bearing_order(bearings):
     """
     if len(bearings) < MIN_SCAN_POINTS:
         return None
-    steps = np.diff(bearings)
+    steps = bearings[1:] - bearings[:-1]
     rising = np.count_nonzero(steps > 0)
     if rising == len(steps):
         return np.empty(0, dtype=int)

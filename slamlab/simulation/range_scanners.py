@@ -30,6 +30,8 @@ class Scanner:
     bearing_sigma : float, standard deviation of a beam's direction [rad]
     cone : float, full opening angle of a beam [rad]
     dropouts : float, share of the beams that return nothing [1]
+    max_incidence : float, off square on, up to which a surface echoes in a wide beam; smooth ones
+        mirror sound away beyond some 30°, so that the echo is lost [rad]
     """
 
     beams: int = 400
@@ -42,6 +44,7 @@ class Scanner:
     bearing_sigma: float = 0.0
     cone: float = 0.0
     dropouts: float = 0.0
+    max_incidence: float = np.pi / 2
 
     def __post_init__(self):
         if self.beams < 1:
@@ -56,6 +59,8 @@ class Scanner:
             raise ValueError(f"dropouts is a share, 0 to 1: {self.dropouts}")
         if not 0 <= self.cone < np.pi:
             raise ValueError(f"cone is an angle in radians, 0 to below π: {self.cone}")
+        if not 0 < self.max_incidence <= np.pi / 2:
+            raise ValueError(f"max_incidence is in radians, above 0 to π/2: {self.max_incidence}")
         sigmas = self.range_error, self.range_sigma, self.range_curvature, self.bearing_sigma
         if min(sigmas) < 0:
             raise ValueError("a standard deviation is not negative")
@@ -79,6 +84,7 @@ class Scanner:
             # anywhere in the cone, all places alike
             bearing_sigma=float(np.hypot(self.bearing_sigma, self.cone / np.sqrt(12))),
             range_curvature=self.range_curvature,
+            half_cone=self.cone / 2,
         )
 
     def scan(self, world, pose, rng):
@@ -114,7 +120,22 @@ class Scanner:
         rays = int(np.ceil(self.cone / RAY_STEP)) + 1
         across = np.linspace(-self.cone / 2, self.cone / 2, rays)
         fan = (directions[:, None] + across).ravel()
-        return world.cast(position, fan).reshape(-1, rays).min(axis=1)
+        echoes = world.cast(position, fan).reshape(-1, rays)
+        if self.max_incidence < np.pi / 2:
+            echoes[_incidence(echoes, across[1] - across[0]) > self.max_incidence] = np.inf
+        return echoes.min(axis=1)
+
+
+def _incidence(ranges, step):
+    """How far off square on each ray of a fan meets a surface: tan ι = |∂r/∂β| / r [rad]."""
+    with np.errstate(invalid="ignore"):  # from nothing to nothing
+        slopes = np.abs(np.diff(ranges, axis=1)) / step
+        # the flatter side counts: an edge is no slope
+        flatter = np.fmin(
+            np.pad(slopes, ((0, 0), (1, 0)), constant_values=np.inf),
+            np.pad(slopes, ((0, 0), (0, 1)), constant_values=np.inf),
+        )
+        return np.arctan(flatter / ranges)
 
 
 RPLIDAR_A2 = Scanner(

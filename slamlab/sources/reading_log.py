@@ -105,9 +105,18 @@ class ReadingLog(LogFile):
         if row.get("observations") is not None:
             z = _decode_array(row["observations"]["z"], (-1, 2))
             ids = np.array(row["observations"]["ids"], dtype=int).reshape(len(z))
-            R = row["observations"].get("R")
-            R = None if R is None else _decode_array(R, (len(z), 2, 2))
-            observations = Observations(z, ids, R)
+            told = {
+                key: _decode_array(row["observations"][key], shape)
+                for key, shape in {
+                    "R": (len(z), 2, 2),
+                    "bisectors": len(z),
+                    "convex": len(z),
+                }.items()
+                if row["observations"].get(key) is not None
+            }
+            if "convex" in told:
+                told["convex"] = told["convex"] > 0
+            observations = Observations(z, ids, **told)
         if row.get("control") is not None:
             control = _decode_array(row["control"], (-1,))
         reading = Reading(
@@ -188,10 +197,11 @@ def _encode_reading(reading, angles, reckoned, true):
         if not np.array_equal(reading.scan.angles, angles):
             row["scan"]["angles"] = _encode_list(reading.scan.angles)
     if reading.observations is not None:
-        z, ids = reading.observations.z, reading.observations.ids
-        row["observations"] = {"z": np.asarray(z).tolist(), "ids": np.asarray(ids).tolist()}
-        if reading.observations.R is not None:
-            row["observations"]["R"] = np.asarray(reading.observations.R).tolist()
+        row["observations"] = {
+            key: np.asarray(part).tolist()
+            for key, part in vars(reading.observations).items()
+            if part is not None
+        }
     if reading.control is not None:
         row["control"] = _encode_list(reading.control)
     if true is not None:

@@ -10,7 +10,7 @@ from slamlab.geometry import compose
 from slamlab.models.parameters import RobotModel
 from slamlab.readings import Reading, Trajectory
 from slamlab.simulation.differential_drive import DifferentialDrive, Simulator, follow
-from slamlab.simulation.range_scanners import RPLIDAR_A2
+from slamlab.simulation.range_scanners import RPLIDAR_A2, ULTRASONIC
 from slamlab.sources.arena_runs import ArenaRun
 from slamlab.sources.base import Source
 from slamlab.sources.landmark_runs import LandmarkRun, Loop
@@ -180,8 +180,9 @@ def simulation(world_name, rng, lidar=None, robot=None, tour=True):
     ----------
     world_name : str, one of NAMES
     rng : numpy.random.Generator
-    lidar : Scanner, by default an RPLIDAR_A2, for the situations THESIS_LIDAR; among landmarks
-        there is nothing to scan, the arena's robot has a scanner of its own
+    lidar : Scanner, by default an RPLIDAR_A2, for the situations THESIS_LIDAR, for the room by
+        sound ULTRASONIC; among landmarks there is nothing to scan, the arena's robot has a scanner
+        of its own
     robot : DifferentialDrive, by default ROBOT, for the situations THESIS_ROBOT; only the tours
         use it, the other runs have odometry of their own
     tour : bool; False starts with one reading and waits for ``drive``
@@ -200,6 +201,10 @@ def simulation(world_name, rng, lidar=None, robot=None, tour=True):
         return LandmarkRun(Loop(), rng)
     if world_name in ARENA:
         return ArenaRun(rng).snagged() if world_name == SNAGGED else ArenaRun(rng)
+    if world_name == ROOM_BY_SOUND:
+        heard = simulation("room", rng, lidar or ULTRASONIC, robot, tour)
+        heard.name = f"sim:{ROOM_BY_SOUND}"
+        return heard
     thesis = world_name.startswith("situation")
     lidar = lidar or (THESIS_LIDAR if thesis else RPLIDAR_A2)
     robot = robot or (THESIS_ROBOT if thesis else ROBOT)
@@ -233,4 +238,5 @@ POLYGON_RUNS = {"polygon": POLYGON_TRUE_STEPS, "polygon-wrong": POLYGON_WRONG_ST
 LANDMARKS = "landmarks"
 SNAGGED = "arena-snagged"
 ARENA = "arena", SNAGGED
-NAMES = (*TOURS, *POLYGON_RUNS, LANDMARKS, *ARENA)
+ROOM_BY_SOUND = "room-ultrasonic"
+NAMES = (*TOURS, ROOM_BY_SOUND, *POLYGON_RUNS, LANDMARKS, *ARENA)

@@ -1,6 +1,9 @@
 """Monte Carlo studies: tables of many runs; each module is a command that writes one.
 
 - ``consistency`` (with ``ideal_filter``): NEES of EKF-SLAM; ``boxes``: BOR's guarantee
-- ``walls``: Smolec's SLAM by its parts; ``three`` (with ``three_costs``): BOR, MAK, Monte Carlo
-- ``arena_logs``: the six data sets as files; ``study_command``: what the commands share
+- ``walls``: Smolec's SLAM by its parts; ``feet``: his listing, and what its verdict hangs on
+- ``three``: BOR, MAK, Monte Carlo, with ``three_records`` of each drive, ``three_rows`` of its
+  table, ``three_costs``
+- ``arena_logs``: the six data sets as files; ``paired_statistics``, ``study_command``: what they
+  share
 """

@@ -9,6 +9,7 @@ import numpy as np
 
 from slamlab.estimators.base import Estimator
 from slamlab.estimators.dead_reckoning import DeadReckoning
+from slamlab.estimators.foot_mends import MENDS
 from slamlab.estimators.foot_slam import FootSlam
 from slamlab.estimators.wall_slam import WallSlam
 from slamlab.evaluation import band, nees
@@ -26,11 +27,27 @@ BURN_IN = 10  # steps left out, until the pose's covariance, zero at first, can 
 VARIANTS = {
     "true poses": lambda source, rng: TruePoses(source.truth),
     "odometry": lambda source, rng: DeadReckoning(),
-    "feet, thesis' lines": lambda s, rng: FootSlam(s.robot, s.sensor, rng, THESIS),
-    "feet, grown lines": lambda s, rng: FootSlam(s.robot, s.sensor, rng, Ransac()),
+    "feet, thesis' lines": lambda s, rng: feet(s, rng, THESIS),
+    "feet, grown lines": lambda s, rng: feet(s, rng, Ransac()),
     "(ρ, α), standard": lambda s, rng: WallSlam(s.robot, s.sensor, rng, first_estimates=False),
     "(ρ, α), first estimates": lambda s, rng: WallSlam(s.robot, s.sensor, rng),
 }
+
+
+def feet(source, rng, ransac):
+    """Make an EKF-SLAM estimator on feet of walls with every mend, so that only the foot is wrong.
+
+    Parameters
+    ----------
+    source : Source
+    rng : numpy.random.Generator
+    ransac : Ransac
+
+    Returns
+    -------
+    FootSlam
+    """
+    return FootSlam(source.robot, source.sensor, rng, ransac, mends=MENDS)
 
 
 class TruePoses(Estimator):

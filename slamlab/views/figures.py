@@ -23,6 +23,7 @@ COLOURS = {
     "box": "#56B4E9",
     "sample": "#CC79A7",
     "guide": "#BBBBBB",
+    "perpendicular": "#BBBBBB",
 }
 
 DPI = 80  # resolution [pixels/inch]

@@ -14,6 +14,7 @@ from slamlab.views.figures import COLOURS, panels
 # 95 % of a Gaussian in the plane lies within this Mahalanobis distance: √χ²(0.95, 2)
 SIGMAS_95 = 2.4477
 UNKNOWN_GREY = np.array([0.85, 0.85, 0.85])  # the grey of cells of which nothing is known
+LANDMARK_SIZE = 10.0  # of a marker: landmarks are few among a scan's points
 MAX_CELLS = 400  # cells of a grid in a row; of more a figure would lose some
 # an arrow head that points along +x
 ROBOT_ARROW = Path([(1.0, 0.0), (-0.7, 0.65), (-0.4, 0.0), (-0.7, -0.65), (1.0, 0.0)])
@@ -108,6 +109,8 @@ def _points(ax, layer, style):
     xy = np.asarray(layer.xy, dtype=float).reshape(-1, 2)
     # many points: small, so that what is sharp looks sharp
     size = 1.5 if len(xy) > 2000 else 3.0
+    if layer.name == "landmark":
+        size = LANDMARK_SIZE
     return ax.plot(
         *xy.T, **({"linestyle": "none", "marker": ".", "markersize": size, "mew": 0} | style)
     )

@@ -7,7 +7,7 @@ import pytest
 from slamlab.exercises.task import IDLE
 from tests.bank import harness
 
-SEEDS = int(os.environ.get("SLAMLAB_BANK_SEEDS", "20"))
+SEEDS = int(os.environ.get("SLAMLAB_BANK_SEEDS", "5"))  # make soak: many more
 BANKS = {id: harness.load(id) for id in harness.banked()}
 ENTRIES = [
     pytest.param(id, entry, id=f"{id}-{type(entry).__name__.lower()}-{entry.name}")

@@ -217,3 +217,20 @@ def test_the_headings_interval_holds_over_the_seam_when_given_so():
     bor = BOR(POINT, (3.0, 3.5))
     assert contains(bor.heading, -3.0)
     assert np.isclose(bor.pose[2], 3.25 - 2 * np.pi)
+
+
+def test_restricted_by_what_is_known_otherwise_a_box_is_what_both_have_in_common():
+    bor = BOR((0, 2, 0, 2), (-0.5, 0.5))
+    bor.restrict((1, 3, -1, 1), (0.2 - 2 * np.pi, 0.9 - 2 * np.pi))  # whole turns do not matter
+    np.testing.assert_allclose(bor.robot, (1, 2, 0, 1))
+    np.testing.assert_allclose(bor.heading, (0.2, 0.5))
+
+
+@pytest.mark.parametrize(
+    ("robot", "heading"), [((3, 4, 0, 2), (-0.5, 0.5)), ((0, 2, 0, 2), (1.0, 2.0))]
+)
+def test_what_has_nothing_in_common_is_an_error_and_changes_nothing(robot, heading):
+    bor = BOR((0, 2, 0, 2), (-0.5, 0.5))
+    with pytest.raises(EmptyIntersection):
+        bor.restrict(robot, heading)
+    np.testing.assert_allclose([*bor.robot, *bor.heading], (0, 2, 0, 2, -0.5, 0.5))

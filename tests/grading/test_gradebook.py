@@ -147,10 +147,11 @@ def test_a_database_that_cannot_be_opened_is_told_in_one_line(url):
 
 @pytest.mark.slow
 @pytest.mark.skipif(os.name != "posix", reason="signals of POSIX")
-def test_a_grader_killed_at_any_moment_loses_nothing_and_doubles_nothing(tmp_path):
+@pytest.mark.parametrize("kills", [4, pytest.param(20, marks=pytest.mark.soak)])
+def test_a_grader_killed_at_any_moment_loses_nothing_and_doubles_nothing(tmp_path, kills):
     folder, out = tmp_path / "class", tmp_path / "out"
     folder.mkdir()
-    names = [f"s{i:02}_04.ipynb" for i in range(60)]
+    names = [f"s{i:02}_04.ipynb" for i in range(6 * kills)]
     for i, name in enumerate(names):
         (folder / name).write_text(notebook(f"x = {i}", fake.SOLUTION, exercise="04"))
     start = "import sys; from slamlab.cli import main; sys.exit(main())"
@@ -159,7 +160,7 @@ def test_a_grader_killed_at_any_moment_loses_nothing_and_doubles_nothing(tmp_pat
     run = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
     run["env"] = os.environ | {"TMPDIR": str(tmp_path / "temporary")}
     rng, graded = random.Random(9), lambda: len(list(out.glob("feedback/*")))
-    for _ in range(20):
+    for _ in range(kills):
         before = graded()
         grading = subprocess.Popen(command, **run)
         assert comes_true(lambda: graded() > before or grading.poll() is not None)  # noqa: B023

@@ -140,6 +140,15 @@ def test_a_figure_without_text_is_refused():
         views.show(fig, " ")
 
 
+def test_landmarks_stand_out_among_the_points_of_scans():
+    _, ax = views.axes()
+    (points,) = views.draw(ax, Points("scan", [[0, 0]]))
+    (landmark,) = views.draw(ax, Points("landmark", [[0, 0]]))
+    (own,) = views.draw(ax, Points("landmark", [[0, 0]]), markersize=4)
+    assert landmark.get_markersize() > 2 * points.get_markersize()
+    assert own.get_markersize() == 4
+
+
 def test_the_same_figure_is_the_same_bytes():
     def drawn():
         fig, ax = views.axes("map")

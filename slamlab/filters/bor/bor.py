@@ -10,7 +10,7 @@ from math import isfinite
 import numpy as np
 
 from slamlab.filters.argument_checks import vector
-from slamlab.filters.bor.angle_intervals import angle_interval, midpoint
+from slamlab.filters.bor.angle_intervals import angle_interval, hull, intersection, midpoint
 from slamlab.filters.bor.clipping import overlapping_boxes
 from slamlab.filters.bor.contraction import EmptyIntersection, contract
 from slamlab.filters.bor.half_planes import absolute_bearing, edges, landmark_box
@@ -93,6 +93,27 @@ class BOR:
         named = ("distance", distance), ("direction", direction), ("turn", turn)
         motion = [_checked_interval(*interval) for interval in named]
         self._robot, self._heading = predict_box(self._robot, self._heading, *motion)
+
+    def restrict(self, robot, heading):
+        """Intersect the robot's box and heading with bounds that are known otherwise.
+
+        Parameters
+        ----------
+        robot : (4,) x_min, x_max, y_min, y_max [m]
+        heading : (2,) right, left [rad]
+
+        Raises
+        ------
+        EmptyIntersection : nothing was changed
+        ValueError
+        """
+        a, b = self._robot, _checked_box("robot", robot)
+        box = max(a[0], b[0]), min(a[1], b[1]), max(a[2], b[2]), min(a[3], b[3])
+        other = angle_interval(*vector("heading", heading, 2).tolist())
+        pieces = intersection(self._heading, other)
+        if box[0] > box[1] or box[2] > box[3] or not pieces:
+            raise EmptyIntersection("the robot's box lies outside of what is known otherwise")
+        self._robot, self._heading = box, hull(pieces)
 
     def update(self, i, z, bounds):
         """Measurement update by a known landmark: contract its box, the robot's and the heading.
