@@ -23,7 +23,6 @@ from slamlab.layers import Points, Poses, Segments
 from slamlab.posegraph import PoseGraph, edge_error
 from slamlab.readings import Scan, Trajectory
 from slamlab.scanmatching import Surface, match, surface
-from slamlab.scanmatching.common_error import CommonError
 from slamlab.scanmatching.submap import build_submap
 
 MIN_POINTS = 10  # points without which a scan is skipped
@@ -33,6 +32,7 @@ KEYFRAME_OVERLAP = 0.6  # overlap with the submap below which a keyframe comes e
 MIN_OVERLAP, MIN_AGREEMENT = 0.4, 0.65  # of a scan-to-map match inside the odometry's gate [1]
 KIDNAPPED_AGREEMENT = 0.75  # agreement below which the robot may have been carried away [1]
 ODOMETRY_GATE = 16.3  # χ² of 3 degrees of freedom, of a match against the odometry's prediction
+COMMON_NOISE = 0.7  # of the scans' σ: error common to all points, in no match's covariance [1]
 
 
 @dataclass(frozen=True)
@@ -74,7 +74,7 @@ class GraphSlam(Estimator):
             self.relocalisation = Relocalisation(self.loop_closure)
         # the increment since the last keyframe, in its frame, and its covariance
         self._increment, self._P = np.zeros(3), np.zeros((3, 3))
-        self.calibration, self.common_error = OdometryCalibration(robot), CommonError()
+        self.calibration = OdometryCalibration(robot)
         self._submap, self._reach, self._kidnapped = None, 0.0, False
         self._matched, self._thin = 0, 0  # scans with a match, and those on few points
         self.anchors, self._increments, self._naive_poses = [], [], []
@@ -176,8 +176,7 @@ class GraphSlam(Estimator):
         far = np.hypot(*self._increment[:2]) > KEYFRAME_DISTANCE * cloud.reach
         turned = abs(self._increment[2]) > KEYFRAME_TURN
         if far or turned or matched.fit.overlap < KEYFRAME_OVERLAP:
-            matched.add_residuals(self.common_error)
-            C = matched.inflated_covariance(self._errors_in_common())
+            C = matched.inflated_covariance(COMMON_NOISE * cloud.sigma)
             self.calibration.update(matched.pose, C)
             self._add_keyframe(cloud, scan)
 
@@ -201,19 +200,11 @@ class GraphSlam(Estimator):
 
     def _fuse_match(self, matched, cloud):
         """Kalman update of the odometry increment by the match, each with its covariance."""
-        P, C = self._P, matched.inflated_covariance(self._errors_in_common())
+        P, C = self._P, matched.inflated_covariance(COMMON_NOISE * cloud.sigma)
         K = P @ np.linalg.inv(P + C)
         x = self._increment + K @ pose_difference(matched.pose, self._increment)
         self._increment = np.array([x[0], x[1], wrap(float(x[2]))])
         self._P = (P - K @ P + (P - K @ P).T) / 2
-
-    def _errors_in_common(self):
-        """Standard deviation [m] of what a match's points have in common, its covariance beside."""
-        own = self.common_error.of_pose
-        if self.loop_closure is None:
-            return own
-        # neighbours share much of it, such as blur: the residuals of loops show more
-        return max(own, self.loop_closure.common_error.of_pose)
 
     def _add_keyframe(self, cloud, scan, new_track=False):
         """Make a scan a keyframe with an edge to the last one, and the submap anew."""

@@ -75,7 +75,7 @@ class Relocalisation:
         shift = compose(there, inverse(self.graph.poses[i]))
         common = self.loop_closure.common_error
         matched.add_residuals(common)
-        edge = j, i, matched.pose, match_information(matched, common.of_pose)
+        edge = j, i, matched.pose, match_information(matched, common.sigma)
         self._hypotheses.append((self.keyframes[i].track, shift, there, scan.reach, edge))
 
     def _vote(self):

@@ -8,9 +8,6 @@ import numpy as np
 
 SAME_WALL = 0.98  # least cosine between the normals of two points of one wall [1]
 CHANCE = 1.5  # standard deviations of the sum that chance may make [1]
-# error that is left in a pose, as a multiple of what residuals show: the rest a rigid motion took
-# away. On Intel it makes the weights that were found best, in clean simulation nothing
-LEFT_IN_POSE = 1.6
 MAX_RESIDUAL = 3.0  # in kernel widths: a residual beyond it is of another surface [1]
 
 
@@ -60,8 +57,3 @@ class CommonError:
         """Standard deviation [m]; 0 where the residuals show none beyond chance."""
         shown = self._sum - CHANCE * np.sqrt(self._squares)
         return float(np.sqrt(max(shown, 0.0) / max(self._count, 1)))
-
-    @property
-    def of_pose(self):
-        """Standard deviation of the errors in common that a matched pose holds [m]."""
-        return LEFT_IN_POSE * self.sigma
