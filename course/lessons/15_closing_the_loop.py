@@ -625,7 +625,7 @@ for gate, wrong in gates.items():
     print(f"{gate:>35}: {len(wrong) - sum(wrong):3d} right, {sum(wrong):3d} wrong")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** most wrong pairs *fit* somewhere, and nearly half of them still pass the strict test: one
+# **See:** most wrong pairs *fit* somewhere, and about half of them still pass the strict test: one
 # corner of a corridor is like another. What refuses them is the last gate: "you cannot have got
 # there". So no single gate is enough: near enough, fits, nothing contradicts, and no surprise.
 
@@ -751,7 +751,7 @@ for count in (1, 5, 20, len(false)):
     print("{:11d}   {:5.2f} m   {:4.2f} m".format(count, *off))
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# One false loop that is trusted moves a room by 6 m; the same one does nothing with robust weights.
+# One false loop that is trusted moves a room by 5 m; the same one does nothing with robust weights.
 # But more of them do break the map, **although** each is robust: they contradict the wheels, not
 # each other, and where liars agree, the honest look like the outliers.
 #
