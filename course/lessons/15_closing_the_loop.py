@@ -614,9 +614,7 @@ gates = {"asked": [], "it fits": [], "all is fixed, nothing contradicts": [], "n
 for (j, i), m in zip(asked, answers, strict=True):
     seen, old = K[i].surface, K[j].surface
     passed = [True, m.good, loops.is_verified(m, seen, old)]
-    passed += [
-        passed[2] and graph.surprise(j, i, m.pose, loops.match_information(m)) < 60
-    ]
+    passed += [passed[2] and graph.surprise(j, i, m.pose, loops.match_information(m)) < 60]
     for gate, through in zip(gates, passed, strict=True):
         gates[gate] += [is_false(j, i, m.pose, true_keys)] * int(through)
 

@@ -7,7 +7,7 @@ little, half of the error in every step; estimated as gains by a Kalman filter i
 import numpy as np
 
 from slamlab.estimators import odometry_drift
-from slamlab.geometry import compose, wrap
+from slamlab.geometry import wrap
 
 GATE = 16.3  # χ² of 3 degrees of freedom, of a match against the calibrated odometry
 MIN_SIGMA = 0.03  # first σ of a gain at least, also of wheels said to be exact [1, 1, rad/m]
