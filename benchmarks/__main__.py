@@ -7,7 +7,7 @@ import sys
 import benchmarks
 from benchmarks.common import main
 
-SHARED = {"common", "icp_peers", "__main__"}
+SHARED = {"common", "corrected_logs", "icp_peers", "__main__"}  # and what needs a folder
 
 
 def found():

@@ -244,7 +244,7 @@ def test_a_loops_information_is_that_of_its_match_seen_from_where_it_leads():
     matched = match(new, old, turn)
     along, across = np.diag(matched.covariance)[:2]
     assert along > 20 * across
-    x, y = np.diag(match_information(matched, new, old))[:2]
+    x, y = np.diag(match_information(matched))[:2]
     assert x > 2 * y  # the one that looks across the corridor is sure of what lies ahead
 
 

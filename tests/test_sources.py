@@ -295,3 +295,19 @@ def test_a_recording_that_is_not_here_says_what_it_is(tmp_path, monkeypatch):
 def test_an_unknown_simulation_is_named_with_those_there_are():
     with pytest.raises(SourceError, match="polygon-wrong"):
         sources.open("sim:atlantis")
+
+
+def test_ranges_where_nothing_came_back_are_told_by_their_number_at_the_end_of_the_range(tmp_path):
+    rng, path = np.random.default_rng(0), tmp_path / "log"
+    far = [np.where(np.arange(180) < 30, 51.15, rng.uniform(1, 30, 180)) for _ in range(5)]
+    path.write_text("\n".join(flaser(i, ranges) for i, ranges in enumerate(far)) + "\n")
+    with sources.open(path) as log:
+        assert [int(r.scan.valid.sum()) for r in log] == [150] * 5
+        assert log.sensor.range_max < 51.15
+
+
+def test_a_wall_far_away_is_no_end_of_the_range(tmp_path):
+    path = tmp_path / "log"
+    path.write_text("\n".join(flaser(i, np.full(180, 20.0)) for i in range(5)) + "\n")
+    with sources.open(path) as log:
+        assert all(r.scan.valid.all() for r in log)

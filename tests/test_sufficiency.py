@@ -30,6 +30,7 @@ def told(name, source, steps=None, **options):
     ("name", "says"),
     [
         ("icp", "most matches rest on under 60 points"),
+        ("graph", "most matches rest on under 60 points"),
         ("walls", "hardly surer than by odometry alone"),
         ("mak", "hardly surer than by odometry alone"),
     ],
@@ -80,7 +81,7 @@ def test_samples_in_the_arena_say_nothing(name):
 
 
 @pytest.mark.parametrize("world", ["room", "situation-2"])
-@pytest.mark.parametrize("name", ["icp", "walls", "mak"])
+@pytest.mark.parametrize("name", ["icp", "graph", "walls", "mak"])
 def test_where_a_lidar_sees_a_room_nobody_says_anything(name, world):
     assert told(name, simulation(world, np.random.default_rng(1))) == ""
 
@@ -92,7 +93,7 @@ def test_what_sees_enough_corners_or_walls_again_says_nothing(name, world):
     assert told(name, simulation(world, np.random.default_rng(1))) == ""
 
 
-@pytest.mark.parametrize("name", ["icp", "walls", "mak"])
+@pytest.mark.parametrize("name", ["icp", "graph", "walls", "mak"])
 def test_on_the_intel_log_nobody_says_anything(name):
     try:
         path = sources.recording("intel")

@@ -214,15 +214,15 @@ check("12-interval")
 
 # %% [markdown]
 # **Before you run it:** the thesis lost one run in six. Between which shares may the true one lie?
-# And what would 33 in 200 say?
+# And what would 13 in 80 say?
 
 
 # %% name="one-in-six"
 @attempt
 def _():
-    for k, n in ((1, 6), (0, 6), (33, 200)):
+    for k, n in ((1, 6), (0, 6), (13, 80)):
         low, high = interval(k, n)
-        print(f"{k:2} of {n:3}: {k / n:4.0%}, truly {low:.0%} to {high:.0%}")
+        print(f"{k:2} of {n:2}: {k / n:4.0%}, truly {low:.0%} to {high:.0%}")
 
 
 # %% [markdown]

@@ -27,7 +27,6 @@ import sympy as sp
 from IPython.display import Markdown
 
 from slamlab import estimators, models, views
-from slamlab.estimators import MENDS, DeadReckoning, FootSlam
 from slamlab.estimators.mak_slam import Q_arc
 from slamlab.estimators.wall_merging import ends_of, pieces_of_one_wall
 from slamlab.estimators.wall_slam import AMBIGUITY_GATE, GATE, WallSlam
@@ -798,7 +797,7 @@ Markdown("\n".join(rows))
 
 # %% slideshow={"slide_type": "slide"} tags=["nbval-check-output"]
 rows = ["| mend | printed | mended |", "|---" * 3 + "|"]
-rows += [f"| {name} | {mend.printed} | {mend.mended} |" for name, mend in MENDS.items()]
+rows += [f"| {name} | {mend.printed} | {mend.mended} |" for name, mend in estimators.MENDS.items()]
 Markdown("\n".join(rows))
 
 # %% [markdown] slideshow={"slide_type": "slide"}
@@ -811,8 +810,8 @@ def listing(situation, steps, beams=400, **options):
     """The listing after the first steps of a drive, odometry, and the true poses."""
     lidar = replace(THESIS_LIDAR, beams=beams)
     source = simulation(situation, np.random.default_rng(1), lidar=lidar)
-    slam = FootSlam(source.robot, source.sensor, np.random.default_rng(1), **options)
-    alone = DeadReckoning()
+    slam = estimators.FootSlam(source.robot, source.sensor, np.random.default_rng(1), **options)
+    alone = estimators.DeadReckoning()
     for reading in list(source)[:steps]:
         slam.step(reading)
         alone.step(reading)
@@ -843,7 +842,7 @@ pictures = {
 }
 fig, all_axes = views.panels(list(pictures), (11, 4.2), shared=False)
 for ax, (situation, steps, beams) in zip(all_axes, pictures.values(), strict=True):
-    as_he_draws(ax, listing(situation, steps, beams, mends=MENDS)[0])
+    as_he_draws(ax, listing(situation, steps, beams, mends=estimators.MENDS)[0])
 views.legend(all_axes[1], loc="lower right", fontsize="small")
 views.show(
     fig,
@@ -862,7 +861,7 @@ views.show(
 # Now the same 60 scans with no mend and with all of them.
 
 # %% slideshow={"slide_type": "fragment"}
-runs = {"as printed": (), "all mends": MENDS}
+runs = {"as printed": (), "all mends": estimators.MENDS}
 fig, all_axes = views.panels(list(runs), (9.5, 4.2), shared=False)
 for ax, mends in zip(all_axes, runs.values(), strict=True):
     as_he_draws(ax, listing("situation-2", 60, mends=mends)[0])
@@ -902,7 +901,7 @@ def more(row):
 
 rows = ["| left out | what the print does | error | more than with all |", "|---" * 4 + "|"]
 for name, row in feet_study["left_out"].items():
-    told = (MENDS[name].harm, more(row)) if name in MENDS else ("", "")
+    told = (estimators.MENDS[name].harm, more(row)) if name in estimators.MENDS else ("", "")
     rows.append(f"| {name} | {told[0]} | {100 * row['rms_m']:.0f} cm | {told[1]} |")
 Markdown("\n".join(rows))
 
@@ -956,7 +955,7 @@ Markdown("\n".join(rows))
 def constants(sightings, lives, offset_in_m, tolerance_in_mm, beams, as_printed):
     slam, alone, true = listing(
         *("situation-2", 60, beams),
-        mends=() if as_printed else MENDS,
+        mends=() if as_printed else estimators.MENDS,
         ransac=replace(THESIS, band=tolerance_in_mm / 1000),
         **{"sightings": sightings, "lives": lives, "offset": offset_in_m},
     )

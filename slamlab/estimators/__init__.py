@@ -11,7 +11,7 @@ Read in this order:
 - ``bor_slam``: boxes (set membership); ``montecarlo_slam``: particles, FastSLAM; both take the
   names of corners from ``corner_names``
 - ``icp_slam``: scan matching; ``graph_slam``: with keyframes, submaps and a pose graph,
-  ``odometry_drift``, ``loop_closure`` and ``relocalisation``
+  ``odometry_drift``, ``odometry_calibration``, ``loop_closure`` and ``relocalisation``
 - ``timestamps``: anomalies of a log's clock; ``sufficiency``: who works on too little says so
 """
 

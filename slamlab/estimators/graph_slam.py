@@ -15,7 +15,9 @@ from slamlab.estimators import odometry_drift
 from slamlab.estimators.base import Estimator
 from slamlab.estimators.icp_slam import concatenated
 from slamlab.estimators.loop_closure import LoopClosure, pose_difference
+from slamlab.estimators.odometry_calibration import OdometryCalibration
 from slamlab.estimators.relocalisation import Relocalisation
+from slamlab.estimators.sufficiency import THIN, thin_matches
 from slamlab.geometry import between, compose, transform, wrap
 from slamlab.layers import Points, Poses, Segments
 from slamlab.posegraph import PoseGraph, edge_error
@@ -58,7 +60,8 @@ class GraphSlam(Estimator):
     loops : bool, whether loops are closed and the robot is relocalised
 
     ``graph`` and ``keyframes`` are its map, ``anchors`` the keyframe of each reading (−1 before
-    the first), ``counts`` the events: loops closed, loop candidates rejected, relocalisations.
+    the first), ``counts`` the events: loops closed, loop candidates rejected, relocalisations;
+    ``calibration`` holds the gains of the odometry, learned on the way.
     """
 
     def __init__(self, robot, loops=True):
@@ -71,7 +74,9 @@ class GraphSlam(Estimator):
             self.relocalisation = Relocalisation(self.loop_closure)
         # the increment since the last keyframe, in its frame, and its covariance
         self._increment, self._P = np.zeros(3), np.zeros((3, 3))
+        self.calibration = OdometryCalibration(robot)
         self._submap, self._reach, self._kidnapped = None, 0.0, False
+        self._matched, self._thin = 0, 0  # scans with a match, and those on few points
         self.anchors, self._increments, self._naive_poses = [], [], []
 
     def step(self, reading):
@@ -109,6 +114,11 @@ class GraphSlam(Estimator):
         poses[anchors < 0] = increments[anchors < 0]
         return Trajectory(np.array(self._times), poses)
 
+    @property
+    def warnings(self):
+        """What it says where it matches on too little: list of sentences."""
+        return thin_matches(self._thin, self._matched, self.counts["scans not matched"])
+
     def layers(self):
         """Naive (odometry alone) and corrected map and trajectory, and the loop closures."""
         poses, shown = self.graph.poses, self.trajectory().poses
@@ -143,8 +153,10 @@ class GraphSlam(Estimator):
             self.counts["odometry increments not finite"] += 1
             odometry = np.zeros(3)
         self.naive_pose = compose(self.naive_pose, odometry)
+        calibrated = self.calibration.corrected(odometry)
+        self.calibration.predict(odometry, self._reach)
         self._increment, self._P = odometry_drift.predict(
-            self._increment, self._P, odometry, self.robot, self._reach
+            self._increment, self._P, calibrated, self.robot, self._reach
         )
 
     def _match_scan(self, cloud, scan):
@@ -155,14 +167,18 @@ class GraphSlam(Estimator):
         matched = self._scan_to_map(cloud)
         if matched is None:  # an edge by odometry alone; a new track where that may be wrong
             self.counts["scans not matched"] += 1
-            P = self._P + odometry_drift.unmodelled_covariance(self._increment, cloud.reach)
-            self._add_keyframe(cloud, scan, P, self._kidnapped)
+            self._P = self._P + odometry_drift.unmodelled_covariance(self._increment, cloud.reach)
+            self._add_keyframe(cloud, scan, self._kidnapped)
             return
+        self._matched += 1
+        self._thin += matched.fit.overlap * len(cloud) < THIN
         self._fuse_match(matched, cloud)
         far = np.hypot(*self._increment[:2]) > KEYFRAME_DISTANCE * cloud.reach
         turned = abs(self._increment[2]) > KEYFRAME_TURN
         if far or turned or matched.fit.overlap < KEYFRAME_OVERLAP:
-            self._add_keyframe(cloud, scan, self._P)
+            C = matched.inflated_covariance(COMMON_NOISE * cloud.sigma)
+            self.calibration.update(matched.pose, C)
+            self._add_keyframe(cloud, scan)
 
     def _scan_to_map(self, cloud):
         """Scan-to-map matching, at last by correlative search; None where none passes the gates."""
@@ -190,18 +206,16 @@ class GraphSlam(Estimator):
         self._increment = np.array([x[0], x[1], wrap(float(x[2]))])
         self._P = (P - K @ P + (P - K @ P).T) / 2
 
-    def _add_keyframe(self, cloud, scan, P=None, new_track=False):
-        """Make a scan a keyframe with an edge to the last one, and the submap anew.
-
-        P is the covariance of the increment, in the last keyframe's frame.
-        """
+    def _add_keyframe(self, cloud, scan, new_track=False):
+        """Make a scan a keyframe with an edge to the last one, and the submap anew."""
         track = self.keyframes[-1].track + int(new_track) if self.keyframes else 0
         i = self.graph.add_pose(compose(self._last_keyframe_pose(), self._increment))
         if i:
-            information = edge_error.information(self._increment, P)
+            information = edge_error.information(self._increment, self._P)
             self.graph.add_edge(i - 1, i, self._increment, information)
         self.keyframes.append(Keyframe(cloud, scan, track))
         self._increment, self._P, self._reach = np.zeros(3), np.zeros((3, 3)), cloud.reach
+        self.calibration.restart()
         poses = self.graph.poses
         recent = range(i, max(-1, i - SUBMAP_SIZE), -1)
         recent = [k for k in recent if self.keyframes[k].track == track]

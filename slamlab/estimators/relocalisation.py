@@ -73,7 +73,9 @@ class Relocalisation:
         there = compose(self.graph.poses[j], matched.pose)
         # the motion that would bring the whole track there
         shift = compose(there, inverse(self.graph.poses[i]))
-        edge = j, i, matched.pose, match_information(matched, scan, old)
+        common = self.loop_closure.common_error
+        matched.add_residuals(common)
+        edge = j, i, matched.pose, match_information(matched, common.sigma)
         self._hypotheses.append((self.keyframes[i].track, shift, there, scan.reach, edge))
 
     def _vote(self):

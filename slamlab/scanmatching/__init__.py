@@ -6,6 +6,7 @@ Read in this order:
 - ``matcher``: match, the one that the SLAMs use, a step each in:
   ``surfaces`` (with ``local_line_fits``, ``neighbourhoods``, ``normals``), ``correlative_search``,
   ``correspondences``, ``registration``, ``match_covariance`` (degenerate directions),
+  ``common_error``,
   ``match_quality``
 - ``submap``: several scans as one, to match the next with; ``match_result``: what comes back
 """

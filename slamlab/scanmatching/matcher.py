@@ -66,6 +66,11 @@ class Alignment(Match):
         common = (seen.directions * common) @ seen.directions.T
         return self.covariance + common * scale * scale[:, None]
 
+    def add_residuals(self, common_error):
+        """Add the residuals at this pose to a CommonError."""
+        source, _, pairs, kernel_width = self._solution
+        common_error.add(source, pairs, kernel_width)
+
     @cached_property
     def observability(self) -> Observability:
         """Observability of the pose: its degenerate (under-constrained) directions."""

@@ -15,6 +15,9 @@ from slamlab.sources.log_file import LogFile
 
 RANGE_MAX = 80.0  # [m]; a SICK LMS reports 81.83 or 81.91 m where nothing came back
 MAX_ODOMETRY = 1e7  # no robot's odometry is beyond this [m]
+SATURATION_BAND = 0.995  # share of the greatest range from which ranges are no returns [1]
+MIN_SATURATED, SATURATION_RATIO = 20, 5.0  # at least so many, and so many times those below [1]
+SATURATION_DISTANCE = 3.0  # times the median of the others, or it is a wall [1]
 ANGLE_INCREMENTS = {180: 1.0, 181: 1.0, 360: 0.5, 361: 0.5, 400: 0.25, 401: 0.25}
 """Angle increment from beam to beam, by number of beams [degree]."""
 
@@ -35,6 +38,7 @@ class CarmenLog(LogFile):
         backwards = np.diff([stamp for stamp, _, _ in self._rows]) < 0
         if backwards.any():
             self.damage["stamps that run backwards"] += int(backwards.sum())
+        self._range_max = saturation([row[2] for row in self._rows], self._range_max)
         self.sensor = SensorModel(
             range_max=self._range_max, field_of_view=np.pi, range_sigma=0.01, range_error=0.0
         )
@@ -72,6 +76,34 @@ class CarmenLog(LogFile):
             self.damage["ranges NaN, infinite or negative"] += int(unusable.sum())
             row[2][unusable] = np.nan
         self._rows.append(row)
+
+
+def saturation(scans, range_max):
+    """The range a scanner reports where nothing came back, where the log shows one.
+
+    Scanners set otherwise than Intel's report 50, 51.15 or 32.76 m and no setting says so. Taken
+    for walls they go along with the robot. They are told by their number at the end of the range.
+
+    Parameters
+    ----------
+    scans : list of (n,) ranges [m]
+    range_max : float, from which a range is no return in any case [m]
+
+    Returns
+    -------
+    float, range_max or less [m]
+    """
+    ranges = np.concatenate(scans)
+    ranges = ranges[ranges < range_max]
+    if len(ranges) == 0:
+        return range_max
+    top = ranges.max()
+    limit = SATURATION_BAND * top
+    rest = ranges[ranges < limit]
+    if len(rest) == 0 or top < SATURATION_DISTANCE * np.median(rest):
+        return range_max
+    saturated, below = len(ranges) - len(rest), np.count_nonzero(rest >= 0.9 * top)
+    return limit if saturated > max(MIN_SATURATED, SATURATION_RATIO * below) else range_max
 
 
 def parse_flaser(words, complete):
