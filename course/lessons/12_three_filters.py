@@ -366,9 +366,9 @@ for opening in (plain, {}):
         print(f"{100 * one.errors[-1]:4.1f} cm off at the end")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# One false pairing turns the map, and then the next ones come by themselves. Here the opening is
-# the cure. R is doubled for the rare sighting that is no corner, which does little on this drive.
-# The package does both.
+# One false pairing turns the map, and then the next ones come by themselves. Here neither cure is
+# enough alone: the opening keeps unlike corners apart, and R is doubled for the rare sighting that
+# is no corner. The package does both.
 #
 # An EKF-SLAM knows best how sure pose and map are of each other. So one of them, run beside,
 # **names** the corners, and box and samples take the names. The switch `names="own"` leaves it to
@@ -408,7 +408,7 @@ Markdown("\n".join([head, "|---" * 7, *rows_of]))
 # With names of its own the honest box is no longer honest: a wrong name is an error that no bound
 # allows for. Monte Carlo makes two corners out of one, wide boxes make one out of two. With MAK's
 # names all have the same map, and each of the four ends nearer to the truth in the median and is
-# lost less often. In two of the eighty drives MAK itself mistakes a corner.
+# lost less often. In one of the eighty drives MAK itself mistakes a corner.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Box, ellipse, samples
@@ -583,7 +583,7 @@ head = ["| set | " + " | ".join(names), "|---" * (len(names) + 1)]
 Markdown("Position off by [cm], root mean square over the drive:\n\n" + "\n".join(head + rows))
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** in the last line all but `walls` are far off, and yet only one is *lost* by our
+# **See:** in the last line all but `walls` are far off, and yet only two are *lost* by our
 # definition: three laps end near the start, about which a wrong heading turns the whole way. The
 # position at the end of a round trip tells little; a definition always has such a corner.
 #
