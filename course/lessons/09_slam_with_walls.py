@@ -1274,9 +1274,14 @@ by_ray = rho / np.cos(fine - alpha)
 by_cone = rho / np.cos(np.maximum(np.abs(fine - alpha) - half_cone, 0))
 
 # %% slideshow={"slide_type": "fragment"}
-fig, ax = views.chart("direction β of the beam [°]", "range [m]", "One wall by sound", (6.4, 3.4))
-ax.plot(np.degrees(fine), by_ray, "--", color=views.COLOURS["naive"], label="a ray: ρ / cos(β − α)")
-ax.plot(np.degrees(fine), by_cone, color=views.COLOURS["corrected"], label="a cone")
+fig, ax = views.curves(
+    np.degrees(fine),
+    {"a ray: ρ / cos(β − α)": by_ray, "a cone": by_cone},
+    "direction β of the beam [°]",
+    "range [m]",
+    "One wall by sound",
+    (6.4, 3.4),
+)
 ax.plot(np.degrees(heard.angles), heard.ranges, "o", color=views.COLOURS["truth"], label="readings")
 ax.set(xlim=(-45, 75), ylim=(1.3, 2.6))
 views.legend(ax)
