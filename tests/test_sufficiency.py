@@ -115,11 +115,11 @@ def test_a_run_says_it_on_the_terminal_and_in_its_summary(tmp_path, capsys):
 def test_of_a_few_steps_nothing_is_said():
     unsure = MAK(np.zeros(3), np.eye(3))
     assert thin_matches(19, 19, 0) == mostly_unknown(19, 19) == []
-    assert hardly_surer(unsure, unsure, 19) == []
-    assert len(hardly_surer(unsure, unsure, 20)) == len(mostly_unknown(7, 20)) == 1
+    assert hardly_surer(unsure.block([0, 1]), unsure, 19) == []
+    assert len(hardly_surer(unsure.block([0, 1]), unsure, 20)) == len(mostly_unknown(7, 20)) == 1
     assert len(thin_matches(11, 20, 0)) == 1 and "no match" in thin_matches(0, 9, 11)[0]
 
 
 def test_a_robot_whose_odometry_is_perfect_is_not_blamed_for_a_map_that_helps_nothing():
     sure = MAK(np.zeros(3), np.zeros((3, 3)))
-    assert hardly_surer(sure, sure, 100) == []
+    assert hardly_surer(sure.block([0, 1]), sure, 100) == []

@@ -5,8 +5,6 @@
 
 import numpy as np
 
-from slamlab.filters.mak import MAK
-
 MIN_STEPS = 20  # matches or scans before which nothing is said: all begins with little
 THIN = 60  # points of a match; on fewer scan matching drifts more than wheels do
 SURER = 0.5  # share of odometry's own standard deviation above which a map helps little
@@ -42,7 +40,7 @@ def hardly_surer(P, alone, scans):
 
     Parameters
     ----------
-    P : (3, 3) covariance of the pose as the filter believes it, or the MAK that does
+    P : (3, 3) or (2, 2) covariance of the pose or place, as the filter believes it [m², rad²]
     alone : MAK without landmarks, predicted by the same odometry
     scans : int, readings with something in them so far
 
@@ -50,7 +48,6 @@ def hardly_surer(P, alone, scans):
     -------
     list of str
     """
-    P = P.block([0, 1]) if isinstance(P, MAK) else P
     corrected, naive = (np.sqrt(np.trace(each[:2, :2])) for each in (P, alone.block([0, 1])))
     if scans < MIN_STEPS or corrected <= SURER * naive:
         return []

@@ -103,7 +103,7 @@ class WallSlam(Estimator):
     def warnings(self):
         """What it says where it sees too little, or too little again: list of sentences."""
         return [
-            *hardly_surer(self.filter, self._alone, self._scans),
+            *hardly_surer(self.filter.block([0, 1]), self._alone, self._scans),
             *mostly_unknown(self.counts[ONLY_NEW], self._scans),
             *self.relocalisation.warnings,
         ]
