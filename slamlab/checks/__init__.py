@@ -1,8 +1,8 @@
-"""Checks of the exercises, for notebooks: ``check("04-h-robot")``, ``attempt`` and ``validate``.
+"""Checks of the exercises, for notebooks: ``check("04-h-robot")``, ``hint``, ``attempt``, ``validate``.
 
 Read in this order:
 
-- here: check, attempt, validate; ``time_limit``: their timeout
+- here: check, hint, attempt, validate; ``time_limit``: their timeout; ``ladder``: what hint says
 - ``validation``: a whole notebook judged as grading judges it
 - ``setup_check``: whether this machine has what the course needs
 """
@@ -11,9 +11,6 @@ import os
 import sys
 
 from slamlab.exercises.drives import describe
-
-OPEN_SEED = b"open"
-"""The open seed: inputs in a notebook are the same at every check; grading has a secret seed."""
 
 
 def check(task_id):
@@ -31,6 +28,29 @@ def check(task_id):
     points = _check(task_id, namespace)
     # nbgrader gives full marks to a check cell that neither raises nor has a value
     return points if "NBGRADER_EXECUTION" in os.environ else None
+
+
+def hint(task_id):
+    """Print a hint on a task, at each call one rung further: a question, then a step on the way.
+
+    Parameters
+    ----------
+    task_id : str such as "04-h-robot"
+    """
+    if "NBGRADER_EXECUTION" in os.environ:  # a grader has no use for it
+        return
+    from slamlab.checks import ladder, time_limit
+
+    task = _task(task_id)
+    if task is None:
+        return
+    with time_limit.capture_output():
+        try:
+            with time_limit.time_limit(3 * task.drive.seconds):
+                said = ladder.next_rung(task, sys._getframe(1).f_globals)
+        except time_limit.TimeLimitExceeded:
+            said = f"still running after {3 * task.drive.seconds:g} s: does a loop ever end?"
+    print(said)
 
 
 def validate():
@@ -64,38 +84,51 @@ def attempt(function):
     return None
 
 
-def _check(task_id, namespace):
+def _task(task_id):
+    """The task of an id; None, and said so, where there is none."""
     # imported late: a notebook that only attempts needs no laws
-    from slamlab.exercises import catalogue, report
+    from slamlab.exercises import catalogue
 
     try:
-        exercise = catalogue.exercise(str(task_id)[:2])
-        task = catalogue.task(task_id)
+        return catalogue.task(task_id)
     except KeyError as error:
         print(f"✗ {error.args[0]}")
+        return None
+
+
+def _check(task_id, namespace):
+    from slamlab.exercises import catalogue, report
+
+    task = _task(task_id)
+    if task is None:
         return 0.0
     printed = {}
 
     def judge_one(one):
-        verdict, printed[one.id] = _run(one, namespace)
+        verdict, printed[one.id] = _run(one, namespace, tell=one is task)
         return verdict
 
+    exercise = catalogue.exercise(task.id[:2])
     verdict = exercise.verdicts(judge_one, only=[task.id])[task.id]
     if printed.get(task.id):
         print(f"your code printed:\n{printed[task.id]}\n")
-    print(report.format_verdict(task, verdict))
+    print(report.coloured(report.format_verdict(task, verdict)))
+    if verdict.laws and not verdict.full:
+        print(f'    hint("{task.id}") asks a question that leads on.')
     return float(min(verdict.points, task.points))
 
 
-def _run(task, namespace):
+def _run(task, namespace, tell):
     from slamlab.checks import time_limit
+    from slamlab.exercises.run import run
+    from slamlab.exercises.task import OPEN_SEED
 
     if not time_limit.can_limit_time():
         print("no time limit can be set here: should the check hang, interrupt the kernel")
     with time_limit.capture_output() as printed:
         try:
             with time_limit.time_limit(task.drive.seconds):
-                verdict = task.run(namespace, task.draw(OPEN_SEED))
+                verdict = run(task, namespace, task.draw(OPEN_SEED), tell)
             if verdict.kind == "missing":
                 verdict = task.failed("missing", f"{verdict.problem} yet: run the cell above")
         except time_limit.TimeLimitExceeded:

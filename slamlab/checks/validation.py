@@ -5,8 +5,8 @@ import textwrap
 from datetime import datetime
 from pathlib import Path
 
-from slamlab.checks import OPEN_SEED
-from slamlab.exercises.report import WIDTH, format_verdict, number, points
+from slamlab.exercises.report import WIDTH, coloured, format_verdict, number, points
+from slamlab.exercises.task import OPEN_SEED
 from slamlab.grading import judge, preflight, submissions
 from slamlab.grading.submissions import Submission, SubmissionError
 from slamlab.grading.worker_pool import WorkerPool, WorkerStartError
@@ -48,7 +48,7 @@ def validate(path, default=None) -> bool:
     for remark in preflight.form_warnings(notebook.cells, result["cells"], exercise, wall):
         print(textwrap.fill(remark, WIDTH, subsequent_indent="    "))
     for task, verdict in zip(exercise.tasks, result["verdicts"], strict=True):
-        print(format_verdict(task, verdict))
+        print(coloured(format_verdict(task, verdict)))
     earned = sum(verdict.points for verdict in result["verdicts"])
     print(f"{number(earned)} of {points(exercise.points)}")
     return all(verdict.full for verdict in result["verdicts"])

@@ -2,7 +2,10 @@
 
 Read in this order:
 
-- ``task``: Task, Law, Diagnosis; ``verdict``: what was found; ``report``: how it is said
+- ``law``: Law, Diagnosis; ``task``: Task, Probe, their judging; ``outputs``: what may be judged
+- ``run``: a task run and told; ``verdict``: what was found; ``report``: how it is said
+- ``cases``: the smallest input on which a law fails; ``case_text``: how it is shown
+- ``fingerprints``: mistakes recognised by what they compute; ``families``: those without a name
 - ``exercise``: Exercise, the tasks of one notebook; ``catalogue``: all exercises by number
 - ``tasks``: inputs and laws, ``exNN_topic`` a task, ``exNN`` an exercise (the judge's side)
 - ``drives``: how a student's functions are called (the worker's side, which holds no answers)

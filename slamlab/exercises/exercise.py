@@ -72,7 +72,7 @@ class Exercise:
         for task in self.tasks:
             if task.id not in wanted:
                 continue
-            unsolved = [need for need in task.needs if not found[need].full]
+            unsolved = [need for need in task.needs if not found[need].solved]
             if unsolved:
                 names = " and ".join(unsolved)
                 found[task.id] = task.failed("needs", f"needs {names}, which must be solved first")

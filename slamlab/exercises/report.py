@@ -1,11 +1,16 @@
-"""Report a verdict to a student in plain text: laws, points, hint."""
+"""Report a verdict to a student: laws, points, the smallest failing case, hint."""
 
+import os
+import sys
 import textwrap
 
+from slamlab.exercises.drives.input_sets import MAIN
 from slamlab.exercises.task import Task
 from slamlab.exercises.verdict import Verdict
 
 WIDTH = 96  # of what is said [letters]
+_COLOURS = {"✓": "\x1b[32m", "✗": "\x1b[31m"}
+_PLAIN = "\x1b[0m"
 
 
 def number(points):
@@ -19,7 +24,7 @@ def points(value):
 
 
 def format_verdict(task: Task, verdict: Verdict) -> str:
-    """Format a verdict: law by law, with the hint of the diagnosis (misconception).
+    """Format a verdict: law by law, with the case that fails and the hint of the mistake.
 
     Parameters
     ----------
@@ -36,15 +41,56 @@ def format_verdict(task: Task, verdict: Verdict) -> str:
     if verdict.problem:
         lines.append(f"  {verdict.problem}")
     lines += [f"  {format_law(law)}" for law in verdict.laws]
-    if verdict.hint:
-        lines.append(f"  Hint: {verdict.hint}")
     # JupyterLab breaks longer lines in the middle of a word
-    return "\n".join(textwrap.fill(line, WIDTH, subsequent_indent="    ") for line in lines)
+    lines = [textwrap.fill(line, WIDTH, subsequent_indent="    ") for line in lines]
+    if verdict.case:
+        lines.append(verdict.case)
+    if verdict.hint:
+        hint = textwrap.fill(verdict.hint, WIDTH - 10)
+        lines.append(textwrap.indent(hint, " " * 10).replace(" " * 10, "    Hint: ", 1))
+    return "\n".join(lines)
 
 
 def format_law(law) -> str:
-    """Format the result of one law: what it asks, whether it holds, how many inputs broke it."""
+    """Format the result of one law: what it asks, whether it holds, which inputs broke it."""
     if not law.failed:
         return f"✓ {law.says} ({points(law.points)})"
-    broken = f": broken by {law.failed} of {law.tried} inputs" if law.tried > 1 else ""
-    return f"✗ {law.says}{broken} (0 of {points(law.max_points)})"
+    return f"✗ {law.says}{_broken(law)} (0 of {points(law.max_points)})"
+
+
+def coloured(text, wanted=None) -> str:
+    """Colour the marks ✓ and ✗ of a text where they are shown in colours, by ANSI's codes.
+
+    Parameters
+    ----------
+    text : str
+    wanted : bool or None; None: in a notebook and on a terminal, but where NO_COLOR is set
+    """
+    if wanted is None:
+        wanted = "NO_COLOR" not in os.environ and (_in_notebook() or sys.stdout.isatty())
+    for mark, colour in _COLOURS.items() if wanted else ():
+        text = text.replace(mark, f"{colour}{mark}{_PLAIN}")
+    return text
+
+
+def _broken(law):
+    """Which inputs broke a law, in words."""
+    probes = [name for name in law.where if name != MAIN]
+    parts = []
+    if MAIN in law.where and law.tried - len(probes) > 1:
+        parts.append(f"broken by {law.failed} of {law.tried} inputs")
+    if probes and MAIN in law.where:
+        parts.append(f"such as {probes[0]}")
+    elif probes:
+        also = f" and {len(probes) - 1} more" if len(probes) > 1 else ""
+        parts.append(f"broken with {probes[0]}{also}")
+    why = next((problem for problem in law.where.values() if problem), None)
+    if why:
+        parts.append(why)
+    return f": {', '.join(parts)}" if parts else ""
+
+
+def _in_notebook():
+    # the kernel's own shell, without importing it
+    shell = sys.modules.get("ipykernel.zmqshell")
+    return shell is not None and shell.ZMQInteractiveShell.initialized()

@@ -1,68 +1,60 @@
-"""Task, law and diagnosis: random inputs, a student's functions, property-based tests (laws).
+"""Task: random inputs and probes, a student's functions, and the laws their outputs are judged by.
 
 This is the autograder's side, the judge's. It never sees student code, only the arrays that came out of it.
 """
 
 import hashlib
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
+from slamlab.exercises import outputs as came_back
 from slamlab.exercises.drives import Arrays, Drive, StudentError
+from slamlab.exercises.drives.arguments import CHANGED
+from slamlab.exercises.drives.input_sets import MAIN
+from slamlab.exercises.law import Diagnosis, Law
 from slamlab.exercises.verdict import LawResult, Verdict
 
-MAX_MAGNITUDE = 1e9
-"""Largest absolute output: beyond it a law's own rounding could hide how wrong a number is."""
-MAX_ROWS = 2000
-"""Most rows of an output of any length: a law may compare each entry with each."""
+OPEN_SEED = b"open"
+"""The open seed: inputs in a notebook are the same at every check; grading has a secret seed."""
 
-
-@dataclass(frozen=True)
-class Law:
-    """A law: a property that every correct solution has (property-based test).
-
-    Parameters
-    ----------
-    name : str, short; stands in the record
-    points : float, what it is worth
-    says : str, the law as a sentence for the student
-    holds : (inputs, outputs) -> bool, or (n,) bool with one entry per input
-    """
-
-    name: str
-    points: float
-    says: str
-    holds: Callable[[Arrays, Arrays], np.ndarray | bool]
-
-
-@dataclass(frozen=True)
-class Diagnosis:
-    """A diagnosis: a classic mistake (misconception) and the hint for it.
-
-    Parameters
-    ----------
-    name : str, short; stands in the record
-    hint : str, for the student
-    matches : (inputs, outputs) -> bool
-    """
-
-    name: str
-    hint: str
-    matches: Callable[[Arrays, Arrays], bool]
-
+UNCHANGED = Law(
+    "unchanged",
+    0.5,
+    "the arguments are after the call what they were before it",
+    lambda inputs, outputs: outputs[CHANGED].size == 0,
+    asks="Which line writes into an array that was given to the function? Where could it take a copy?",
+)
+"""The law of every task: what is changed in place spoils what the caller does next."""
 
 IDLE = Diagnosis(
     "idle",
-    "Whatever it is given, the answer is the same: compute it from the arguments.",
+    "Whatever it is given, the answer is the same or is one of the arguments: compute it from them.",
     lambda inputs, outputs: True,
 )
-"""Diagnosis of a constant answer: it may obey a law by chance, but earns nothing."""
+"""Diagnosis of a degenerate answer: it may obey a law by chance, but earns nothing."""
+
+
+@dataclass(frozen=True)
+class Probe:
+    """A probe: inputs at the edge of what a task promises, such as an empty map.
+
+    Parameters
+    ----------
+    name : str, completes "with …": "an empty map"
+    inputs : rng -> name to array; sizes are its own
+    laws : names of the laws that are judged on it; None for all
+    """
+
+    name: str
+    inputs: Callable[[np.random.Generator], dict[str, np.ndarray]]
+    laws: tuple[str, ...] | None = None
 
 
 @dataclass(frozen=True)
 class Task:
-    """A task: functions that a student writes, with inputs, laws and diagnoses.
+    """A task: functions that a student writes, with inputs, probes, laws and diagnoses.
 
     Parameters
     ----------
@@ -70,28 +62,40 @@ class Task:
     title : str
     drive : Drive, the worker's side
     inputs : rng -> name to array; generic ones, so that no two mistakes look alike
-    shapes : output name to shape, None for any length
+    shapes : output name to shape, None for any length; or inputs -> such a dict
     laws : what a right solution obeys
-    diagnoses : classic mistakes, tried in order when a law failed
+    diagnoses : mistakes told by a property of the outputs, tried in order when a law failed
     needs : ids of earlier tasks of the exercise that must be solved first
+    probes : edges of what is promised
+    parts : (inputs, outputs) -> name to array: what can be wrong by itself, in a form all right
+        solutions share (angles wrapped, sets sorted), for recognising slips; None: the outputs
+    rounds : bool, whether inputs stay inputs when their numbers are rounded, for showing a case
     """
 
     id: str
     title: str
     drive: Drive
     inputs: Callable[[np.random.Generator], dict[str, np.ndarray]]
-    shapes: dict[str, tuple[int | None, ...]]
+    shapes: Mapping | Callable[[Arrays], Mapping]
     laws: tuple[Law, ...]
     diagnoses: tuple[Diagnosis, ...] = ()
     needs: tuple[str, ...] = ()
+    probes: tuple[Probe, ...] = ()
+    parts: Callable[[Arrays, Arrays], Arrays] | None = None
+    rounds: bool = True
+
+    @property
+    def all_laws(self):
+        """Its own laws, and that of the arguments."""
+        return (*self.laws, UNCHANGED)
 
     @property
     def points(self):
         """The maximum score of the task."""
-        return sum(law.points for law in self.laws)
+        return sum(law.points for law in self.all_laws)
 
-    def draw(self, seed: bytes) -> dict[str, np.ndarray]:
-        """Draw the random inputs of a seed (the open seed in a notebook, a secret one at grading).
+    def draw(self, seed: bytes) -> dict[str, dict[str, np.ndarray]]:
+        """Draw the sets of inputs of a seed (the open seed in a notebook, a secret one at grading).
 
         Parameters
         ----------
@@ -99,10 +103,18 @@ class Task:
 
         Returns
         -------
-        name to array
+        set's name (``MAIN``, then the probes') to name to array
         """
         digest = hashlib.sha256(seed + b"\0" + self.id.encode()).digest()
-        return self.inputs(np.random.default_rng(np.frombuffer(digest, dtype="<u4")))
+        rng = np.random.default_rng(np.frombuffer(digest, dtype="<u4"))
+        return {MAIN: self.inputs(rng)} | {probe.name: probe.inputs(rng) for probe in self.probes}
+
+    def judges(self, law, name):
+        """Whether a law is judged on a set of inputs: on ``MAIN``, or on a probe by its name."""
+        if name == MAIN:
+            return law.main
+        laws = next(probe.laws for probe in self.probes if probe.name == name)
+        return law is UNCHANGED or (law.main if laws is None else law.name in laws)
 
     def failed(self, kind, problem) -> Verdict:
         """The verdict of a failure: no outputs that can be judged.
@@ -117,105 +129,58 @@ class Task:
         """
         return Verdict(self.id, 0.0, self.points, problem=problem, kind=kind)
 
-    def judge(self, inputs: Arrays, outputs: Arrays) -> Verdict:
+    def judge(self, sets: Mapping[str, Arrays], answers: Mapping) -> Verdict:
         """Judge the outputs of a student's functions by the laws, and diagnose mistakes.
 
         Parameters
         ----------
-        inputs : what :attr:`inputs` made
-        outputs : what :attr:`drive` brought back; not to be trusted
+        sets : what :meth:`draw` made
+        answers : set's name to what :attr:`drive` brought back, or to the StudentError it met; not
+            to be trusted
 
         Returns
         -------
         Verdict
         """
-        problem = self._malformed(inputs, outputs)
-        if problem:
-            return self.failed("malformed", problem)
-        outputs = {name: np.asarray(outputs[name], dtype=float) for name in self.shapes}
+        found = {name: came_back.measured(self, sets[name], answers.get(name)) for name in sets}
+        if isinstance(found[MAIN], StudentError):
+            return self.failed(found[MAIN].kind, found[MAIN].message)
         with np.errstate(all="ignore"):
-            idle = _constant_outputs(outputs)
-            results = tuple(self._apply(law, inputs, outputs, idle) for law in self.laws)
-            found = None
-            if any(result.failed for result in results):
-                matching = (d for d in self.diagnoses if _holds_safely(d.matches, inputs, outputs))
-                found = next(matching, IDLE if idle else None)
-        return Verdict(
-            self.id,
-            sum(result.points for result in results),
-            self.points,
-            results,
-            found.name if found else None,
-            found.hint if found else None,
-        )
+            idle = came_back.degenerate(sets[MAIN], found[MAIN])
+            results = tuple(self._result(law, sets, found, idle) for law in self.all_laws)
+            matching = (d for d in self.diagnoses if _safely(d.matches, sets[MAIN], found[MAIN]))
+            wrong = any(result.failed for result in results)
+            mistake = next(matching, IDLE if idle else None) if wrong else None
+        if not any(result.points for result in results[:-1]):
+            results = results[:-1]  # to leave the arguments alone is worth nothing by itself
+        earned = sum(result.points for result in results)
+        named = (mistake.name, mistake.hint) if mistake else (None, None)
+        return Verdict(self.id, earned, self.points, results, *named)
 
-    def run(self, namespace, inputs) -> Verdict:
-        """Call the functions and judge their outputs in one process, as a notebook does.
-
-        Parameters
-        ----------
-        namespace : the student's names
-        inputs : what :attr:`inputs` made
-
-        Returns
-        -------
-        Verdict
-        """
-        try:
-            return self.judge(inputs, self.drive(namespace, inputs))
-        except StudentError as error:
-            return self.failed(error.kind, error.message)
-
-    def _apply(self, law, inputs, outputs, idle):
-        holds = False if idle else _holds_safely(law.holds, inputs, outputs)
-        holds = np.atleast_1d(np.asarray(holds, dtype=bool))
-        failed = int(np.count_nonzero(~holds))
+    def _result(self, law, sets, found, idle):
+        failed = tried = 0
+        where = {}
+        for name, outputs in found.items():
+            if not self.judges(law, name):
+                continue
+            lost = self.broken(law, sets[name], outputs, idle)
+            tried, failed = tried + lost.size, failed + int(lost.sum())
+            if lost.any():
+                where[name] = outputs.message if isinstance(outputs, StudentError) else None
         points = 0.0 if failed else law.points
-        return LawResult(law.name, law.says, points, law.points, failed, holds.size)
+        return LawResult(law.name, law.says, points, law.points, failed, tried, where)
 
-    def _malformed(self, inputs, outputs):
-        count = min(len(a) for a in inputs.values())
-        function = self.drive.functions[0]
-        for name, shape in self.shapes.items():
-            what = function if name == "result" else f"{function}'s {name}"
-            if name not in outputs:
-                return f"{what} is missing from what came back"
-            got, want = outputs[name].shape, shape
-            if name == "result":  # one per input: the student thinks of a single call
-                if got[:1] != (count,):
-                    return f"{what} answered {got[0] if got else 0} of {count} calls"
-                got = got[1:]
-            if len(got) != len(want) or any(
-                w not in (None, g) for g, w in zip(got, want, strict=True)
-            ):
-                turned = " (transposed?)" if got == want[::-1] else ""
-                return f"{what} returned shape {got}, expected {_shape(want)}{turned}"
-            longest = max((g for g, w in zip(got, want, strict=True) if w is None), default=0)
-            if longest > MAX_ROWS:
-                return f"{what} returned {longest} entries: too many"
-            if not np.isfinite(outputs[name]).all():
-                return f"{what} returned NaN or infinity"
-            if outputs[name].size and np.abs(outputs[name].astype(float)).max() > MAX_MAGNITUDE:
-                return f"{what} returned numbers larger than any that is asked for"
-        return None
+    def broken(self, law, inputs, outputs, idle=False):
+        """(n,) bool, which inputs of a set broke a law; one entry where it is judged as a whole."""
+        if isinstance(outputs, StudentError) or (idle and law is not UNCHANGED):
+            return np.array([True])
+        holds = _safely(law.holds, inputs, outputs)
+        return ~np.atleast_1d(np.asarray(holds, dtype=bool))
 
 
-def _constant_outputs(outputs):
-    """Whether nothing in the outputs changes from one input to the next."""
-    rows = [array for array in outputs.values() if array.ndim and len(array) > 1]
-    return bool(rows) and all((array == array[:1]).all() for array in rows)
-
-
-def _holds_safely(claim, inputs, outputs):
+def _safely(claim, inputs, outputs):
     # what came back can be such that a decomposition, an index or a size fails: then nothing holds
     try:
         return claim(inputs, outputs)
     except Exception:
         return False
-
-
-def _shape(shape):
-    if not shape:
-        return "() (one number)"
-    sizes = ", ".join("n" if n is None else str(n) for n in shape)
-    return f"({sizes},)" if len(shape) == 1 else f"({sizes})"

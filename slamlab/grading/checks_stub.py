@@ -5,6 +5,10 @@ def check(task_id):
     """Do nothing: the judge does the checking."""
 
 
+def hint(task_id):
+    """Do nothing: nothing is given away to a grader."""
+
+
 def validate():
     """Do nothing: the notebook is being graded."""
 

@@ -13,6 +13,7 @@ from pathlib import Path
 
 from slamlab import __version__
 from slamlab.exercises.drives import StudentError
+from slamlab.exercises.run import recognised
 from slamlab.grading import similarity, submissions
 from slamlab.grading.gradebook_rows import attempt_key
 from slamlab.grading.records import Record
@@ -120,9 +121,10 @@ def judge_notebook(
     with WorkerClient(exercise, cells, workers.start, stop, unredacted) as client:
 
         def judge_one(task):
-            inputs = task.draw(seed)
+            sets = task.draw(seed)
             try:
-                return task.judge(inputs, client.run(task, inputs))
+                verdict = task.judge(sets, client.run(task, sets))
+                return verdict if verdict.full else recognised(task, verdict, client.run)
             except StudentError as error:
                 return task.failed(error.kind, error.message)
 

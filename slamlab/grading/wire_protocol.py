@@ -15,7 +15,7 @@ MAX_HEADER = 1 << 20  # [bytes]
 MAX_PAYLOAD = 8 << 20  # [bytes]
 MAX_DEPTH = 6  # of nested JSON
 MAX_DIMENSIONS = 8  # of one array
-MAX_ARRAYS = 64  # in one frame
+MAX_ARRAYS = 512  # in one frame
 
 _LENGTHS = struct.Struct("<II")
 _TYPES = {"f8": np.dtype("<f8"), "i8": np.dtype("<i8"), "b1": np.dtype("u1")}

@@ -12,7 +12,7 @@ import threading
 import time
 import types
 
-from slamlab.exercises.drives import StudentError, describe
+from slamlab.exercises.drives import StudentError, describe, input_sets
 from slamlab.grading import sandbox, wire_protocol
 
 # cell magics whose cell is run; all other magics do nothing
@@ -93,7 +93,14 @@ def _run_cell(head, names):
 
 def _drive(head, inputs, drives, names):
     try:
-        return {}, drives[head["task"]](names, inputs)
+        sets = input_sets.parted(head["sets"], inputs)
+        answers = input_sets.run_sets(drives[head["task"]], names, sets)
+        failed = {
+            name: [str(answer.kind), str(answer.message)]
+            for name, answer in answers.items()
+            if isinstance(answer, StudentError)
+        }
+        return {"failed": failed}, input_sets.joined(answers)
     except StudentError as error:
         return {"kind": str(error.kind), "problem": str(error.message)}, {}
     except BaseException as error:

@@ -5,7 +5,7 @@ import queue
 import threading
 import time
 
-from slamlab.exercises.drives import StudentError
+from slamlab.exercises.drives import StudentError, input_sets
 from slamlab.grading import redaction, wire_protocol
 from slamlab.grading.worker_pool import WorkerStartError
 
@@ -54,17 +54,17 @@ class WorkerClient:
     def __exit__(self, *_):
         self._stop_worker()
 
-    def run(self, task, inputs):
-        """Call a task's functions on inputs in the worker.
+    def run(self, task, sets):
+        """Call a task's functions on sets of inputs in the worker.
 
         Parameters
         ----------
         task : Task
-        inputs : name to array
+        sets : set's name to name to array
 
         Returns
         -------
-        name to array, not to be trusted
+        set's name to name to array, not to be trusted, or to the StudentError met there
 
         Raises
         ------
@@ -73,19 +73,26 @@ class WorkerClient:
         """
         self.load()
         try:
-            head, arrays = self._request(
-                {"do": "task", "task": task.id}, inputs, task.drive.seconds
-            )
+            request = {"do": "task", "task": task.id, "sets": list(sets)}
+            head, arrays = self._request(request, input_sets.joined(sets), task.drive.seconds)
         except WorkerLost as gone:
             self._stop_worker()
             raise StudentError(gone.kind, _loss_message(gone.kind, task.drive.seconds)) from None
         if head.get("problem") is not None:
-            kind = head.get("kind") if head.get("kind") in redaction.PROBLEM_KINDS else "raised"
-            problem = _text(head["problem"])
-            if not self._unredacted:
-                problem = redaction.redact(kind, problem, task, self._exercise, self._cells)
-            raise StudentError(kind, problem)
-        return arrays
+            raise self._told(head.get("kind"), head["problem"], task)
+        answers, failed = input_sets.parted(list(sets), arrays), head.get("failed")
+        for name, told in failed.items() if isinstance(failed, dict) else ():
+            if name in answers and isinstance(told, list) and len(told) == 2:
+                answers[name] = self._told(*told, task)
+        return answers
+
+    def _told(self, kind, problem, task):
+        """What a worker says went wrong, with nothing in it of the inputs."""
+        kind = kind if kind in redaction.PROBLEM_KINDS else "raised"
+        problem = _text(problem)
+        if not self._unredacted:
+            problem = redaction.redact(kind, problem, task, self._exercise, self._cells)
+        return StudentError(kind, problem)
 
     def load(self):
         """Start a worker if there is none and run all cells in it, those that hung it left out."""

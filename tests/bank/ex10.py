@@ -404,7 +404,7 @@ IN_HEADING = [
         "seam-intersection",
     ),
     Wrong("not intersected", sharpen(result="np.array([right, left])"), TIGHT, "not-intersected"),
-    Wrong("as it was", sharpen(result="np.array(heading)"), TIGHT, "unchanged"),
+    Wrong("as it was", sharpen(result="np.array(heading)"), {"10-heading"}, "unchanged"),
     Wrong(
         "left, right",
         sharpen(result="np.array([min(heading[1], left), max(heading[0], right)])"),

@@ -16,6 +16,7 @@ import numpy as np
 import tests.bank
 from slamlab.exercises import catalogue
 from slamlab.exercises.exercise import Exercise
+from slamlab.exercises.run import run
 from tests.bank import Right, Wrong
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -74,7 +75,7 @@ def verdicts(bank, names, seed, only=None):
     """What the judge says of the tasks, with the inputs of one seed."""
     seed = f"bank {seed}".encode()
     with np.errstate(all="ignore"), warnings.catch_warnings(action="ignore"):
-        return bank.exercise.verdicts(lambda task: task.run(names, task.draw(seed)), only)
+        return bank.exercise.verdicts(lambda task: run(task, names, task.draw(seed)), only)
 
 
 def touched(bank, entry):
@@ -121,11 +122,12 @@ def wrongness(bank, entry, must, found):
     """How the verdicts on an entry differ from what they should be; None when they do not."""
     gone = lost(bank, found)
     luck = {tuple(item.split(":")) for item in entry.may_lose}
+    luck |= {(task.id, "unchanged") for task in bank.exercise.tasks}
     if not must <= gone <= must | luck:
         said = "; ".join(f"{v.task}: {v.problem}" for v in found.values() if v.problem)
         return f"lost {sorted(gone)} instead of {sorted(must)} {said}"
     for verdict in found.values():
-        if verdict.full or verdict.kind == "needs":
+        if verdict.solved or verdict.kind == "needs":
             continue
         if (verdict.diagnosis, verdict.kind) != (entry.diagnosis, entry.problem):
             return (

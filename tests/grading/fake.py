@@ -3,7 +3,8 @@
 import numpy as np
 
 from slamlab.exercises.exercise import Exercise
-from slamlab.exercises.task import Diagnosis, Law, Task
+from slamlab.exercises.law import Diagnosis, Law
+from slamlab.exercises.task import Task
 from tests.grading.fake_drives import DRIVES
 
 

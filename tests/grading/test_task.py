@@ -7,20 +7,22 @@ import numpy as np
 import pytest
 
 from slamlab.exercises.drives import Drive, StudentError
+from slamlab.exercises.drives.input_sets import MAIN
 from slamlab.exercises.exercise import Exercise
-from slamlab.exercises.task import Law
+from slamlab.exercises.law import Law
 from tests.grading import fake
 
 TURN = fake.EXERCISE.task("99-turn")
-INPUTS = TURN.draw(b"seed")
+SETS = TURN.draw(b"seed")
+INPUTS = SETS[MAIN]
 C, S, V = np.cos(INPUTS["angle"]), np.sin(INPUTS["angle"]), INPUTS["v"]
 RIGHT = np.stack([C * V[:, 0] - S * V[:, 1], S * V[:, 0] + C * V[:, 1]], axis=1)
 
 
 def test_inputs_are_told_by_the_seed_and_the_task():
-    again = TURN.draw(b"seed")
+    again = TURN.draw(b"seed")[MAIN]
     assert all(np.array_equal(INPUTS[name], again[name]) for name in INPUTS)
-    assert not np.array_equal(TURN.draw(b"other")["v"], INPUTS["v"])
+    assert not np.array_equal(TURN.draw(b"other")[MAIN]["v"], INPUTS["v"])
 
 
 @pytest.mark.parametrize(
@@ -37,14 +39,14 @@ def test_inputs_are_told_by_the_seed_and_the_task():
     ],
 )
 def test_malformed_outputs_earn_nothing(outputs, said):
-    verdict = TURN.judge(INPUTS, outputs)
+    verdict = TURN.judge(SETS, {MAIN: outputs})
     assert (verdict.points, verdict.kind) == (0, "malformed")
     assert re.search(said, verdict.problem)
 
 
 def test_the_right_outputs_earn_everything_whatever_their_number_type():
-    assert TURN.judge(INPUTS, {"result": RIGHT, "more": np.zeros(3)}).full
-    assert TURN.judge(INPUTS, {"result": RIGHT > 0}).points == 0
+    assert TURN.judge(SETS, {MAIN: {"result": RIGHT, "more": np.zeros(3)}}).full
+    assert TURN.judge(SETS, {MAIN: {"result": RIGHT > 0}}).points == 0
 
 
 @pytest.mark.parametrize("error", [np.linalg.LinAlgError, IndexError, MemoryError, AttributeError])
@@ -53,7 +55,7 @@ def test_a_law_that_fails_on_wild_numbers_does_not_hold(error):
         raise error
 
     task = dataclasses.replace(TURN, laws=(Law("wild", 1, "", wild), *TURN.laws))
-    verdict = task.judge(INPUTS, {"result": RIGHT})
+    verdict = task.judge(SETS, {MAIN: {"result": RIGHT}})
     assert [law.failed for law in verdict.laws] == [1, 0]
     assert verdict.points == 2
 
@@ -80,4 +82,4 @@ def test_of_several_functions_the_one_not_attempted_is_named():
 
 def test_an_output_of_any_length_may_not_be_of_every_length():
     task = dataclasses.replace(TURN, shapes={"points": (None, 2)})
-    assert "2001 entries: too many" in task.judge(INPUTS, {"points": np.zeros((2001, 2))}).problem
+    assert "2001 entries: too many" in task.judge(SETS, {MAIN: {"points": np.zeros((2001, 2))}}).problem

@@ -4,12 +4,15 @@ No truth and no answer stands here or in the modules beside this one: a worker t
 code holds nothing else of the checks.
 """
 
+import linecache
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from traceback import walk_tb
 
 import numpy as np
+
+from slamlab.exercises.drives.arguments import CHANGED, Watched
 
 Arrays = Mapping[str, np.ndarray]
 
@@ -51,7 +54,7 @@ def numbers(value, function):
     """
     if value is None:
         raise StudentError(
-            "malformed", f"{function} returned nothing: is there a return at its end?"
+            "malformed", f"{function} returned None: does every way through it end with a return?"
         )
     try:
         if isinstance(value, str | bytes):  # which astype would read as numbers
@@ -133,7 +136,7 @@ class Drive:
 
         Returns
         -------
-        name to array
+        name to array, and which arguments were changed as :data:`CHANGED`
 
         Raises
         ------
@@ -147,15 +150,17 @@ class Drive:
             if not callable(namespace[name]):
                 what = type(namespace[name]).__name__
                 raise StudentError("malformed", f"{name} is of type {what}, not a function")
-            functions[name] = namespace[name]
+            functions[name] = Watched(namespace[name])
         try:
-            return self.run(functions, inputs)
+            outputs = dict(self.run(functions, inputs))
         except (StudentError, KeyboardInterrupt):
             raise
         except NotImplementedError as error:
             raise StudentError("not attempted", self._unsolved(error)) from None
         except BaseException as error:  # SystemExit too: sys.exit() in a function is a mistake
             raise StudentError("raised", describe(error)) from None
+        changed = set().union(*(function.changed for function in functions.values()))
+        return outputs | {CHANGED: np.array(sorted(changed), dtype=float)}
 
     def _unsolved(self, error):
         """That something is not attempted yet; of several functions, which."""
@@ -178,14 +183,24 @@ def describe(error: BaseException) -> str:
     """
     where, traceback = "", error.__traceback__
     while traceback is not None:
-        code = traceback.tb_frame.f_code
+        frame, number = traceback.tb_frame, traceback.tb_lineno
         # cells have no file of their own: "<cell 3>" in the worker, "/tmp/ipykernel_…" in a kernel
-        if _CELL.search(code.co_filename):
-            inside = "" if code.co_name == "<module>" else f", in {code.co_name}"
-            where = f" (line {traceback.tb_lineno} of the cell{inside})"
+        if _CELL.search(frame.f_code.co_filename):
+            name = frame.f_code.co_name
+            inside = "" if name == "<module>" else f", in {name}"
+            where = f"{_line(frame, number)} (line {number} of the cell{inside})"
         traceback = traceback.tb_next
     try:
         text = str(error)[:1000].strip().splitlines()
     except Exception:  # an exception class of the student's own may fail at this, too
         text = []
     return f"{type(error).__name__}: {text[0][:300] if text else 'no message'}{where}"
+
+
+def _line(frame, number):
+    """The line of code at which a frame stands, and the shapes of the arrays in it."""
+    line = linecache.getline(frame.f_code.co_filename, number).strip()
+    arrays = {w: frame.f_locals.get(w) for w in dict.fromkeys(re.findall(r"[^\W\d]\w*", line))}
+    shapes = [f"{w} is {a.shape}" for w, a in arrays.items() if type(a) is np.ndarray]
+    said = "; ".join([f"`{line[:100]}`"] * bool(line) + [", ".join(shapes[:6])] * bool(shapes))
+    return f", at {said}" if said else ""

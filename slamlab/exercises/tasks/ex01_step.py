@@ -3,7 +3,8 @@
 import numpy as np
 
 from slamlab.exercises.drives.ex01 import DRIVES
-from slamlab.exercises.task import Diagnosis, Law, Task
+from slamlab.exercises.law import Diagnosis, Law
+from slamlab.exercises.task import Task
 from slamlab.exercises.tasks import ex01_inputs as make
 from slamlab.exercises.tasks.ex01_laws import DEGREES, SWAPPED, place_of, same_angle, same_direction, small, towards, wrapped
 

@@ -7,7 +7,8 @@ an honest estimate is as large on average, and does not scatter far from it.
 import numpy as np
 
 from slamlab.exercises.drives.ex02 import DRIVES
-from slamlab.exercises.task import Diagnosis, Law, Task
+from slamlab.exercises.law import Diagnosis, Law
+from slamlab.exercises.task import Task
 
 SETS, SCANS, BEAMS, OPEN, AGAIN = 40, 25, 36, 5, 5
 BIAS = 0.08  # a divisor of k instead of k - 1 makes 2 %, a median some more

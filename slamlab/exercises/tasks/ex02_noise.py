@@ -6,7 +6,8 @@ Every band is six standard deviations wide, so that chance fails nobody.
 import numpy as np
 
 from slamlab.exercises.drives.ex02 import DRIVES, FINITE, NOTHING
-from slamlab.exercises.task import Diagnosis, Law, Task
+from slamlab.exercises.law import Diagnosis, Law
+from slamlab.exercises.task import Task
 
 SENSORS, BEAMS, OPEN = 2, 4000, 100
 BAND = 6.0  # standard deviations

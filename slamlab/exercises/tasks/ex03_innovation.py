@@ -3,7 +3,8 @@
 import numpy as np
 
 from slamlab.exercises.drives.ex03 import DRIVES
-from slamlab.exercises.task import Law, Task
+from slamlab.exercises.law import Law
+from slamlab.exercises.task import Task
 from slamlab.exercises.tasks import ex03_laws as law
 from slamlab.exercises.tasks.ex03_gain import inverse, seen
 from slamlab.exercises.tasks.ex03_laws import DEVIATION, before_measurement, misread, mistake, times, turned

@@ -6,7 +6,7 @@ matrix is symmetric or diagonal that need not be, so that a transposition cannot
 
 import numpy as np
 
-from slamlab.exercises.task import Diagnosis
+from slamlab.exercises.law import Diagnosis
 
 ROWS, STATES, MEASURED = 12, 3, 2
 TOLERANCE = 1e-6

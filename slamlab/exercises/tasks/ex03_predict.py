@@ -3,7 +3,8 @@
 import numpy as np
 
 from slamlab.exercises.drives.ex03 import DRIVES
-from slamlab.exercises.task import Diagnosis, Law, Task
+from slamlab.exercises.law import Diagnosis, Law
+from slamlab.exercises.task import Task
 from slamlab.exercises.tasks import ex03_laws as law
 from slamlab.exercises.tasks.ex03_laws import DEVIATION, misread, mistake, times, turned
 

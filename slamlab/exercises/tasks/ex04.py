@@ -4,7 +4,8 @@ import numpy as np
 
 from slamlab.exercises.drives.ex04 import DRIVES
 from slamlab.exercises.exercise import Exercise
-from slamlab.exercises.task import Law, Task
+from slamlab.exercises.law import Law
+from slamlab.exercises.task import Task
 from slamlab.exercises.tasks.ex04_covariance import P_NN, P_RN
 from slamlab.exercises.tasks.ex04_laws import agree, by_landmark, by_pose, by_robot, close, new_by_measurement, new_by_robot
 from slamlab.exercises.tasks.ex04_motion import A_ODOMETRY, J_XR, J_Z

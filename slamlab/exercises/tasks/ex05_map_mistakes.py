@@ -3,7 +3,7 @@
 import numpy as np
 
 from slamlab import models
-from slamlab.exercises.task import Diagnosis
+from slamlab.exercises.law import Diagnosis
 from slamlab.exercises.tasks.ex05_batch import deviations, gain, placed, same_covariance
 from slamlab.geometry import wrap
 from slamlab.models import jacobians

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from slamlab.exercises.task import Diagnosis
+from slamlab.exercises.law import Diagnosis
 from slamlab.exercises.tasks.ex05_batch import deviations, gain, innovation, same_covariance, same_mean, sandwich, times, turned
 
 

@@ -4,7 +4,8 @@ import numpy as np
 
 from slamlab import models
 from slamlab.exercises.drives.ex05 import DRIVES
-from slamlab.exercises.task import Law, Task
+from slamlab.exercises.law import Law
+from slamlab.exercises.task import Task
 from slamlab.exercises.tasks.ex04_laws import by_landmark, by_robot
 from slamlab.exercises.tasks.ex05_batch import covariances, deviations, each, gain, innovation, placed, same_covariance, same_mean, sandwich, times, turned, variances
 from slamlab.exercises.tasks.ex05_mistakes import covariance_of, diagnoses, mean_of

@@ -6,7 +6,7 @@ the model itself; the covariance of what comes out is P. No Jacobian is consulte
 
 import numpy as np
 
-from slamlab.exercises.task import Diagnosis
+from slamlab.exercises.law import Diagnosis
 from slamlab.geometry import wrap
 
 SMALL = 1e-3  # the errors carried, as a share of the belief's: there every model is straight

@@ -4,7 +4,8 @@ import numpy as np
 
 from slamlab import models
 from slamlab.exercises.drives.ex06 import DRIVES
-from slamlab.exercises.task import Diagnosis, Law, Task
+from slamlab.exercises.law import Diagnosis, Law
+from slamlab.exercises.task import Task
 from slamlab.exercises.tasks.ex06_beliefs import ROBOT, T, beliefs, covariance_mistake, covariances, either_sign, moments, same_block, same_mean
 from slamlab.models import jacobians
 

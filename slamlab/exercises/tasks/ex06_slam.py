@@ -3,7 +3,8 @@
 import numpy as np
 
 from slamlab.exercises.drives.ex06 import DRIVES
-from slamlab.exercises.task import Diagnosis, Law, Task
+from slamlab.exercises.law import Diagnosis, Law
+from slamlab.exercises.task import Task
 from slamlab.exercises.tasks.ex06_ends import MAP, Ends, whole
 from slamlab.exercises.tasks.ex06_orders import ordered
 from slamlab.exercises.tasks.ex06_runs import LANDMARKS, RUNS, runs

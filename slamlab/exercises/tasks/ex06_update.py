@@ -3,7 +3,8 @@
 import numpy as np
 
 from slamlab.exercises.drives.ex06 import DRIVES
-from slamlab.exercises.task import Law, Task
+from slamlab.exercises.law import Law
+from slamlab.exercises.task import Task
 from slamlab.exercises.tasks.ex06_beliefs import same_block, same_mean
 from slamlab.exercises.tasks.ex06_sights import BEHIND, LANDMARKS, ROWS, sights, truth
 from slamlab.exercises.tasks.ex06_update_mistakes import MISTAKES

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from slamlab.exercises.task import Diagnosis
+from slamlab.exercises.law import Diagnosis
 from slamlab.exercises.tasks.ex06_beliefs import T, covariance_mistake, same_block, same_mean
 from slamlab.exercises.tasks.ex06_h import by_differences, columns
 from slamlab.exercises.tasks.ex06_sights import innovation, truth, wrapped

@@ -5,7 +5,7 @@ Each is the wrong formula, computed on the same inputs.
 
 import numpy as np
 
-from slamlab.exercises.task import Diagnosis
+from slamlab.exercises.law import Diagnosis
 from slamlab.exercises.tasks.ex07_laws import T, close, mistake
 
 ROBOT, FIRST, SECOND = slice(0, 3), slice(3, 5), slice(5, 7)

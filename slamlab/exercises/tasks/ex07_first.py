@@ -8,7 +8,8 @@ import numpy as np
 
 from slamlab import models
 from slamlab.exercises.drives.ex07 import DRIVES
-from slamlab.exercises.task import Law, Task
+from slamlab.exercises.law import Law
+from slamlab.exercises.task import Task
 from slamlab.exercises.tasks.ex07_laws import close, mistake
 from slamlab.geometry import wrap
 from slamlab.models import jacobians

@@ -3,7 +3,8 @@
 import numpy as np
 
 from slamlab.exercises.drives.ex07 import DRIVES
-from slamlab.exercises.task import Law, Task
+from slamlab.exercises.law import Law
+from slamlab.exercises.task import Task
 from slamlab.exercises.tasks.ex07_gains import MISTAKES
 from slamlab.exercises.tasks.ex07_laws import TOLERANCE, T, close, covariances, spread, white
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from slamlab.exercises.task import Diagnosis
+from slamlab.exercises.law import Diagnosis
 
 TOLERANCE = 1e-6
 """Share of a matrix's largest entry: rounding passes, no mistake does."""

@@ -3,7 +3,8 @@
 import numpy as np
 
 from slamlab.exercises.drives.ex07 import DRIVES
-from slamlab.exercises.task import Diagnosis, Law, Task
+from slamlab.exercises.law import Diagnosis, Law
+from slamlab.exercises.task import Task
 from slamlab.exercises.tasks.ex07_laws import T, close, covariances, mistake, samples, spread
 
 N = 12

@@ -6,7 +6,8 @@ The example of the MAK thesis, 4.3.3.
 import numpy as np
 
 from slamlab.exercises.drives.ex07 import DRIVES
-from slamlab.exercises.task import Law, Task
+from slamlab.exercises.law import Law
+from slamlab.exercises.task import Task
 from slamlab.exercises.tasks.ex07_errata import ERRATA, FIRST, ROBOT, SECOND, uncorrelated
 from slamlab.exercises.tasks.ex07_laws import T, close, covariances
 from slamlab.models import jacobians

@@ -5,7 +5,8 @@ from itertools import combinations
 import numpy as np
 
 from slamlab.exercises.drives.ex08 import DRIVES
-from slamlab.exercises.task import Diagnosis, Law, Task
+from slamlab.exercises.law import Diagnosis, Law
+from slamlab.exercises.task import Task
 from slamlab.exercises.tasks.ex08_pairings import GATE, MISTAKES, nearest_first, squared
 from slamlab.geometry import wrap
 

@@ -3,7 +3,8 @@
 import numpy as np
 
 from slamlab.exercises.drives.ex08 import DRIVES
-from slamlab.exercises.task import Law, Task
+from slamlab.exercises.law import Law
+from slamlab.exercises.task import Task
 from slamlab.exercises.tasks.ex08_corner_mistakes import DIAGNOSES, ONE_BY_ONE, ROWS, close, meeting
 from slamlab.exercises.tasks.ex08_lines import direction
 

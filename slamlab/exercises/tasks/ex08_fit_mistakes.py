@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from slamlab.exercises.task import Diagnosis
+from slamlab.exercises.law import Diagnosis
 from slamlab.exercises.tasks.ex08_lines import best_direction, is_least, outward, same, scatter, through_centroid, total
 from slamlab.geometry import wrap
 

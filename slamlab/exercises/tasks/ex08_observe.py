@@ -4,7 +4,8 @@ import numpy as np
 
 from slamlab import models
 from slamlab.exercises.drives.ex08 import DRIVES
-from slamlab.exercises.task import Law, Task
+from slamlab.exercises.law import Law
+from slamlab.exercises.task import Task
 from slamlab.exercises.tasks.ex04_laws import close, differences
 from slamlab.exercises.tasks.ex08_lines import direction
 from slamlab.exercises.tasks.ex08_observe_mistakes import DIAGNOSES

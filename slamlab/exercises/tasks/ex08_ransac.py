@@ -3,7 +3,8 @@
 import numpy as np
 
 from slamlab.exercises.drives.ex08 import DRIVES
-from slamlab.exercises.task import Diagnosis, Law, Task
+from slamlab.exercises.law import Diagnosis, Law
+from slamlab.exercises.task import Task
 from slamlab.exercises.tasks.ex08_lines import direction, distances, is_least, same, total
 
 WALL, OTHERS, BAND, NEEDED, TRIES = 28, 20, 0.05, 16, 60

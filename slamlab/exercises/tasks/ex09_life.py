@@ -3,7 +3,8 @@
 import numpy as np
 
 from slamlab.exercises.drives.ex09 import DRIVES
-from slamlab.exercises.task import Diagnosis, Law, Task
+from slamlab.exercises.law import Diagnosis, Law
+from slamlab.exercises.task import Task
 
 SCANS, IDS, WIDTH = 36, 6, 8
 NEVER, LAST = 4, 5  # ids that have a part of their own: one is never seen again, one comes late

@@ -1,7 +1,8 @@
 """Task 09-place: a wall seen from the robot, put into the world with its doubts."""
 
 from slamlab.exercises.drives.ex09 import DRIVES
-from slamlab.exercises.task import Law, Task
+from slamlab.exercises.law import Law
+from slamlab.exercises.task import Task
 from slamlab.exercises.tasks.ex09_place_mistakes import MISTAKES
 from slamlab.exercises.tasks.ex09_place_sights import ROWS, block_holds, line_holds, sights
 

@@ -3,7 +3,8 @@
 import numpy as np
 
 from slamlab.exercises.drives.ex09 import DRIVES
-from slamlab.exercises.task import Diagnosis, Law, Task
+from slamlab.exercises.law import Diagnosis, Law
+from slamlab.exercises.task import Task
 
 COUNT, SIZE = 3, 110  # scans, and points in each
 ROUNDING = 1e-9

@@ -3,7 +3,8 @@
 import numpy as np
 
 from slamlab.exercises.drives.ex09 import DRIVES
-from slamlab.exercises.task import Law, Task
+from slamlab.exercises.law import Law
+from slamlab.exercises.task import Task
 from slamlab.exercises.tasks.ex09_update_mistakes import MISTAKES
 from slamlab.exercises.tasks.ex09_update_sights import BEHIND, ROWS, N, covariance, mean, sights
 

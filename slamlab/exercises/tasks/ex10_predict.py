@@ -3,7 +3,8 @@
 import numpy as np
 
 from slamlab.exercises.drives.ex10 import DRIVES
-from slamlab.exercises.task import Law, Task
+from slamlab.exercises.law import Law
+from slamlab.exercises.task import Task
 from slamlab.exercises.tasks.ex10_motions import beyond, inputs
 from slamlab.exercises.tasks.ex10_predict_mistakes import MISTAKES, ROUNDING
 

@@ -6,7 +6,8 @@ from math import pi
 import numpy as np
 
 from slamlab.exercises.drives.ex10 import DRIVES
-from slamlab.exercises.task import Diagnosis, Law, Task
+from slamlab.exercises.law import Diagnosis, Law
+from slamlab.exercises.task import Task
 from slamlab.exercises.tasks.ex10_runs import RUNS, SIGHTS, runs, truth
 from slamlab.filters.bor.angle_intervals import midpoint
 from slamlab.filters.bor.clipping import clip_all

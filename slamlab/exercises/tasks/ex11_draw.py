@@ -6,7 +6,8 @@ The band of fairness is seven standard deviations wide, so that chance fails nob
 import numpy as np
 
 from slamlab.exercises.drives.ex11 import AGAIN, DRIVES
-from slamlab.exercises.task import Diagnosis, Law, Task
+from slamlab.exercises.law import Diagnosis, Law
+from slamlab.exercises.task import Task
 
 CLOUDS, SAMPLES, SEEDS = 2, 12, 250
 BAND = 7.0  # standard deviations

@@ -7,7 +7,8 @@ over 700 seeds each for draws by comb and by independent numbers.
 import numpy as np
 
 from slamlab.exercises.drives.ex11 import DRIVES
-from slamlab.exercises.task import Diagnosis, Law, Task
+from slamlab.exercises.law import Diagnosis, Law
+from slamlab.exercises.task import Task
 from slamlab.exercises.tasks.ex11_move import driven
 from slamlab.geometry import wrap
 from slamlab.models.jacobians import A_odometry, H_robot, W_odometry

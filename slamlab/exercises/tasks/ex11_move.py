@@ -6,7 +6,8 @@ Bands are wide: at 7 standard deviations of a normal, chance fails nobody in 10â
 import numpy as np
 
 from slamlab.exercises.drives.ex11 import DRIVES
-from slamlab.exercises.task import Diagnosis, Law, Task
+from slamlab.exercises.law import Diagnosis, Law
+from slamlab.exercises.task import Task
 from slamlab.geometry import wrap
 
 CLOUDS, SAMPLES = 2, 1500

@@ -3,7 +3,8 @@
 import numpy as np
 
 from slamlab.exercises.drives.ex11 import DRIVES
-from slamlab.exercises.task import Diagnosis, Law, Task
+from slamlab.exercises.law import Diagnosis, Law
+from slamlab.exercises.task import Task
 
 PLAIN, LOW, HIGH, SAMPLES = slice(0, 4), slice(4, 8), slice(8, 12), 20
 ROWS = 12

@@ -3,7 +3,8 @@
 import numpy as np
 
 from slamlab.exercises.drives.ex11 import DRIVES
-from slamlab.exercises.task import Diagnosis, Law, Task
+from slamlab.exercises.law import Diagnosis, Law
+from slamlab.exercises.task import Task
 from slamlab.geometry import wrap
 from slamlab.models.observation import g, h
 

@@ -3,7 +3,8 @@
 import numpy as np
 
 from slamlab.exercises.drives.ex12 import DOINGS, DRIVES
-from slamlab.exercises.task import Diagnosis, Law, Task
+from slamlab.exercises.law import Diagnosis, Law
+from slamlab.exercises.task import Task
 
 SCAN, LEFT, RIGHT, DRIVE = range(len(DOINGS))
 FAR, NEAR, STEP = 0.25, 0.18, 0.04

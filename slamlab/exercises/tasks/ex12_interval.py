@@ -4,7 +4,8 @@ import numpy as np
 from scipy.stats import binom
 
 from slamlab.exercises.drives.ex12 import DRIVES
-from slamlab.exercises.task import Diagnosis, Law, Task
+from slamlab.exercises.law import Diagnosis, Law
+from slamlab.exercises.task import Task
 
 Z = 1.959964
 RUNS = 40, 160

@@ -3,7 +3,8 @@
 import numpy as np
 
 from slamlab.exercises.drives.ex12 import DRIVES
-from slamlab.exercises.task import Diagnosis, Law, Task
+from slamlab.exercises.law import Diagnosis, Law
+from slamlab.exercises.task import Task
 
 STEPS = 40
 STRAY, GONE, ALWAYS = 6, 14, 24  # the first runs of these kinds

@@ -3,7 +3,8 @@
 import numpy as np
 
 from slamlab.exercises.drives.ex12 import DRIVES
-from slamlab.exercises.task import Diagnosis, Law, Task
+from slamlab.exercises.law import Diagnosis, Law
+from slamlab.exercises.task import Task
 
 CURVED, STRAIGHT, SPOT = slice(0, 12), slice(12, 15), slice(15, 18)
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(30)

@@ -3,7 +3,8 @@
 import numpy as np
 
 from slamlab.exercises.drives.ex13 import DRIVES
-from slamlab.exercises.task import Diagnosis, Law, Task
+from slamlab.exercises.law import Diagnosis, Law
+from slamlab.exercises.task import Task
 from slamlab.exercises.tasks.ex13_clouds import carried, either_sign, is_best, is_rigid, motion
 
 

@@ -3,7 +3,8 @@
 import numpy as np
 
 from slamlab.exercises.drives.ex13 import DRIVES, ROUNDS
-from slamlab.exercises.task import Diagnosis, Law, Task
+from slamlab.exercises.law import Diagnosis, Law
+from slamlab.exercises.task import Task
 from slamlab.exercises.tasks.ex13_clouds import is_best, nudged
 from slamlab.exercises.tasks.ex13_fit import fit
 from slamlab.exercises.tasks.ex13_icp import SHAPES, SHARED, WRONG_SIDE, first_pairs, lands, one_pair, scene, stacked

@@ -3,7 +3,8 @@
 import numpy as np
 
 from slamlab.exercises.drives.ex13 import DRIVES, ROUNDS
-from slamlab.exercises.task import Diagnosis, Law, Task
+from slamlab.exercises.law import Diagnosis, Law
+from slamlab.exercises.task import Task
 from slamlab.exercises.tasks.ex13_clouds import carried, either_sign, good_guess, landed, motion, outline
 from slamlab.exercises.tasks.ex13_icp import stacked
 from slamlab.geometry import matrix

@@ -3,7 +3,8 @@
 import numpy as np
 
 from slamlab.exercises.drives.ex14 import DRIVES
-from slamlab.exercises.task import Diagnosis, Law, Task
+from slamlab.exercises.law import Diagnosis, Law
+from slamlab.exercises.task import Task
 
 MOVE = 1
 EACH, BEYOND = 5, 4

@@ -6,7 +6,8 @@ A packet is made from what it is to say, so the law is: that is what is read.
 import numpy as np
 
 from slamlab.exercises.drives.ex14 import DRIVES
-from slamlab.exercises.task import Diagnosis, Law, Task
+from slamlab.exercises.law import Diagnosis, Law
+from slamlab.exercises.task import Task
 
 PACKETS, NODES_OF, BROKEN = 4, 16, 4
 TURN = 360 * 64

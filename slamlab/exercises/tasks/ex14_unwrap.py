@@ -3,7 +3,8 @@
 import numpy as np
 
 from slamlab.exercises.drives.ex14 import DRIVES
-from slamlab.exercises.task import Diagnosis, Law, Task
+from slamlab.exercises.law import Diagnosis, Law
+from slamlab.exercises.task import Task
 
 DRIVES_OF, READINGS = 6, 40
 MOST = 120  # counts between two readings

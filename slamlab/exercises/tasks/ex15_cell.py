@@ -3,7 +3,8 @@
 import numpy as np
 
 from slamlab.exercises.drives.ex15 import DRIVES
-from slamlab.exercises.task import Law, Task
+from slamlab.exercises.law import Law
+from slamlab.exercises.task import Task
 from slamlab.exercises.tasks.ex15_weight import same_numbers
 
 FREELY, CLAMPED = 12, 8  # cells that stay within the bounds, and cells that would leave them

@@ -5,7 +5,8 @@ from functools import partial
 import numpy as np
 
 from slamlab.exercises.drives.ex15 import DRIVES
-from slamlab.exercises.task import Law, Task
+from slamlab.exercises.law import Law
+from slamlab.exercises.task import Task
 from slamlab.exercises.tasks.ex04_mistakes import mistake
 from slamlab.geometry import between, compose, wrap
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from slamlab.exercises.task import Diagnosis
+from slamlab.exercises.law import Diagnosis
 from slamlab.exercises.tasks.ex15_graphs import best, each
 from slamlab.geometry import compose, wrap
 from slamlab.posegraph.edge_error import error, information

@@ -5,7 +5,8 @@ from functools import partial
 import numpy as np
 
 from slamlab.exercises.drives.ex15 import DRIVES
-from slamlab.exercises.task import Diagnosis, Law, Task
+from slamlab.exercises.law import Diagnosis, Law
+from slamlab.exercises.task import Task
 
 HALF = 10  # edges below Φ, and as many beyond
 STEP = 1e-5

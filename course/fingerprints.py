@@ -1,0 +1,207 @@
+"""Compile the fingerprints of slips and small mistakes: ``python -m course.fingerprints 06``.
+
+Programs are run on the open inputs twice, the second time with other kernels of linear algebra; rows
+that move are dropped. What ships is numbers and hints, no program.
+"""
+
+import argparse
+import ast
+import hashlib
+import os
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import numpy as np
+
+from course.mutation import mutants
+from course.programs import ProgramError, Programs, programs
+from course.source import ROOT
+from slamlab.checks.time_limit import TimeLimitExceeded, time_limit
+from slamlab.exercises import catalogue, fingerprints
+from slamlab.exercises.drives import StudentError
+from slamlab.exercises.families import FAMILIES
+from slamlab.exercises.task import OPEN_SEED
+
+FOLDER = ROOT / "slamlab" / "data" / "fingerprints"
+OTHER_KERNEL = {"OPENBLAS_CORETYPE": "Nehalem", "NPY_DISABLE_CPU_FEATURES": "AVX2 FMA3 AVX512F"}
+MUTANT_SECONDS = 2.0
+"""Time limit of one mutant, which may never end [s]."""
+
+
+def compiled(exercise_id) -> dict[str, np.ndarray]:
+    """The tables of an exercise as arrays by name, as :func:`slamlab.exercises.fingerprints.tables` reads them.
+
+    Parameters
+    ----------
+    exercise_id : str
+
+    Raises
+    ------
+    ProgramError : with everything that is wrong with the programs
+    """
+    arrays, problems = {}, []
+    for one in programs(exercise_id):
+        try:
+            arrays |= {f"{one.task.id}/{key}": array for key, array in _table(one).items()}
+        except ProgramError as error:
+            problems.append(str(error))
+    if problems:
+        raise ProgramError("\n".join(problems))
+    return arrays | {"digest": np.array(digest(exercise_id))}
+
+
+def digest(exercise_id) -> str:
+    """A hash of the sources from which the tables of an exercise are compiled."""
+    tasks = ROOT / "slamlab" / "exercises" / "tasks" / f"ex{exercise_id}"
+    files = sorted((ROOT / "course" / "tasks" / f"ex{exercise_id}").glob("*.py"))
+    files += [*sorted(tasks.glob("*.py")), ROOT / "course" / "mutation.py"]
+    files += [ROOT / "slamlab" / "exercises" / "drives" / f"ex{exercise_id}.py"]
+    texts = [ast.unparse(ast.parse(file.read_text("utf-8"))) for file in files]
+    texts += [source for one in programs(exercise_id) for source in one.ways.values()]
+    return hashlib.sha256("\n".join(texts).encode()).hexdigest()
+
+
+def prints_of(one: Programs, source, sets):
+    """The fingerprints of one program, part by part; None where it cannot be judged."""
+    try:
+        with time_limit(MUTANT_SECONDS), np.errstate(all="ignore"):
+            found = fingerprints.of_answers(one.task, sets, one.answers(source, sets))
+    except (StudentError, TimeLimitExceeded, Exception):  # a mutant may do anything
+        return None
+    return found if found and all(np.isfinite(p).all() for p in found.values()) else None
+
+
+def _table(one):
+    sets = one.task.draw(OPEN_SEED)
+    right = [prints_of(one, source, sets) for source in one.ways.values()]
+    if None in right:
+        raise ProgramError(f"{one.task.id}: the way {list(one.ways)[right.index(None)]} fails")
+    rows = [(0, prints) for prints in right]
+    for k, slip in enumerate(one.slips, 1):
+        for program in slip.programs:
+            rows.append((k, _slip_prints(one, slip, program, sets)))
+    _check_precedence(one, rows)
+    families = sorted(FAMILIES)
+    for source in one.ways.values():
+        for mutant in mutants(source):
+            label = 1 + len(one.slips) + families.index(mutant.family)
+            rows.append((label, prints_of(one, mutant.source, sets)))
+    names = [slip.name for slip in one.slips], [slip.hint for slip in one.slips]
+    table = {"names": np.array(names[0], dtype=str), "hints": np.array(names[1], dtype=str)}
+    for part in right[0]:
+        known = [(label, prints[part]) for label, prints in rows if prints and part in prints]
+        labels, values = _distinct(known)
+        table |= {f"labels/{part}": labels, f"prints/{part}": values}
+    return table
+
+
+def _slip_prints(one, slip, program, sets):
+    source = one.source(program)
+    if one.verdict(source, OPEN_SEED).full:
+        raise ProgramError(f"{one.task.id}: the slip {slip.name!r} keeps full marks:\n{source}")
+    prints = prints_of(one, source, sets)
+    if prints is None:
+        said = one.verdict(source, OPEN_SEED).problem
+        raise ProgramError(
+            f"{one.task.id}: the slip {slip.name!r} cannot be judged ({said}): it is a Stumble, or "
+            f"an edit of too much:\n{source}"
+        )
+    return prints
+
+
+def _check_precedence(one, rows):
+    """That slips which compute the same say which goes first."""
+    slips, wrong = one.slips, []
+    for i, (a, one_print) in enumerate(rows):
+        for b, other in rows[:i]:
+            if not 0 < b < a or any(not _close(other[p], one_print[p]) for p in other):
+                continue
+            first, second = slips[b - 1], slips[a - 1]
+            if second.name not in first.before:
+                wrong.append(f"{first.name!r} and {second.name!r}")
+    if wrong:
+        raise ProgramError(
+            f"{one.task.id}: these slips compute the same, and the first does not name the second "
+            f"in its `before`: {'; '.join(sorted(set(wrong)))}"
+        )
+
+
+def _distinct(known):
+    """Labels and fingerprints without repetitions, and without mutants that are right."""
+    kept, values = {}, []
+    right = [print for label, print in known if label == 0]
+    for label, print in known:
+        if label and any(_close(print, r) for r in right):
+            continue  # this part is as it should be: another one is wrong
+        key = (label, *np.round(print, 5))
+        if key not in kept:
+            kept[key] = len(values)
+            values.append(print)
+    labels = np.array([key[0] for key in kept], dtype=np.int16)
+    return labels, np.array(values).reshape(-1, fingerprints.SIZE)
+
+
+def _close(a, b):
+    return bool((np.abs(a - b) <= fingerprints.CLOSE * (1 + np.abs(a))).all())
+
+
+def stable(arrays, others):
+    """Tables without the rows that move under other kernels.
+
+    Parameters
+    ----------
+    arrays, others : what :func:`compiled` made with two kernels
+
+    Returns
+    -------
+    tables, int : and how many rows moved
+    """
+    moved = 0
+    for key in [key for key in arrays if "/prints/" in key]:
+        labels = key.replace("/prints/", "/labels/")
+        there = others[key]
+        margin = fingerprints.CLOSE / 10
+        keep = np.array(
+            [(np.abs(there - p) <= margin * (1 + np.abs(p))).all(axis=1).any() for p in arrays[key]]
+        )
+        keep |= arrays[labels] == 0
+        moved += int((~keep).sum())
+        arrays = arrays | {key: arrays[key][keep], labels: arrays[labels][keep]}
+    return arrays, moved
+
+
+def main():
+    """Compile the tables of exercises and say how large they are."""
+    parser = argparse.ArgumentParser(prog="python -m course.fingerprints", description=__doc__)
+    parser.add_argument("exercise", nargs="*", help="such as 06; default: all")
+    parser.add_argument("--to", help=argparse.SUPPRESS)
+    arguments = parser.parse_args()
+    for id in arguments.exercise or [id for id in catalogue.EXERCISES if programs(id)]:
+        try:
+            arrays = compiled(id)
+        except ProgramError as error:
+            sys.exit(str(error))
+        if arguments.to:
+            np.savez(arguments.to, **arrays)
+            continue
+        arrays, moved = stable(arrays, _with_other_kernel(id))
+        FOLDER.mkdir(parents=True, exist_ok=True)
+        np.savez_compressed(FOLDER / f"{id}.npz", **arrays)
+        rows = sum(len(a) for key, a in arrays.items() if "/prints/" in key)
+        size = (FOLDER / f"{id}.npz").stat().st_size / 1024
+        print(f"{id}: {rows} fingerprints, {moved} dropped that moved, {size:.0f} kB")
+
+
+def _with_other_kernel(id):
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "other.npz"
+        command = [sys.executable, "-m", "course.fingerprints", id, "--to", str(file)]
+        subprocess.run(command, check=True, cwd=ROOT, env=os.environ | OTHER_KERNEL)
+        with np.load(file) as stored:
+            return dict(stored)
+
+
+if __name__ == "__main__":
+    main()

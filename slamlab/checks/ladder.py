@@ -1,0 +1,58 @@
+"""The ladder of hints: what ``hint`` says of a task, one rung further at each call."""
+
+import numpy as np
+
+from slamlab.exercises import case_text, cases
+from slamlab.exercises.drives import StudentError
+from slamlab.exercises.drives.input_sets import MAIN, run_sets
+from slamlab.exercises.task import OPEN_SEED
+
+_climbed = {}  # (task's id, law's name) to how often a hint was asked for, in this kernel
+
+
+def next_rung(task, namespace) -> str:
+    """What to say next of the first law that a student's functions break: a question, then a step.
+
+    Parameters
+    ----------
+    task : Task
+    namespace : the student's names
+
+    Returns
+    -------
+    str
+    """
+    sets = task.draw(OPEN_SEED)
+    try:
+        answers = run_sets(task.drive, namespace, sets)
+    except StudentError as error:
+        return f"{error.message}: begin with {task.laws[0].asks or task.laws[0].says}"
+    case = cases.smallest(
+        task, sets, answers, lambda inputs: run_sets(task.drive, namespace, {MAIN: inputs})[MAIN]
+    )
+    if case is None:
+        return f"{task.id} breaks no law: there is nothing to hint at"
+    rung = _climbed.get((task.id, case.law.name), 0)
+    _climbed[task.id, case.law.name] = rung + 1
+    asks = case.law.asks or f"The law says: {case.law.says}. At which line does your answer leave it?"
+    if rung == 0:
+        return f"A question: {asks}\nCalled again, hint shows a step on the way."
+    return _step(task, case, asks)
+
+
+def _step(task, case, asks):
+    """What a right solution finds on the way, at the smallest case."""
+    text = case_text.format_case(task, case) or ""
+    quantities = case.law.step(case.inputs) if case.law.step else {}
+    if not quantities:
+        return f"A question: {asks}\n{text}"
+    shown = [
+        "      " + case_text.format_numbers(name, _first(value, case.one)).replace("\n", "\n      ")
+        for name, value in quantities.items()
+    ]
+    return "\n".join([text, "    On the way a right solution finds", *shown])
+
+
+def _first(value, one):
+    value = np.asarray(value, dtype=float)
+    return value[0] if one and value.ndim and len(value) == 1 else value

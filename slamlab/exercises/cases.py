@@ -1,0 +1,160 @@
+"""The smallest failing case: which input, of all that were tried, shows best that a law is broken."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from slamlab.exercises.drives import StudentError
+from slamlab.exercises.drives.arguments import CHANGED
+from slamlab.exercises.drives.input_sets import MAIN
+from slamlab.exercises.law import Law
+from slamlab.exercises.outputs import degenerate, measured
+
+MOST_RUNS = 60  # of a student's function, to shrink a case
+DIGITS = (1, 2, 3)
+
+
+@dataclass(frozen=True)
+class Case:
+    """An input on which a law fails.
+
+    Parameters
+    ----------
+    law : Law
+    probe : str, the probe it comes from, "" for a random input
+    inputs : name to array; one row, where the task takes them one by one
+    outputs : name to array, or StudentError
+    one : bool, whether it is one row
+    """
+
+    law: Law
+    probe: str
+    inputs: Mapping
+    outputs: Mapping | StudentError
+    one: bool
+
+
+def smallest(task, sets, answers, run=None) -> Case | None:
+    """The smallest case on which the first broken law fails.
+
+    Parameters
+    ----------
+    task : Task
+    sets : what ``task.draw`` made
+    answers : set's name to outputs or StudentError; empty where they are to be run
+    run : inputs -> outputs, calls the student's functions to shrink the case; raises StudentError;
+        None: only cases that were tried are looked at
+
+    Returns
+    -------
+    Case, or None where no law is broken by a single input that can be shown
+    """
+    found = {name: measured(task, sets[name], answers.get(name)) for name in sets}
+    with np.errstate(all="ignore"):
+        for law in task.all_laws:
+            cases = [c for name in sets for c in _cases(task, law, name, sets[name], found[name])]
+            if cases:
+                case = min(cases, key=lambda c: (_size(c.inputs), c.probe != MAIN))
+                return _shrunk(task, case, run) if run else case
+    return None
+
+
+def _cases(task, law, name, inputs, outputs):
+    """Each input of a set on which a law fails."""
+    if not task.judges(law, name):
+        return
+    broken = task.broken(law, inputs, outputs)
+    if isinstance(outputs, StudentError):
+        yield Case(law, name, inputs, outputs, False)
+    elif broken.size == 1 or broken.size != _count(inputs):
+        if broken.any():
+            yield Case(law, name, inputs, outputs, broken.size == _count(inputs))
+    else:
+        of = _rows(inputs)
+        for k in np.flatnonzero(broken) if of else ():
+            yield Case(law, name, of[k], _row(outputs, k, broken.size), True)
+
+
+def _rows(inputs):
+    """The inputs one by one, where all arrays have as many rows; else none."""
+    count = _count(inputs)
+    return [{n: a[k : k + 1] for n, a in inputs.items()} for k in range(count)] if count else []
+
+
+def _count(inputs):
+    counts = {len(array) if np.ndim(array) else -1 for array in inputs.values()}
+    return counts.pop() if len(counts) == 1 and -1 not in counts else 0
+
+
+def _row(outputs, k, count):
+    return {
+        n: a[k : k + 1] if n != CHANGED and np.ndim(a) and len(a) == count else a
+        for n, a in outputs.items()
+    }
+
+
+def _size(inputs):
+    """How much there is to read: how many numbers, and how many digits they have."""
+    arrays = [np.asarray(a, dtype=float) for a in inputs.values()]
+    digits = sum((np.abs(a * 10 - np.rint(a * 10)) > 1e-9).sum() for a in arrays)
+    return sum(a.size for a in arrays) + digits
+
+
+def _shrunk(task, case, run):
+    """A case with fewer or rounder numbers on which the law fails as well."""
+    if isinstance(case.outputs, StudentError):  # which of the rows it was is not known
+        tried = ((row, _tried(task, run, row)) for row in _rows(case.inputs)[:MOST_RUNS])
+        failing = (pair for pair in tried if isinstance(pair[1], StudentError))
+        row, outputs = next(failing, (None, None))
+        return case if row is None else Case(case.law, case.probe, row, outputs, True)
+    if not task.rounds or not case.one:
+        return case
+    for name in case.inputs:
+        for digits in DIGITS:
+            array = _rounded(case.inputs[name], digits)
+            if array is None:
+                continue
+            inputs = {**case.inputs, name: array}
+            outputs = _tried(task, run, inputs)
+            if _fails(task, case.law, inputs, outputs):
+                case = Case(case.law, case.probe, inputs, outputs, True)
+                break
+    return case
+
+
+def _tried(task, run, inputs):
+    try:
+        return measured(task, inputs, run(inputs))
+    except StudentError as error:
+        return error
+
+
+def _fails(task, law, inputs, outputs):
+    """Whether a law fails for sure: it can be asked, and what it wants would obey it."""
+    if isinstance(outputs, StudentError) or degenerate(inputs, outputs):
+        return False
+    try:
+        if law.want and not np.all(law.holds(inputs, {**outputs, **law.want(inputs)})):
+            return False
+        return not np.all(law.holds(inputs, outputs))
+    except Exception:  # inputs that are none: a law may not be defined there
+        return False
+
+
+def _rounded(array, digits):
+    """An array with so many digits of its largest number; None where that changes what it is."""
+    if array.dtype.kind != "f" or not array.size or not np.abs(array).max() > 0:
+        return None
+    rounded = np.round(array, digits - 1 - int(np.floor(np.log10(np.abs(array).max()))))
+    if np.array_equal(rounded, array):
+        return None
+    return rounded if _covariance(rounded) or not _covariance(array) else None
+
+
+def _covariance(array):
+    """Whether an array holds symmetric matrices that are positive definite."""
+    if array.ndim < 2 or array.shape[-1] != array.shape[-2]:
+        return False
+    turned = np.swapaxes(array, -1, -2)
+    return np.allclose(array, turned) and bool((np.linalg.eigvalsh(array) > 0).all())

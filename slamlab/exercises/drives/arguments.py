@@ -1,0 +1,54 @@
+"""Watch a student's function: whether its arguments are after a call what they were before it."""
+
+import numpy as np
+
+CHANGED = "arguments changed"
+"""Name of the output that tells which arguments were changed, counted from 0."""
+
+
+class Watched:
+    """A function that is called on copies of its arguments, which are then compared with them.
+
+    Parameters
+    ----------
+    function : callable, the student's
+
+    Attributes
+    ----------
+    changed : set of int, which arguments were changed in some call
+    """
+
+    def __init__(self, function):
+        self._function, self.changed = function, set()
+
+    def __call__(self, *arguments):
+        given = [_copied(argument) for argument in arguments]
+        try:
+            return self._function(*given)
+        finally:
+            pairs = zip(arguments, given, strict=True)
+            self.changed.update(k for k, pair in enumerate(pairs) if not _same(*pair))
+
+
+def _copied(value):
+    """A copy of an array or of a container of arrays; anything else is passed on."""
+    if isinstance(value, np.ndarray):
+        return value.copy()
+    if type(value) in (list, tuple):
+        return type(value)(_copied(item) for item in value)
+    if type(value) is dict:
+        return {key: _copied(item) for key, item in value.items()}
+    return value
+
+
+def _same(before, after):
+    if isinstance(before, np.ndarray):
+        same = before.shape == after.shape and before.dtype == after.dtype
+        # bytes, not numbers: NaN is equal to itself here
+        return same and before.tobytes() == after.tobytes()
+    if type(before) in (list, tuple):
+        return len(before) == len(after) and all(map(_same, before, after))
+    if type(before) is dict:
+        return before.keys() == after.keys() and all(_same(before[k], after[k]) for k in before)
+    # a number that a list or dict holds may have been replaced; whole objects are not looked into
+    return before is after or (isinstance(before, int | float | str | bytes) and before == after)

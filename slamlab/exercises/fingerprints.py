@@ -1,0 +1,168 @@
+"""Fingerprints: recognise a mistake by what it computes, from a table compiled of wrong programs.
+
+Each part of a task's outputs on the open inputs is reduced to a few numbers. The table holds those
+of the right solutions, of the slips (named mistakes) and of families of small changes; it holds no
+program. ``course.fingerprints`` compiles it.
+"""
+
+import functools
+import zlib
+from dataclasses import dataclass
+from importlib import resources
+
+import numpy as np
+
+from slamlab.exercises.drives import StudentError
+from slamlab.exercises.drives.arguments import CHANGED
+from slamlab.exercises.families import FAMILIES
+from slamlab.exercises.law import Diagnosis
+from slamlab.exercises.outputs import measured
+
+SIZE = 4  # numbers of a fingerprint
+CLOSE = 1e-6  # of 1 + |number|: rounding moves one by less, another mistake by more
+RIGHT = "right"
+_STEPS = np.array([0.7548776662466927, 0.5698402909980532, 0.8191725133961645, 0.6710436067037893])
+
+
+@dataclass(frozen=True)
+class Table:
+    """The fingerprints of one task.
+
+    Parameters
+    ----------
+    parts : part's name to (fingerprints (n, SIZE), labels (n,) int)
+    names : name of each label: ``RIGHT``, then slips in the order of their precedence, then families
+    hints : the hint of each label, empty for ``RIGHT``
+    slips : int, labels from 1 to this one are slips
+    """
+
+    parts: dict
+    names: tuple[str, ...]
+    hints: tuple[str, ...]
+    slips: int
+
+    def labels(self, part, print):
+        """The labels whose fingerprints of a part are the same, as a set."""
+        if part not in self.parts:
+            return set()
+        known, labels = self.parts[part]
+        off = np.abs(known - print) <= CLOSE * (1 + np.abs(known))
+        return set(labels[off.all(axis=1)].tolist())
+
+
+def fingerprint(arrays):
+    """Reduce arrays to a few numbers: sums with weights that never repeat.
+
+    Parameters
+    ----------
+    arrays : iterable of arrays
+
+    Returns
+    -------
+    (SIZE,)
+    """
+    total, start = np.zeros(SIZE), 1
+    for array in arrays:
+        flat = np.ravel(array).astype(float)
+        at = np.arange(start, start + flat.size + 1)  # one more: an empty array counts, too
+        weights = np.sin(2 * np.pi * np.multiply.outer(_STEPS, at)) + np.cos(_STEPS)[:, None]
+        total += weights @ np.append(flat, np.shape(array)[-1] if np.ndim(array) else 0)
+        start += flat.size + 1
+    return total
+
+
+def of_answers(task, sets, answers):
+    """The fingerprint of each part of a task's outputs.
+
+    Parameters
+    ----------
+    task : Task
+    sets : what ``task.draw(OPEN_SEED)`` made
+    answers : set's name to outputs or StudentError
+
+    Returns
+    -------
+    part's name to (SIZE,); empty where the random inputs could not be run
+    """
+    parts = {}
+    for name, inputs in sets.items():
+        outputs = measured(task, inputs, answers.get(name))
+        if isinstance(outputs, StudentError):
+            if not parts:
+                return {}
+            found = dict.fromkeys(parts, _failure(outputs))
+        else:
+            outputs = {key: array for key, array in outputs.items() if key != CHANGED}
+            found = task.parts(inputs, outputs) if task.parts else outputs
+        for part, array in found.items():
+            parts.setdefault(part, []).append(np.asarray(array, dtype=float))
+    return {part: fingerprint(arrays) for part, arrays in parts.items()}
+
+
+def recognise(task, sets, answers) -> Diagnosis | None:
+    """Name the mistake that explains an answer, if exactly one does.
+
+    Slips go before families. Of parts that are wrong, one mistake must explain all; where none does,
+    there are several, and the first part that a single one explains is told.
+
+    Parameters
+    ----------
+    task, sets, answers : as of :func:`of_answers`
+
+    Returns
+    -------
+    Diagnosis or None
+    """
+    table = tables(task.id[:2]).get(task.id)
+    if table is None:
+        return None
+    with np.errstate(all="ignore"):
+        prints = of_answers(task, sets, answers)
+    matching = [table.labels(part, print) for part, print in prints.items()]
+    wrong = [labels - {0} for labels in matching if 0 not in labels]
+    if not wrong:
+        return None
+    for candidates in (set.intersection(*wrong), *wrong):
+        label = _single(candidates, table.slips)
+        if label:
+            return Diagnosis(table.names[label], table.hints[label], lambda inputs, outputs: True)
+    return None
+
+
+@functools.cache
+def tables(exercise_id) -> dict[str, Table]:
+    """The tables of an exercise's tasks, by their ids; empty where none were compiled."""
+    file = resources.files("slamlab").joinpath("data", "fingerprints", f"{exercise_id}.npz")
+    if not file.is_file():
+        return {}
+    with file.open("rb") as stream, np.load(stream, allow_pickle=False) as stored:
+        arrays = dict(stored)
+    found = {}
+    for task in [key.partition("/")[0] for key in arrays if key.endswith("/names")]:
+        of = {key.split("/", 1)[1]: a for key, a in arrays.items() if key.startswith(f"{task}/")}
+        parts = {
+            key.removeprefix("prints/"): (a, of["labels/" + key.removeprefix("prints/")])
+            for key, a in of.items()
+            if key.startswith("prints/")
+        }
+        slips, families = of["names"].tolist(), sorted(FAMILIES)
+        found[task] = Table(
+            parts,
+            (RIGHT, *slips, *families),
+            ("", *of["hints"].tolist(), *(FAMILIES[name] for name in families)),
+            len(slips),
+        )
+    return found
+
+
+def _single(labels, slips):
+    """The one label that explains: the first slip, else the only family, else None."""
+    named = sorted(label for label in labels if label <= slips)
+    if named:
+        return named[0]
+    return labels.pop() if len(labels) == 1 else None
+
+
+def _failure(error):
+    """A number that stands for the kind of a failure; what it says differs from place to place."""
+    return np.array([zlib.crc32(error.kind.encode()) / 1e6])

@@ -1,0 +1,104 @@
+"""Outputs of a student's functions, measured before they are judged: shapes, numbers, degeneracy."""
+
+import numpy as np
+
+from slamlab.exercises.drives import StudentError
+from slamlab.exercises.drives.arguments import CHANGED
+
+MAX_MAGNITUDE = 1e9
+"""Largest absolute output: beyond it a law's own rounding could hide how wrong a number is."""
+MAX_ROWS = 2000
+"""Most rows of an output of any length: a law may compare each entry with each."""
+
+
+def measured(task, inputs, outputs):
+    """The outputs of one set as float arrays, or what is wrong with them.
+
+    Parameters
+    ----------
+    task : Task
+    inputs : name to array
+    outputs : name to array, not to be trusted; a StudentError, or None, where nothing came back
+
+    Returns
+    -------
+    name to float array, or StudentError
+    """
+    if outputs is None:
+        return StudentError("malformed", "nothing came back")
+    if isinstance(outputs, StudentError):
+        return outputs
+    shapes = shapes_of(task, inputs)
+    problem = _malformed(task.drive.functions[0], shapes, inputs, outputs)
+    if problem:
+        return StudentError("malformed", problem)
+    found = {name: np.asarray(outputs[name], dtype=float) for name in shapes}
+    return found | {CHANGED: np.asarray(outputs.get(CHANGED, ()))}
+
+
+def shapes_of(task, inputs):
+    """Output name to the shape it must have on these inputs, None for any length."""
+    return task.shapes(inputs) if callable(task.shapes) else task.shapes
+
+
+def degenerate(inputs, outputs):
+    """Whether nothing was computed: all outputs constant, or an argument, perhaps scaled.
+
+    Parameters
+    ----------
+    inputs, outputs : name to array
+
+    Returns
+    -------
+    bool
+    """
+    arrays = [array for name, array in outputs.items() if name != CHANGED]
+    rows = [array for array in arrays if array.ndim and len(array) > 1]
+    return bool(rows) and all(_constant(array) or _copied(array, inputs) for array in rows)
+
+
+def _constant(array):
+    return bool((array == array[:1]).all())
+
+
+def _copied(array, inputs):
+    """Whether an array is one of the inputs times one number."""
+    for given in inputs.values():
+        if given.shape == array.shape and given.dtype.kind in "fiu" and given.any():
+            factor = np.vdot(given, array) / np.vdot(given, given)
+            if np.allclose(array, factor * given, rtol=1e-9, atol=1e-9 * np.abs(array).max()):
+                return True
+    return False
+
+
+def _malformed(function, shapes, inputs, outputs):
+    count = min(len(a) for a in inputs.values())
+    for name, shape in shapes.items():
+        what = function if name == "result" else f"{function}'s {name}"
+        if name not in outputs:
+            return f"{what} is missing from what came back"
+        got, want = outputs[name].shape, shape
+        if name == "result":  # one per input: the student thinks of a single call
+            if got[:1] != (count,):
+                return f"{what} answered {got[0] if got else 0} of {count} calls"
+            got = got[1:]
+        if len(got) != len(want) or any(
+            w not in (None, g) for g, w in zip(got, want, strict=True)
+        ):
+            turned = " (transposed?)" if got == want[::-1] else ""
+            return f"{what} returned shape {got}, expected {_shape(want)}{turned}"
+        longest = max((g for g, w in zip(got, want, strict=True) if w is None), default=0)
+        if longest > MAX_ROWS:
+            return f"{what} returned {longest} entries: too many"
+        if not np.isfinite(outputs[name]).all():
+            return f"{what} returned NaN or infinity"
+        if outputs[name].size and np.abs(outputs[name].astype(float)).max() > MAX_MAGNITUDE:
+            return f"{what} returned numbers larger than any that is asked for"
+    return None
+
+
+def _shape(shape):
+    if not shape:
+        return "() (one number)"
+    sizes = ", ".join("n" if n is None else str(n) for n in shape)
+    return f"({sizes},)" if len(shape) == 1 else f"({sizes})"
