@@ -26,7 +26,7 @@ def next_rung(task, namespace) -> str:
     try:
         answers = run_sets(task.drive, namespace, sets)
     except StudentError as error:
-        return f"{error.message}: begin with {task.laws[0].asks or task.laws[0].says}"
+        return f"{error.message}\nA question to begin with: {task.laws[0].asks}"
     case = cases.smallest(
         task, sets, answers, lambda inputs: run_sets(task.drive, namespace, {MAIN: inputs})[MAIN]
     )

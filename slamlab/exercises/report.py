@@ -41,6 +41,8 @@ def format_verdict(task: Task, verdict: Verdict) -> str:
     if verdict.problem:
         lines.append(f"  {verdict.problem}")
     lines += [f"  {format_law(law)}" for law in verdict.laws]
+    problems = dict.fromkeys(p for law in verdict.laws for p in law.where.values() if p)
+    lines += [f"  {problem}" for problem in problems]
     # JupyterLab breaks longer lines in the middle of a word
     lines = [textwrap.fill(line, WIDTH, subsequent_indent="    ") for line in lines]
     if verdict.case:
@@ -75,19 +77,11 @@ def coloured(text, wanted=None) -> str:
 
 def _broken(law):
     """Which inputs broke a law, in words."""
-    probes = [name for name in law.where if name != MAIN]
-    parts = []
-    if MAIN in law.where and law.tried - len(probes) > 1:
-        parts.append(f"broken by {law.failed} of {law.tried} inputs")
-    if probes and MAIN in law.where:
-        parts.append(f"such as {probes[0]}")
-    elif probes:
-        also = f" and {len(probes) - 1} more" if len(probes) > 1 else ""
-        parts.append(f"broken with {probes[0]}{also}")
-    why = next((problem for problem in law.where.values() if problem), None)
-    if why:
-        parts.append(why)
-    return f": {', '.join(parts)}" if parts else ""
+    if MAIN in law.where:
+        return f": broken by {law.failed} of {law.tried} inputs" if law.tried > 1 else ""
+    probes = list(law.where)
+    also = f" and {len(probes) - 1} more" if len(probes) > 1 else ""
+    return f": broken with {probes[0]}{also}" if probes else ""
 
 
 def _in_notebook():
