@@ -120,7 +120,7 @@ def _check(task_id, namespace):
 
 def _run(task, namespace, tell):
     from slamlab.checks import time_limit
-    from slamlab.exercises.run import run
+    from slamlab.exercises.run_task import run
     from slamlab.exercises.task import OPEN_SEED
 
     if not time_limit.can_limit_time():
