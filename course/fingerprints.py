@@ -1,7 +1,7 @@
 """Compile the fingerprints of slips and small mistakes: ``python -m course.fingerprints 06``.
 
-Programs are run on the open inputs twice, the second time with other kernels of linear algebra; rows
-that move are dropped. What ships is numbers and hints, no program.
+Programs are run on the open inputs twice, the second time with other kernels of linear algebra;
+rows that move are dropped. What ships is numbers and hints, no program.
 """
 
 import argparse
@@ -31,7 +31,7 @@ MUTANT_SECONDS = 2.0
 
 
 def compiled(exercise_id) -> dict[str, np.ndarray]:
-    """The tables of an exercise as arrays by name, as :func:`slamlab.exercises.fingerprints.tables` reads them.
+    """The tables of an exercise as arrays by name, as ``slamlab.exercises.fingerprints`` reads.
 
     Parameters
     ----------
