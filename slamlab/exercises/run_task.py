@@ -9,36 +9,56 @@ from slamlab.exercises.task import IDLE, OPEN_SEED, Task
 from slamlab.exercises.verdict import Verdict
 
 
-def run(task: Task, namespace, sets, tell=False) -> Verdict:
-    """Call a task's functions and judge their outputs in one process, as a notebook does.
+def run(task: Task, namespace, sets) -> Verdict:
+    """Call a task's functions and judge their outputs in one process, as the grader's worker does.
 
     Parameters
     ----------
     task : Task
     namespace : the student's names
     sets : what ``task.draw`` made
-    tell : bool, whether the mistake and the smallest failing case are looked for
 
     Returns
     -------
     Verdict
     """
+    try:
+        return task.judge(sets, run_sets(task.drive, namespace, sets))
+    except StudentError as error:
+        return task.failed(error.kind, error.message)
 
-    def drive(sets):
-        return run_sets(task.drive, namespace, sets)
+
+def run_and_tell(task: Task, namespace) -> Verdict:
+    """As :func:`run` on the open inputs, with the mistake and the smallest failing case told.
+
+    Parameters
+    ----------
+    task : Task
+    namespace : the student's names
+
+    Returns
+    -------
+    Verdict
+    """
+    sets = task.draw(OPEN_SEED)
+
+    def run_main(inputs):
+        return run_sets(task.drive, namespace, {MAIN: inputs})[MAIN]
 
     try:
-        answers = drive(sets)
+        answers = run_sets(task.drive, namespace, sets)
+        verdict = task.judge(sets, answers)
     except StudentError as error:
-        failed = task.failed(error.kind, error.message)
-        if tell and error.kind == "raised":
-            failed = _with_case(task, failed, {MAIN: sets[MAIN]}, {MAIN: error}, drive)
-        return failed
-    verdict = task.judge(sets, answers)
-    if verdict.full or not tell:
+        verdict, answers = task.failed(error.kind, error.message), {MAIN: error}
+    if verdict.full or verdict.kind not in (None, "raised", "malformed"):
         return verdict
-    verdict = recognised(task, verdict, lambda _, open: drive(open))
-    return _with_case(task, verdict, sets, answers, drive)
+    verdict = recognised(task, verdict, lambda *_: answers)
+    tried = {name: sets[name] for name in answers}
+    try:
+        case = cases.smallest(task, tried, answers, run_main)
+    except KeyboardInterrupt:  # the time limit, perhaps: what was judged stays judged
+        return verdict
+    return replace(verdict, case=case_text.format_case(task, case)) if case else verdict
 
 
 def recognised(task: Task, verdict: Verdict, run) -> Verdict:
@@ -54,7 +74,8 @@ def recognised(task: Task, verdict: Verdict, run) -> Verdict:
     -------
     Verdict
     """
-    if verdict.problem or verdict.diagnosis == IDLE.name or task.id not in fingerprints.tables(task.id[:2]):
+    unknown = task.id not in fingerprints.tables(task.id[:2])
+    if unknown or verdict.problem or verdict.diagnosis == IDLE.name:
         return verdict
     sets = task.draw(OPEN_SEED)
     try:
@@ -62,9 +83,3 @@ def recognised(task: Task, verdict: Verdict, run) -> Verdict:
     except StudentError:
         return verdict
     return replace(verdict, diagnosis=mistake.name, hint=mistake.hint) if mistake else verdict
-
-
-def _with_case(task, verdict, sets, answers, drive):
-    case = cases.smallest(task, sets, answers, lambda inputs: drive({MAIN: inputs})[MAIN])
-    text = case and case_text.format_case(task, case)
-    return replace(verdict, case=text) if text else verdict
