@@ -44,7 +44,7 @@ def format_case(task, case: Case) -> str | None:
     if want:
         lines += ["and should return", _named(want, case.one)]
     elif case.law.why:
-        lines += [case.law.why(case.inputs, case.outputs)]
+        lines += _reason(case)
     return _joined(lines)
 
 
@@ -64,6 +64,13 @@ def format_numbers(name, array) -> str:
     label = "" if name == "result" else f"{name} = "
     size = f"   {array.shape}" if array.size > MOST else ""
     return f"{label}{text}{size}".replace("\n", "\n" + " " * len(label))
+
+
+def _reason(case):
+    try:
+        return [case.law.why(case.inputs, case.outputs)]
+    except Exception:  # what came back may be such that no sentence can be made of it
+        return []
 
 
 def _named(arrays, one):

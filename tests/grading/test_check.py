@@ -76,6 +76,12 @@ def test_a_loop_without_end_is_stopped_even_where_it_swallows_exceptions():
         assert "still running after 3 s" in printed
 
 
+def test_what_was_judged_in_time_keeps_its_points_however_long_it_takes_to_explain():
+    printed, _ = checked(double("import time; time.sleep(0.14); return a * a"))
+    assert "1.5 of 3.5 points" in printed
+    assert "Hint: you squared" in printed
+
+
 def test_where_no_time_limit_can_be_set_it_says_so():
     said = []
     thread = threading.Thread(target=lambda: said.append(checked("")[0]))
