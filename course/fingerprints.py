@@ -30,7 +30,7 @@ OTHER_KERNEL = {"OPENBLAS_CORETYPE": "Nehalem", "NPY_DISABLE_CPU_FEATURES": "AVX
 SLOW = 0.02
 """CPU time of a run from which on only the solution is mutated [s]."""
 MUTANT_SECONDS = 2.0
-"""Time limit of one mutant, which may never end [s]."""
+"""Time limit of one mutant, which may never end [s of CPU]."""
 
 
 def compiled(exercise_id) -> dict[str, np.ndarray]:
@@ -69,7 +69,7 @@ def digest(exercise_id) -> str:
 def prints_of(one: Programs, source, sets):
     """The fingerprints of one program, part by part; None where it cannot be judged."""
     try:
-        with time_limit(MUTANT_SECONDS), np.errstate(all="ignore"):
+        with time_limit(MUTANT_SECONDS, cpu=True), np.errstate(all="ignore"):
             found = fingerprints.of_answers(one.task, sets, one.answers(source, sets))
     except (StudentError, TimeLimitExceeded, Exception):  # a mutant may do anything
         return None
