@@ -38,7 +38,7 @@ def format_case(task, case: Case) -> str | None:
         return _joined([f"{function} changes {changed}: work on a copy, such as {changed}.copy()"])
     got = {name: array for name, array in case.outputs.items() if name != CHANGED}
     want = case.law.want(case.inputs) if case.law.want else {}
-    lines = [case.law.why(case.inputs, got)] if case.law.why else []
+    lines = _reason(case.law, case.inputs, got)
     if not case.one:  # a whole set: too much to read
         taken = f"Taken together, with {case.probe}:" if case.probe else "Taken together:"
         return _joined([taken, *lines]) if lines else None
@@ -79,6 +79,13 @@ def format_numbers(name, array) -> str:
     label = "" if name == "result" else f"{name} = "
     size = f"   {array.shape}" if array.size > MOST else ""
     return f"{label}{text}{size}".replace("\n", "\n" + " " * len(label))
+
+
+def _reason(law, inputs, outputs):
+    try:
+        return [law.why(inputs, outputs)] if law.why else []
+    except Exception:  # what came back may be such that no sentence can be made of it
+        return []
 
 
 def _named(arrays, one):

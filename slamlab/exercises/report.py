@@ -61,7 +61,7 @@ def format_law(law) -> str:
 
 
 def coloured(text, wanted=None) -> str:
-    """Colour the marks ✓ and ✗ of a text where they are shown in colours, by ANSI's codes.
+    """Colour the marks ✓ and ✗ of a text by ANSI's codes, where these are shown in colours.
 
     Parameters
     ----------
@@ -69,7 +69,7 @@ def coloured(text, wanted=None) -> str:
     wanted : bool or None; None: in a notebook and on a terminal, but where NO_COLOR is set
     """
     if wanted is None:
-        wanted = "NO_COLOR" not in os.environ and (_in_notebook() or sys.stdout.isatty())
+        wanted = not os.environ.get("NO_COLOR") and (_in_notebook() or sys.stdout.isatty())
     for mark, colour in _COLOURS.items() if wanted else ():
         text = text.replace(mark, f"{colour}{mark}{_PLAIN}")
     return text

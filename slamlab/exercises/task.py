@@ -173,7 +173,7 @@ class Task:
     def broken(self, law, inputs, outputs, idle=False):
         """(n,) bool, which inputs of a set broke a law; one entry where it is judged as a whole."""
         if isinstance(outputs, StudentError):
-            return np.array([law is not UNCHANGED])
+            return np.array([law is not UNCHANGED])  # a call that fails has changed nothing by that
         if idle and law is not UNCHANGED:
             return np.array([True])
         holds = _safely(law.holds, inputs, outputs)
