@@ -1,5 +1,6 @@
 """Put a failing case into words: what was called, what came back, what the law wants."""
 
+import re
 import textwrap
 
 import numpy as np
@@ -30,7 +31,9 @@ def format_case(task, case: Case) -> str | None:
     function = task.drive.functions[0]
     begin = f"For instance, with {case.probe}:" if case.probe else "For instance:"
     if isinstance(case.outputs, StudentError):
-        return _joined([begin, f"{function} is given", _named(case.inputs, True), "and fails"])
+        why = re.split(r", at `| \(line", case.outputs.message)[0]  # the rest was told before
+        fails = textwrap.fill(f"and fails: {why}", WIDTH, subsequent_indent="      ")
+        return _joined([begin, f"{function} is given", _named(case.inputs, True), fails])
     if case.law.name == "unchanged":
         names = list(case.inputs)
         which = [int(k) for k in case.outputs[CHANGED]]

@@ -89,7 +89,7 @@ def test_of_a_right_answer_there_is_nothing_to_hint_at(said):
 def test_what_cannot_be_judged_yet_is_led_to_its_first_question(said, function, begins):
     text = said(function)
     assert text.startswith(begins)
-    assert text.endswith("begin with this question: Where does the point (1, 0) go?\n")
+    assert text.endswith("A question to begin with: Where does the point (1, 0) go?\n")
 
 
 @pytest.mark.parametrize("id", ["99-nope", "98-double", "", 7, None])
