@@ -11,12 +11,13 @@ import os
 import subprocess
 import sys
 import tempfile
+import time
 from pathlib import Path
 
 import numpy as np
 
 from course.mutation import mutants
-from course.programs import ProgramError, Programs, programs
+from course.programs import SOLUTION, ProgramError, Programs, programs
 from course.source import ROOT
 from slamlab.checks.time_limit import TimeLimitExceeded, time_limit
 from slamlab.exercises import catalogue, fingerprints
@@ -26,6 +27,8 @@ from slamlab.exercises.task import OPEN_SEED
 
 FOLDER = ROOT / "slamlab" / "data" / "fingerprints"
 OTHER_KERNEL = {"OPENBLAS_CORETYPE": "Nehalem", "NPY_DISABLE_CPU_FEATURES": "AVX2 FMA3 AVX512F"}
+SLOW = 0.02
+"""CPU time of a run from which on only the solution is mutated [s]."""
 MUTANT_SECONDS = 2.0
 """Time limit of one mutant, which may never end [s]."""
 
@@ -84,17 +87,27 @@ def _table(one):
             rows.append((k, _slip_prints(one, slip, program, sets)))
     _check_precedence(one, rows)
     families = sorted(FAMILIES)
-    for source in one.ways.values():
+    for source in _mutated(one, sets):
         for mutant in mutants(source):
             label = 1 + len(one.slips) + families.index(mutant.family)
             rows.append((label, prints_of(one, mutant.source, sets)))
-    names = [slip.name for slip in one.slips], [slip.hint for slip in one.slips]
-    table = {"names": np.array(names[0], dtype=str), "hints": np.array(names[1], dtype=str)}
-    for part in right[0]:
-        known = [(label, prints[part]) for label, prints in rows if prints and part in prints]
-        labels, values = _distinct(known)
-        table |= {f"labels/{part}": labels, f"prints/{part}": values}
-    return table
+    parts = tuple(right[0])
+    labels, values = _distinct([(label, prints) for label, prints in rows if prints], parts)
+    return {
+        "names": np.array([slip.name for slip in one.slips], dtype=str),
+        "hints": np.array([slip.hint for slip in one.slips], dtype=str),
+        "parts": np.array(parts, dtype=str),
+        "labels": labels,
+        "prints": values,
+    }
+
+
+def _mutated(one, sets):
+    """The ways whose mutants are run: all, but of a slow task the solution only."""
+    begin = time.process_time()
+    prints_of(one, one.ways[SOLUTION], sets)
+    slow = time.process_time() - begin > SLOW
+    return [one.ways[SOLUTION]] if slow else list(one.ways.values())
 
 
 def _slip_prints(one, slip, program, sets):
@@ -128,19 +141,17 @@ def _check_precedence(one, rows):
         )
 
 
-def _distinct(known):
-    """Labels and fingerprints without repetitions, and without mutants that are right."""
-    kept, values = {}, []
-    right = [print for label, print in known if label == 0]
-    for label, print in known:
-        if label and any(_close(print, r) for r in right):
-            continue  # this part is as it should be: another one is wrong
-        key = (label, *np.round(print, 5))
-        if key not in kept:
-            kept[key] = len(values)
-            values.append(print)
-    labels = np.array([key[0] for key in kept], dtype=np.int16)
-    return labels, np.array(values).reshape(-1, fingerprints.SIZE)
+def _distinct(rows, parts):
+    """Labels (n,) and fingerprints (n, parts, SIZE) without repetitions and without right mutants."""
+    missing = np.full(fingerprints.SIZE, np.nan)
+    found = [(label, np.array([prints.get(p, missing) for p in parts])) for label, prints in rows]
+    right = [values for label, values in found if label == 0]
+    kept = {}
+    for label, values in found:
+        if label == 0 or not any(_close(values, r) for r in right):
+            kept.setdefault((label, np.round(values, 5).tobytes()), values)
+    labels = np.array([label for label, _ in kept], dtype=np.int16)
+    return labels, np.array(list(kept.values())).reshape(len(kept), len(parts), -1)
 
 
 def _close(a, b):
@@ -158,17 +169,17 @@ def stable(arrays, others):
     -------
     tables, int : and how many rows moved
     """
-    moved = 0
-    for key in [key for key in arrays if "/prints/" in key]:
-        labels = key.replace("/prints/", "/labels/")
-        there = others[key]
-        margin = fingerprints.CLOSE / 10
-        keep = np.array(
-            [(np.abs(there - p) <= margin * (1 + np.abs(p))).all(axis=1).any() for p in arrays[key]]
-        )
-        keep |= arrays[labels] == 0
+    moved, margin = 0, fingerprints.CLOSE / 10
+    for key in [key for key in arrays if key.endswith("/prints")]:
+        labels, prints = arrays[key.replace("prints", "labels")], arrays[key]
+        there = np.nan_to_num(others[key])
+        near = [
+            (np.abs(there - p) <= margin * (1 + np.abs(p))).all(axis=(1, 2)).any()
+            for p in np.nan_to_num(prints)
+        ]
+        keep = (labels == 0) | np.array(near)
         moved += int((~keep).sum())
-        arrays = arrays | {key: arrays[key][keep], labels: arrays[labels][keep]}
+        arrays = arrays | {key: prints[keep], key.replace("prints", "labels"): labels[keep]}
     return arrays, moved
 
 
@@ -189,7 +200,7 @@ def main():
         arrays, moved = stable(arrays, _with_other_kernel(id))
         FOLDER.mkdir(parents=True, exist_ok=True)
         np.savez_compressed(FOLDER / f"{id}.npz", **arrays)
-        rows = sum(len(a) for key, a in arrays.items() if "/prints/" in key)
+        rows = sum(len(a) for key, a in arrays.items() if key.endswith("/prints"))
         size = (FOLDER / f"{id}.npz").stat().st_size / 1024
         print(f"{id}: {rows} fingerprints, {moved} dropped that moved, {size:.0f} kB")
 

@@ -115,7 +115,9 @@ def survivors(one: Programs, draws, sample=None, rng=None):
 def main():
     """List the survivors of exercises; exits with 1 where one is neither killed nor explained."""
     parser = argparse.ArgumentParser(prog="python -m course.mutants", description=__doc__)
-    parser.add_argument("exercise", nargs="*", help="such as 06, or a task, 06-update; default: all")
+    parser.add_argument(
+        "exercise", nargs="*", help="such as 06, or a task, 06-update; default: all"
+    )
     parser.add_argument("--draws", type=int, default=100, help="on which survivors are compared")
     arguments = parser.parse_args()
     holes = 0

@@ -123,7 +123,10 @@ def _changes(node, names) -> Iterator:
         other = ast.Or if isinstance(node.op, ast.And) else ast.And
         yield "guard", lambda n, t: setattr(n, "op", other())
         for k in range(len(node.values)):
-            yield "guard", lambda n, t, k=k: _put(n, t, n.values[1 - k] if len(n.values) == 2 else n)
+            yield (
+                "guard",
+                lambda n, t, k=k: _put(n, t, n.values[1 - k] if len(n.values) == 2 else n),
+            )
     elif isinstance(node, ast.If | ast.IfExp | ast.While):
         yield "guard", lambda n, t: setattr(n, "test", ast.Constant(True))
         if not isinstance(node, ast.While):
@@ -137,7 +140,10 @@ def _changes(node, names) -> Iterator:
         for other in sorted(names - {node.id}):
             yield "name", lambda n, t, other=other: setattr(n, "id", other)
     elif isinstance(node, ast.AugAssign):
-        yield "sign", lambda n, t: setattr(n, "op", ast.Sub() if isinstance(n.op, ast.Add) else ast.Add())
+        yield (
+            "sign",
+            lambda n, t: setattr(n, "op", ast.Sub() if isinstance(n.op, ast.Add) else ast.Add()),
+        )
     if isinstance(getattr(node, "body", None), list):
         yield from _statements(node)
 
@@ -159,8 +165,14 @@ def _operations(node):
     if op in (ast.Mult, ast.MatMult, ast.Add, ast.Sub):
         yield "factor", lambda n, t: _put(n, t, ast.BinOp(ast.Constant(2), ast.Mult(), _kept(n)))
         yield "factor", lambda n, t: _put(n, t, ast.BinOp(ast.Constant(0.5), ast.Mult(), _kept(n)))
-        yield "square", lambda n, t: setattr(n, "right", ast.BinOp(n.right, ast.Pow(), ast.Constant(2)))
-        yield "square", lambda n, t: setattr(n, "left", ast.BinOp(n.left, ast.Pow(), ast.Constant(2)))
+        yield (
+            "square",
+            lambda n, t: setattr(n, "right", ast.BinOp(n.right, ast.Pow(), ast.Constant(2))),
+        )
+        yield (
+            "square",
+            lambda n, t: setattr(n, "left", ast.BinOp(n.left, ast.Pow(), ast.Constant(2))),
+        )
 
 
 def _calls(node):
@@ -188,7 +200,12 @@ def _calls(node):
         if keyword.arg == "axis":
             yield "axis", lambda n, t, k=k: n.keywords.pop(k)
             for axis in (0, 1, -1):
-                yield "axis", lambda n, t, k=k, axis=axis: setattr(n.keywords[k], "value", ast.Constant(axis))
+                yield (
+                    "axis",
+                    lambda n, t, k=k, axis=axis: setattr(
+                        n.keywords[k], "value", ast.Constant(axis)
+                    ),
+                )
         elif keyword.arg in ("strict", "dtype"):
             continue
         else:
@@ -217,11 +234,25 @@ def _statements(node):
         if isinstance(node, ast.For) and isinstance(statement, ast.If):
             yield "guard", lambda n, t, k=k: n.body.insert(k + 1, ast.Break())
     if isinstance(node, ast.For):
-        yield "index", lambda n, t: setattr(
-            n, "iter", ast.Subscript(_call("list", n.iter, of=None), ast.Slice(ast.Constant(1)), ast.Load())
+        yield (
+            "index",
+            lambda n, t: setattr(
+                n,
+                "iter",
+                ast.Subscript(
+                    _call("list", n.iter, of=None), ast.Slice(ast.Constant(1)), ast.Load()
+                ),
+            ),
         )
-        yield "index", lambda n, t: setattr(
-            n, "iter", ast.Subscript(_call("list", n.iter, of=None), ast.Slice(None, ast.Constant(-1)), ast.Load())
+        yield (
+            "index",
+            lambda n, t: setattr(
+                n,
+                "iter",
+                ast.Subscript(
+                    _call("list", n.iter, of=None), ast.Slice(None, ast.Constant(-1)), ast.Load()
+                ),
+            ),
         )
 
 
