@@ -68,7 +68,10 @@ SLIPS = (
         (SUM, "(values - values[0]) % 256"),
         (SUM, f"{SUM} % 256"),
         (SUM, f"({SUM} + 128) % 256 - 128"),
-        Edit("as int8", ((".astype(int)", ""), (".cumsum()", ".astype(np.int8).cumsum(dtype=np.int8)"))),
+        Edit(
+            "as int8",
+            ((".astype(int)", ""), (".cumsum()", ".astype(np.int8).cumsum(dtype=np.int8)")),
+        ),
     ),
     Slip(
         "only forwards",
@@ -112,7 +115,9 @@ SLIPS = (
     Slip(
         "mended the wrong way",
         "A jump down by more than 128 is an overflow ahead: a round is added to it, not taken off.",
-        Edit("both sides by hand", ((f"+ {HAND}", f"- 256 * (steps < -127) + 256 * (steps > 127)"),)),
+        Edit(
+            "both sides by hand", ((f"+ {HAND}", "- 256 * (steps < -127) + 256 * (steps > 127)"),)
+        ),
     ),
     Slip(
         "first overflow only",

@@ -255,14 +255,14 @@ SLIPS = (
 STUMBLES = (
     Stumble(
         "malformed",
-        '''
+        """
 def command(speed, turn):
     return [1, speed, turn]
-''',
-        '''
+""",
+        """
 def command(speed, turn):
     speed, turn = max(-100, min(100, speed)), max(-100, min(100, turn))
-''',
+""",
     ),
     Stumble("raised", (f"{CUT} % 256", f"{CUT} + '%'")),
 )

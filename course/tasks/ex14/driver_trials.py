@@ -62,7 +62,10 @@ SLIPS = (
     Slip(
         "steps for counts",
         "You expect the steps. A right driver returns their sums, the way since the first reading.",
-        ("way(3, [127] * 270)", "(lambda v, c: (v, np.append(0, np.diff(c))))(*way(3, [127] * 270))"),
+        (
+            "way(3, [127] * 270)",
+            "(lambda v, c: (v, np.append(0, np.diff(c))))(*way(3, [127] * 270))",
+        ),
     ),
     Slip(
         "values not wrapped",
@@ -104,17 +107,5 @@ def trials():
 """,
 }
 
-WEAK = {  # programs that each show one weakness, to which the diagnosis of that name belongs
-    "no overflow": "def trials():\n    return [way(1, [3] * 30)]",
-    "one direction": "def trials():\n    return [way(1, [50] * 30)]",
-    "slow": "def trials():\n    return [way(1, [50] * 30 + [-50] * 30)]",
-    "always from 0": "def trials():\n    return [way(0, [127] * 30 + [-127] * 30)]",
-    "one way": "def trials():\n    return [way(1, [127] * 30 + [-127] * 30)]",
-    "no shortest way": "def trials():\n    return [way(1, [127] * 30 + [-127] * 30)] * 2",
-    "never far": "def trials():\n    return [way(1, [127] * 30 + [-127] * 30)] * 2 + [way(1, []), ([], [])]",
-    "not everything": "def trials():\n    return [way(1, [127] * 260), way(1, [-127] * 260), way(1, []), ([], [])]",
-    "too much": "def trials():\n    return [way(1, [127] * 999), way(1, [])]",
-    "no byte": "def trials():\n    return [([0, 200], [0, 200])]",
-    "half a round": "def trials():\n    return [way(0, [128])]",
-    "wrong counts": "def trials():\n    return [([0, 5], [0, -5])]",
-}
+# to find 97 of 100 is to be right, whichever ways are taken: what survives has found them
+EQUIVALENT = {"": "other ways, which find as many drivers"}

@@ -125,11 +125,6 @@ SLIPS = (
         ("len(data), 5", "len(data) - 5, 5"),
     ),
     Slip(
-        "first one missing",
-        "The first node is missing: a packet holds nodes from its byte 0 on.",
-        ("range(0, len", "range(5, len"),
-    ),
-    Slip(
         "fixed count",
         "You read as many nodes as one packet happened to have. How many there are, the length of "
         "the data says.",

@@ -1,4 +1,4 @@
-"""How exercise 14, the eMIR system, is driven: bytes and numbers go in, numbers and texts come back."""
+"""How exercise 14, the eMIR system, is driven: bytes and numbers go in, numbers come back."""
 
 import numpy as np
 
@@ -91,7 +91,9 @@ def swept(functions, inputs):
     for data, length in rows(inputs):
         found.append(functions["sweep"](bytes(data[: int(length)].astype(int).tolist())))
     taken = np.array([float(rays is not None) for rays in found])
-    tables = [np.zeros((0, 2)) if rays is None else _table(rays, "sweep", 2, "(k, 2)") for rays in found]
+    tables = [
+        np.zeros((0, 2)) if rays is None else _table(rays, "sweep", 2, "(k, 2)") for rays in found
+    ]
     rays, count = _filled(tables, inputs["data"].shape[1] // 3)
     return {"taken": taken, "count": count, "rays": rays}
 

@@ -55,7 +55,8 @@ def _single(rng):
 def _all_steps(rng):
     """Every step there is, in any order, from the least byte on."""
     steps = np.array([rng.permutation(np.arange(-127, 128)) for _ in range(2)])
-    return {"values": ring(np.column_stack([[-128, 127], [[-128], [127]] + np.cumsum(steps, 1)]))}
+    begin = np.array([[-128], [127]])
+    return {"values": ring(np.column_stack([begin, begin + np.cumsum(steps, axis=1)]))}
 
 
 def steps(i):
@@ -117,7 +118,9 @@ UNWRAP = Task(
         Probe("a single reading", _single),
         Probe("two readings", _by_steps([127], [-127], [1], [-1], [0])),
         Probe("a robot that stands still", _by_steps([0, 0, 0, 5, 0], [0, 0, -5, 0, 0])),
-        Probe("the longest steps", _by_steps(*([s, s, s, -s, -s, -s, -s] for s in (126, 127, -127)))),
+        Probe(
+            "the longest steps", _by_steps(*([s, s, s, -s, -s, -s, -s] for s in (126, 127, -127)))
+        ),
         Probe("many rounds", _by_steps([121] * 300, [-121] * 300)),
         Probe("every step there is", _all_steps),
     ),

@@ -133,7 +133,9 @@ COMMAND = Task(
         Probe("both at ±100", _of((100, 99), (-100, 100), (100, -100), (-100, -99))),
         Probe("numbers just beyond ±100", _of((101, 60), (-101, 7), (8, 101), (-3, -101))),
         Probe("numbers far beyond ±100", _of((1000, 4), (5, -1000), (-300, 300), (256, -512))),
-        Probe("bytes that add up to a multiple of 256", _of((-40, 39), (90, -91), (-1, 0), (0, -1))),
+        Probe(
+            "bytes that add up to a multiple of 256", _of((-40, 39), (90, -91), (-1, 0), (0, -1))
+        ),
         Probe("a checksum of one digit", _of((-50, 45), (-7, 4), (92, -100), (-9, 0))),
     ),
     parts=parts,

@@ -77,7 +77,9 @@ def objection(o):
 
 def found(i, o):
     """How many of the faulty drivers the trials tell from right ones; 0 if they cannot be used."""
-    return _found(int(i["_drivers"][0]), *(o[name].tobytes() for name in ("values", "counts", "lengths")))
+    return _found(
+        int(i["_drivers"][0]), *(o[name].tobytes() for name in ("values", "counts", "lengths"))
+    )
 
 
 @lru_cache(maxsize=4)  # each law asks for it
@@ -208,7 +210,9 @@ TRIALS = Task(
             "never far",
             "None of your ways goes further than 32 767 counts, ahead or back: a total of 16 bits "
             "would do, and an overflow there stays unseen.",
-            lambda ways, raw, steps: not any(np.abs(faulty_drivers.right(v)).max(initial=0) > 32767 for v in ways),
+            lambda ways, raw, steps: (
+                not any(np.abs(faulty_drivers.right(v)).max(initial=0) > 32767 for v in ways)
+            ),
         ),
         _lacking(
             "not everything",

@@ -36,7 +36,7 @@ def _each(driver):
 
 
 def _steps(change):
-    """A driver whose counts between readings are changed: (raw, steps, values, parameter) -> steps."""
+    """A driver whose steps are changed: (raw, steps, values, parameter) -> steps."""
 
     def driver(values, *parameter):
         raw = np.diff(values)
@@ -51,7 +51,7 @@ def _counts(change):
 
 
 def _mended_beyond(raw, steps, values, limit, side):
-    """Overflows are mended on one side beyond a wrong limit: some are not, or more than there are."""
+    """Overflows of one side are mended beyond a wrong limit: not all, or more than there are."""
     mended = raw - ROUND * np.sign(raw) * (np.abs(raw) > limit)
     return np.where(np.sign(raw) == side, mended, steps)
 
@@ -73,7 +73,7 @@ def _backlash(raw, steps, values):
 
 
 def _byte_skipped(values, byte):
-    """A byte that is taken for no reading: the count before it is repeated, the next step is whole."""
+    """A byte is taken for no reading: the count before it is repeated, the next step is whole."""
     seen = values.copy()
     for k in np.flatnonzero(values == byte):
         seen[k] = seen[k - 1] if k else byte
@@ -130,7 +130,11 @@ _LIMITS = [*range(100, 127), *range(129, 151)]
 _ONCE = [()]
 FAULTS = {  # name: driver, its parameters, how many of them are drawn
     "not mended": (_steps(lambda raw, *_: raw), _ONCE, 1),
-    "one side": (_steps(lambda raw, s, v, side: np.where(raw * side > 0, raw, s)), [(1,), (-1,)], 2),
+    "one side": (
+        _steps(lambda raw, s, v, side: np.where(raw * side > 0, raw, s)),
+        [(1,), (-1,)],
+        2,
+    ),
     "wrong limit": (_steps(_mended_beyond), [*product(_LIMITS, (1, -1))], 12),
     "limit at the edge": (_steps(_mended_beyond), [*product((126, 129), (1, -1))], 3),
     "255": (_steps(lambda raw, s, v, n: s + n * np.sign(s - raw)), [(-1,), (1,)], 1),

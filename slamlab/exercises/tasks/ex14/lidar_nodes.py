@@ -128,7 +128,7 @@ def _as_sent(*columns):
 
 
 def parts(i, o):
-    """How many rows, and each column of the whole nodes, or of all rows where these are not known."""
+    """How many rows, and each column of the whole nodes; of all rows where these are unknown."""
     known = read(i, o)
     lost = np.isnan(known).all(axis=(1, 2))[:, None, None]
     columns = np.nan_to_num(np.where(lost, o["nodes"], known), nan=-1.0)

@@ -47,7 +47,7 @@ def _word(number):
 
 
 def _points(rng, n, empty=1):
-    """(n, 2) points of which some did not come back; strength 0 or not has nothing to do with it."""
+    """(n, 2) points of which some did not come back; the strength does not say which ones."""
     points = np.column_stack([rng.integers(300, 65536, n), rng.integers(1, 256, n)])
     points[rng.permutation(n)[:2], 1] = 0
     points[rng.permutation(n)[:empty], 0] = 0
@@ -103,7 +103,7 @@ def _damaged(rng):
 
 
 def one(data):
-    """(n, 4) of a whole packet: angle [degree, clockwise], distance [m], strength, number; else None."""
+    """(n, 2) of a whole packet: angle [degree, clockwise], distance [m]; None of a damaged one."""
     n = data[1]
     if data[0] != HEAD or len(data) != 3 * n + 7 or sum(data[:-1]) % 256 != data[-1]:
         return None
@@ -111,7 +111,7 @@ def one(data):
     points = np.reshape(data[4:-3], (n, 3))
     angle = first + np.arange(n) * ((last - first) % TURN) / max(n - 1, 1)
     distance = (points[:, 0] + 256 * points[:, 1]) / 1000
-    return np.column_stack([angle / 100, distance, points[:, 2], np.arange(n)])
+    return np.column_stack([angle / 100, distance])
 
 
 def whole(i):
@@ -127,7 +127,7 @@ def _good(i):
 def _wanted(i):
     said = whole(i)
     rays = np.zeros((len(said), i["data"].shape[1] // 3, 2))
-    came = [np.zeros((0, 4)) if each is None else each[each[:, 1] > 0] for each in said]
+    came = [np.zeros((0, 2)) if each is None else each[each[:, 1] > 0] for each in said]
     for row, each in zip(rays, came, strict=True):
         row[: len(each)] = np.column_stack([_wrapped(-np.radians(each[:, 0])), each[:, 1]])
     count = np.array([float(len(each)) for each in came])
@@ -243,14 +243,34 @@ SWEEP = Task(
         ),
     ),
     probes=(
-        Probe("a single point", _probe(lambda rng: [(rng.integers(TURN), 0, [[rng.integers(300, 9000), 9]])])),
+        Probe(
+            "a single point",
+            _probe(lambda rng: [(rng.integers(TURN), 0, [[rng.integers(300, 9000), 9]])]),
+        ),
         Probe("two points", _probe(lambda rng: [(rng.integers(9000), 150, _points(rng, 2, 0))])),
-        Probe("nothing that came back", _probe(lambda rng: [(777, 900, [[0, 5]] * 3), (35990, 0, [[0, 0]])])),
-        Probe("gaps at both ends", _probe(lambda rng: [(35000, 1500, [[0, 7], *_points(rng, 4, 1), [0, 0]])])),
-        Probe("more than half a turn", _probe(lambda rng: [(rng.integers(TURN), 24000, _points(rng, 9))])),
-        Probe("a lidar that stands still", _probe(lambda rng: [(rng.integers(TURN), 0, _points(rng, 4))])),
-        Probe("many points", _probe(lambda rng: [(rng.integers(TURN), 9000, _points(rng, 255, 20))])),
-        Probe("the shortest and the longest way", _probe(lambda rng: [(0, 300, [[1, 1], [255, 0], [256, 2], [65535, 3]])])),
+        Probe(
+            "nothing that came back",
+            _probe(lambda rng: [(777, 900, [[0, 5]] * 3), (35990, 0, [[0, 0]])]),
+        ),
+        Probe(
+            "gaps at both ends",
+            _probe(lambda rng: [(35000, 1500, [[0, 7], *_points(rng, 4, 1), [0, 0]])]),
+        ),
+        Probe(
+            "more than half a turn",
+            _probe(lambda rng: [(rng.integers(TURN), 24000, _points(rng, 9))]),
+        ),
+        Probe(
+            "a lidar that stands still",
+            _probe(lambda rng: [(rng.integers(TURN), 0, _points(rng, 4))]),
+        ),
+        Probe(
+            "many points", _probe(lambda rng: [(rng.integers(TURN), 9000, _points(rng, 255, 20))])
+        ),
+        Probe(
+            "the shortest and the longest way",
+            _probe(lambda rng: [(0, 300, [[1, 1], [255, 0], [256, 2], [65535, 3]])]),
+        ),
         Probe("packets with one thing wrong", _damaged),
         Probe("small sums and sums of 256", _probe(lambda rng: SUMS)),
     ),
