@@ -11,6 +11,10 @@ from slamlab.exercises.drives.arguments import CHANGED
 WIDTH = 92  # of what is said [letters]
 MOST = 60  # numbers of an array that are shown
 INDENT = "      "
+WRITTEN = {  # arrays of whole numbers that stand for something else, by their names
+    "codes": lambda codes: repr("".join(chr(code) for code in codes if code > 0)),
+    "data": lambda data: f"{bytes((data % 256).tolist()).hex(' ')}   (bytes)",
+}
 
 
 def format_case(task, case: Case) -> str | None:
@@ -29,10 +33,12 @@ def format_case(task, case: Case) -> str | None:
         return None
     function = task.drive.functions[0]
     begin = f"For instance, with {case.probe}:" if case.probe else "For instance:"
-    told = _named(case.inputs, case.one)
-    lines = [begin, f"{function} is given" if case.one else "given are", told]
+    given = {n: a for n, a in case.inputs.items() if not n.startswith("_")}  # the judge's own
+    lines = [begin]
+    if given:
+        lines += [f"{function} is given" if case.one else "given are", _named(given, case.one)]
     if isinstance(case.outputs, StudentError):
-        return _joined([*lines, f"and fails: {case.outputs.message}"])
+        return _joined([*lines, f"{'and' if given else 'it'} fails: {case.outputs.message}"])
     if case.law.name == "unchanged":
         names = list(case.inputs)
         which = [int(k) for k in case.outputs[CHANGED]]
@@ -51,6 +57,8 @@ def format_case(task, case: Case) -> str | None:
 def format_numbers(name, array) -> str:
     """Format a name and its numbers, short and rounded: "P = [[0.1, 0], [0, 0.2]]"."""
     array = np.asarray(array)
+    if name in WRITTEN and array.ndim == 1:
+        return f"{name} = {WRITTEN[name](array.astype(int))}"
     text = np.array2string(
         array,
         precision=4,
