@@ -1,7 +1,7 @@
 """Compile the fingerprints of slips and small mistakes: ``python -m course.fingerprints 06``.
 
-Programs are run on the open inputs twice, the second time with other kernels of linear algebra; rows
-that move are dropped. What ships is numbers and hints, no program.
+Programs are run on the open inputs twice, the second time with other kernels of linear algebra;
+rows that move are dropped. What ships is numbers and hints, no program.
 """
 
 import argparse
@@ -11,7 +11,6 @@ import os
 import subprocess
 import sys
 import tempfile
-import time
 from pathlib import Path
 
 import numpy as np
@@ -27,14 +26,12 @@ from slamlab.exercises.task import OPEN_SEED
 
 FOLDER = ROOT / "slamlab" / "data" / "fingerprints"
 OTHER_KERNEL = {"OPENBLAS_CORETYPE": "Nehalem", "NPY_DISABLE_CPU_FEATURES": "AVX2 FMA3 AVX512F"}
-SLOW = 0.02
-"""CPU time of a run from which on only the solution is mutated [s]."""
 MUTANT_SECONDS = 2.0
 """Time limit of one mutant, which may never end [s]."""
 
 
 def compiled(exercise_id) -> dict[str, np.ndarray]:
-    """The tables of an exercise as arrays by name, as :func:`slamlab.exercises.fingerprints.tables` reads them.
+    """The tables of an exercise as arrays by name, as ``exercises.fingerprints`` reads them.
 
     Parameters
     ----------
@@ -66,10 +63,10 @@ def digest(exercise_id) -> str:
     return hashlib.sha256("\n".join(texts).encode()).hexdigest()
 
 
-def prints_of(one: Programs, source, sets):
-    """The fingerprints of one program, part by part; None where it cannot be judged."""
+def prints_of(one: Programs, source, sets, seconds=60.0):
+    """The fingerprints of one program, part by part; None where it cannot be judged in time."""
     try:
-        with time_limit(MUTANT_SECONDS), np.errstate(all="ignore"):
+        with time_limit(seconds), np.errstate(all="ignore"):
             found = fingerprints.of_answers(one.task, sets, one.answers(source, sets))
     except (StudentError, TimeLimitExceeded, Exception):  # a mutant may do anything
         return None
@@ -88,10 +85,9 @@ def _table(one):
             rows.append((k, _slip_prints(one, slip, program, sets)))
     _check_precedence(one, rows)
     families = sorted(FAMILIES)
-    for source in _mutated(one, sets):
-        for mutant in mutants(source):
-            label = 1 + len(one.slips) + families.index(mutant.family)
-            rows.append((label, prints_of(one, mutant.source, sets)))
+    for mutant in _mutants(one):
+        label = 1 + len(one.slips) + families.index(mutant.family)
+        rows.append((label, prints_of(one, mutant.source, sets, MUTANT_SECONDS)))
     parts = tuple(right[0])
     labels, values = _distinct([(label, prints) for label, prints in rows if prints], parts)
     return {
@@ -103,12 +99,15 @@ def _table(one):
     }
 
 
-def _mutated(one, sets):
-    """The ways whose mutants are run: all, but of a slow task the solution only."""
-    begin = time.process_time()
-    prints_of(one, one.ways[SOLUTION], sets)
-    slow = time.process_time() - begin > SLOW
-    return [one.ways[SOLUTION]] if slow else list(one.ways.values())
+def _mutants(one):
+    """Mutants of all ways; of a slow task's solution only, evenly chosen, ``MUTANTS`` of them."""
+    most = getattr(one.module, "MUTANTS", None)
+    if most:
+        made = mutants(one.ways[SOLUTION])
+        return made[:: -(-len(made) // most)]
+    made = [mutants(source) for source in one.ways.values()]
+    # names are too many, and those of the solution suffice
+    return made[0] + [m for others in made[1:] for m in others if m.family != "name"]
 
 
 def _slip_prints(one, slip, program, sets):
@@ -143,7 +142,7 @@ def _check_precedence(one, rows):
 
 
 def _distinct(rows, parts):
-    """Labels (n,) and fingerprints (n, parts, SIZE) without repetitions and without right mutants."""
+    """Labels (n,) and fingerprints (n, parts, SIZE), each once, without mutants that are right."""
     missing = np.full(fingerprints.SIZE, np.nan)
     found = [(label, np.array([prints.get(p, missing) for p in parts])) for label, prints in rows]
     right = [values for label, values in found if label == 0]

@@ -1,8 +1,8 @@
 """Try the laws of tasks on every small change of every right way: ``python -m course.mutants 06``.
 
-A mutant that keeps full marks survives. It is listed with an input on which it differs from the way
-it was made of: then a probe is missing, or it is right as well and is to be entered, with its reason,
-in ``EQUIVALENT`` of the task's programs. One that agrees on all draws is equivalent.
+A mutant that keeps full marks survives. It is listed with an input on which it differs from the
+way it was made of: then a probe is missing, or it is right as well and is to be entered, with its
+reason, in ``EQUIVALENT`` of the task's programs. One that agrees on all draws is equivalent.
 """
 
 import argparse

@@ -160,10 +160,9 @@ def _base(exercise_id):
     cells = (
         re.sub(r"^from slamlab\.checks import .*$", _STUBS, cell, flags=re.M)
         for cell in _cells(exercise_id)
+        if not cell.startswith(("%", "!"))
     )
-    return tuple(
-        compile(cell, "<cell 1>", "exec") for cell in cells if not cell.startswith(("%", "!"))
-    )
+    return tuple(compile(cell, "<cell 1>", "exec") for cell in cells)
 
 
 @functools.cache

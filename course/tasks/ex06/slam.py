@@ -189,4 +189,6 @@ STUMBLES = (
     Stumble("raised", (UPDATE, "x, P = update(x, P, one, i, R)")),
 )
 
+MUTANTS = 120
+
 EQUIVALENT = {}
