@@ -11,9 +11,9 @@ from slamlab.exercises.drives.arguments import CHANGED
 WIDTH = 92  # of what is said [letters]
 MOST = 60  # numbers of an array that are shown
 INDENT = "      "
-WRITTEN = {  # arrays of whole numbers that stand for something else, by their names
+WRITTEN = {  # whole numbers that stand for something else, by their arrays' names
     "codes": lambda codes: repr("".join(chr(code) for code in codes if code > 0)),
-    "data": lambda data: f"{bytes((data % 256).tolist()).hex(' ')}   (bytes)",
+    "data": lambda data: f"{bytes(data[data >= 0].tolist()).hex(' ')}   (bytes)",
 }
 
 

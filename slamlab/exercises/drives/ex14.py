@@ -81,15 +81,15 @@ def swept(functions, inputs):
     Parameters
     ----------
     functions : "sweep"
-    inputs : data (n, k) bytes, filled up with 0; length (n,) how many of them are the packet
+    inputs : data (n, k) bytes, -1 behind the end
 
     Returns
     -------
     {"taken": (n,) 0 where None came back, "count": (n,) how many rows, "rays": (n, m, 2)}
     """
     found = []
-    for data, length in rows(inputs):
-        found.append(functions["sweep"](bytes(data[: int(length)].astype(int).tolist())))
+    for (data,) in rows(inputs):
+        found.append(functions["sweep"](bytes(data[data >= 0].astype(int).tolist())))
     taken = np.array([float(rays is not None) for rays in found])
     tables = [
         np.zeros((0, 2)) if rays is None else _table(rays, "sweep", 2, "(k, 2)") for rays in found

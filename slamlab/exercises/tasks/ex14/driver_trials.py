@@ -32,9 +32,9 @@ def inputs(rng):
 
     Returns
     -------
-    {"_drivers": (1,)}
+    {"_drivers": (2,)}
     """
-    return {"_drivers": rng.integers(1, 2**31, 1)}
+    return {"_drivers": rng.integers(1, 2**31, 2)}
 
 
 def ways_of(o):
@@ -78,7 +78,8 @@ def objection(o):
 def found(i, o):
     """How many of the faulty drivers the trials tell from right ones; 0 if they cannot be used."""
     return _found(
-        int(i["_drivers"][0]), *(o[name].tobytes() for name in ("values", "counts", "lengths"))
+        tuple(i["_drivers"].astype(int).tolist()),
+        *(o[name].tobytes() for name in ("values", "counts", "lengths")),
     )
 
 
@@ -97,10 +98,9 @@ def _why(i, o):
     wrong = objection(o)
     if wrong:
         return wrong[1]
-    return (
-        f"Of the 100 faulty drivers {found(i, o)} are found, with {len(o['values'])} readings in "
-        f"{len(o['lengths'])} ways."
-    )
+    ways = len(o["lengths"])
+    effort = f"{len(o['values'])} readings in {ways} way{'' if ways == 1 else 's'}"
+    return f"Of the 100 faulty drivers {found(i, o)} are found, with {effort}."
 
 
 def _law(least, points, asks):

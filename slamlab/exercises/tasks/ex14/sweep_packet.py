@@ -55,11 +55,10 @@ def _points(rng, n, empty=1):
 
 
 def _filled(packets):
-    length = np.array([len(each) for each in packets])
-    data = np.zeros((len(packets), length.max()), dtype=int)
+    data = np.full((len(packets), max(map(len, packets))), -1)
     for row, each in zip(data, packets, strict=True):
         row[: len(each)] = each
-    return {"data": data, "length": length}
+    return {"data": data}
 
 
 def inputs(rng):
@@ -71,7 +70,7 @@ def inputs(rng):
 
     Returns
     -------
-    {"data": (n, k) bytes, filled up with 0, "length": (n,) how many of them are the packet}
+    {"data": (n, k) bytes, -1 behind the end}
     """
     told = []
     for k in range(PACKETS):
@@ -116,8 +115,7 @@ def one(data):
 
 def whole(i):
     """What each packet says, None where it is damaged."""
-    pairs = zip(i["data"].astype(int), i["length"].astype(int), strict=True)
-    return [one(data[:length].tolist()) for data, length in pairs]
+    return [one(data[data >= 0].tolist()) for data in i["data"].astype(int)]
 
 
 def _good(i):
@@ -179,7 +177,7 @@ def parts(i, o):
 
 
 def _steps(i):
-    data = i["data"][0, : int(i["length"][0])].astype(int).tolist()
+    data = i["data"][0][i["data"][0] >= 0].astype(int).tolist()
     return {
         "bytes": len(data),
         "bytes asked for by byte 1": 3 * data[1] + 7,
