@@ -14,7 +14,7 @@ import numpy as np
 
 from course.fingerprints import MUTANT_SECONDS
 from course.mutation import Mutant, mutants
-from course.programs import Programs, namespace, programs
+from course.programs import SOLUTION, Programs, namespace, programs
 from slamlab.checks.time_limit import TimeLimitExceeded, time_limit
 from slamlab.exercises import catalogue
 from slamlab.exercises.drives import StudentError
@@ -47,7 +47,7 @@ def survives(one: Programs, source, seeds=SEEDS) -> bool:
     """Whether a program keeps full marks, with the open seed and some others."""
     for seed in [OPEN_SEED, *(b"mutants %d" % k for k in range(1, seeds))]:
         try:
-            with time_limit(MUTANT_SECONDS):
+            with time_limit(MUTANT_SECONDS, cpu=True):
                 if not one.verdict(source, seed).full:
                     return False
         except (TimeLimitExceeded, Exception):
@@ -71,7 +71,7 @@ def difference(one: Programs, source, way, draws) -> str | None:
     for k in range(draws):
         sets = one.task.draw(b"draw %d" % k)
         try:
-            with time_limit(max(MUTANT_SECONDS, one.task.drive.seconds)):
+            with time_limit(max(MUTANT_SECONDS, one.task.drive.seconds), cpu=True):
                 pair = [one.answers(text, sets) for text in (source, way)]
         except (StudentError, TimeLimitExceeded, Exception) as error:
             return f"draw {k}: {type(error).__name__} {error}"
@@ -84,13 +84,13 @@ def difference(one: Programs, source, way, draws) -> str | None:
 
 
 def survivors(one: Programs, draws, sample=None, rng=None):
-    """The mutants of all right ways of a task that keep full marks.
+    """The mutants of all right ways of a task, or a sample of its solution's, that keep full marks.
 
     Parameters
     ----------
     one : Programs
     draws : int, on which survivors are compared with their way
-    sample : int or None, so many mutants of each way only
+    sample : int or None, so many mutants of the solution only
     rng : numpy.random.Generator or None, which ones
 
     Returns
@@ -100,7 +100,7 @@ def survivors(one: Programs, draws, sample=None, rng=None):
     namespace(one.exercise.id)  # what it imports takes time of its own, and is not to be cut short
     found, tried = [], 0
     reasons = getattr(one.module, "EQUIVALENT", {})
-    for way, source in one.ways.items():
+    for way, source in one.ways.items() if sample is None else [(SOLUTION, one.ways[SOLUTION])]:
         made = mutants(source)
         if sample is not None and len(made) > sample:
             made = [made[k] for k in sorted(rng.choice(len(made), sample, replace=False))]

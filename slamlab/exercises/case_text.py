@@ -1,5 +1,6 @@
 """Put a failing case into words: what was called, what came back, what the law wants."""
 
+import re
 import textwrap
 
 import numpy as np
@@ -33,25 +34,41 @@ def format_case(task, case: Case) -> str | None:
         return None
     function = task.drive.functions[0]
     begin = f"For instance, with {case.probe}:" if case.probe else "For instance:"
-    given = {n: a for n, a in case.inputs.items() if not n.startswith("_")}  # the judge's own
-    lines = [begin]
-    if given:
-        lines += [f"{function} is given" if case.one else "given are", _named(given, case.one)]
+    shown = _named({n: a for n, a in case.inputs.items() if not n.startswith("_")}, True)
+    given = [f"{function} is given", shown] if shown else []  # what is the judge's own is not
     if isinstance(case.outputs, StudentError):
-        return _joined([*lines, f"{'and' if given else 'it'} fails: {case.outputs.message}"])
+        why = re.split(r", at `| \(line", case.outputs.message)[0]  # the rest was told before
+        fails = f"{'and' if given else function} fails: {why}"
+        fails = textwrap.fill(fails, WIDTH, subsequent_indent="      ")
+        return _joined([begin, *given, fails])
     if case.law.name == "unchanged":
         names = list(case.inputs)
         which = [int(k) for k in case.outputs[CHANGED]]
         changed = " and ".join(names[k] if k < len(names) else f"argument {k}" for k in which)
         return _joined([f"{function} changes {changed}: work on a copy, such as {changed}.copy()"])
-    want = case.law.want(case.inputs) if case.law.want else None
-    shown = {n: a for n, a in case.outputs.items() if n != CHANGED and (not want or n in want)}
-    lines += ["it returns", _named(shown, case.one)]
+    got = {name: array for name, array in case.outputs.items() if name != CHANGED}
+    want = case.law.want(case.inputs) if case.law.want else {}
+    lines = _reason(case.law, case.inputs, got)
+    if not case.one:  # a whole set: too much to read
+        taken = f"Taken together, with {case.probe}:" if case.probe else "Taken together:"
+        return _joined([taken, *lines]) if lines else None
+    got = {name: got[name] for name in want or got}
+    told = [*given, "it returns", _named(got, True)]
     if want:
-        lines += ["and should return", _named(want, case.one)]
-    elif case.law.why:
-        lines += [case.law.why(case.inputs, case.outputs)]
-    return _joined(lines)
+        told += ["and should return", _named(want, True), *_worst(got, want)]
+    return _joined([begin, *told, *lines])
+
+
+def _worst(got, want):
+    """Where the first large array that differs differs most."""
+    for name, right in want.items():
+        off = np.abs(got[name] - right)[0]
+        if off.size > MOST and off.max() > 0:
+            at = np.unravel_index(np.argmax(off), off.shape)
+            index = ", ".join(map(str, at))
+            pair = got[name][0][at], right[0][at]
+            yield "most of all {}[{}]: {:.4g} instead of {:.4g}".format(name, index, *pair)
+            return
 
 
 def format_numbers(name, array) -> str:
@@ -59,6 +76,8 @@ def format_numbers(name, array) -> str:
     array = np.asarray(array)
     if name in WRITTEN and array.ndim == 1:
         return f"{name} = {WRITTEN[name](array.astype(int))}"
+    if array.dtype.kind == "f":  # neither -0 nor rounding's dust
+        array = np.where(np.abs(array) > 1e-12 * np.abs(array).max(initial=0), array, 0.0)
     text = np.array2string(
         array,
         precision=4,
@@ -72,6 +91,13 @@ def format_numbers(name, array) -> str:
     label = "" if name == "result" else f"{name} = "
     size = f"   {array.shape}" if array.size > MOST else ""
     return f"{label}{text}{size}".replace("\n", "\n" + " " * len(label))
+
+
+def _reason(law, inputs, outputs):
+    try:
+        return [law.why(inputs, outputs)] if law.why else []
+    except Exception:  # what came back may be such that no sentence can be made of it
+        return []
 
 
 def _named(arrays, one):

@@ -280,8 +280,8 @@ SLIPS = (
     ),
     Slip(
         "only one node",
-        "Only one node comes back. Does the return stand inside the loop, or is something written "
-        "over at each step?",
+        "Only one node comes back. Does the loop end too early, or is a row written over at each "
+        "step?",
         ("np.array(found)", "np.array(found[:1])"),
         ("np.array(found)", "np.array(found[-1:])"),
     ),

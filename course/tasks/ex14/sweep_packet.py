@@ -76,13 +76,13 @@ SLIPS = (
     ),
     Slip(
         "empty for none",
-        "For a damaged packet you return an empty list, which says that the lidar saw nothing. "
+        "For a damaged packet an empty list comes back, which says that the lidar saw nothing. "
         "None says that nobody knows.",
         ("        return None", "        return []"),
     ),
     Slip(
         "none for empty",
-        "For a whole packet of which nothing came back you return None, as if it were damaged.",
+        "For a whole packet of which nothing came back you give None, as if it were damaged.",
         ("return found", "return found or None"),
     ),
     Slip(

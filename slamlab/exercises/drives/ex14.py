@@ -85,7 +85,8 @@ def swept(functions, inputs):
 
     Returns
     -------
-    {"taken": (n,) 0 where None came back, "count": (n,) how many rows, "rays": (n, m, 2)}
+    {"taken": (n,) 0 where None came back, "count": (n,) how many rows, "rays": (n, m, 2),
+    "heard": (n,) bytes of each packet, by which to refuse all is a mistake, not idleness}
     """
     found = []
     for (data,) in rows(inputs):
@@ -95,7 +96,8 @@ def swept(functions, inputs):
         np.zeros((0, 2)) if rays is None else _table(rays, "sweep", 2, "(k, 2)") for rays in found
     ]
     rays, count = _filled(tables, inputs["data"].shape[1] // 3)
-    return {"taken": taken, "count": count, "rays": rays}
+    heard = (inputs["data"] >= 0).sum(axis=1).astype(float)
+    return {"taken": taken, "count": count, "rays": rays, "heard": heard}
 
 
 def tried(functions, inputs):
