@@ -1,15 +1,16 @@
 # %% [markdown]
 # # Exercise 14 · The eMIR system
 #
-# **You will be able to** read a lidar's bytes and lay its points where they belong, send a robot
-# commands that it does not drop, read what it answers, and add up how far it went although its
-# counter overflows.
+# **You will be able to** read a lidar's bytes, those of a lidar that nobody has shown you, send a
+# robot commands that it does not drop, add up how far it went although its counter overflows, and
+# choose trials that find the faults of programs you have not written.
 #
 # **60 minutes. Before:** lesson [14 · The eMIR system](../notebooks/14_the_emir_system.ipynb).
 #
 # Replace each `raise NotImplementedError(...)` by your code, run the cell, then run the check below
 # it, as often as you like. A check sends bytes that nobody has seen before and says which law is
-# broken, and what the mistake is where it knows it.
+# broken, and what the mistake is where it knows it. No function may change the arrays that it is
+# given: whoever handed them over goes on using them.
 
 # %%
 import numpy as np
@@ -27,23 +28,26 @@ from slamlab.layers import Points, Segments
 # | --- | --- | --- |
 # | 0 | 0 | S, a turn begins here |
 # | | 1 | not S |
-# | | 2–7 | quality |
+# | | 2–7 | quality, 0 to 63 |
 # | 1, 2 | 0 | C, always 1 |
 # | | 1–15 | angle [1/64 degree] |
-# | 3, 4 | 0–15 | distance [1/4 mm] |
+# | 3, 4 | 0–15 | distance [1/4 mm], 0 where nothing came back |
 #
 # Words of two bytes are little endian. Some nodes are damaged: S and not S are the same, or C is 0.
-# Leave those out. (The step is never lost here: every node begins where the one before ended.)
+# Leave those out, and no others. (The step is never lost here: every node begins where the one
+# before ended.)
 #
-# Try one with pencil and paper: `3e 01 2d a0 0f` has S = 0, quality 15, 90°, 1000 mm.
+# **Predict first.** Read this node with pencil and paper: `3e 01 2d a0 0f`. It has S = 0, quality
+# 15, 90° and 1000 mm. Which byte must change, and to what, for 90.5°?
 
 
 # %% name="nodes"
 def nodes(data):
     """The nodes in a packet of bytes.
 
-    data : bytes, five for each node; data[0] is a number from 0 to 255
-    returns (n, 4), one row for each good node: S (0 or 1), quality, angle [degree], distance [mm]
+    data : bytes, five for each node, perhaps none; data[0] is a number from 0 to 255
+    returns (n, 4), one row for each good node, in their order: S (0 or 1), quality,
+        angle [degree], distance [mm]; an empty array or list where there is none
     """
     ### BEGIN SOLUTION
     found = []
@@ -60,11 +64,19 @@ def nodes(data):
 check("14-nodes")
 
 # %% [markdown]
-# A lidar in Tuček's polygon sends one turn. **Before you run it:** about 2000 nodes a second, ten
-# turns a second: how many nodes will it be?
+# Bytes become a map by one function more. Here it is, for a lidar that counts its degrees
+# **clockwise**, seen from above, and whose 0° is the robot's front:
 
 
-# %% name="one-turn"
+# %% name="points"
+def points(degrees, millimetres):
+    """(k, 2) points of a turn in the robot's frame [m], without those that did not come back."""
+    back = millimetres > 0
+    angle, r = np.radians(-degrees[back]), millimetres[back] / 1000
+    return np.column_stack([r * np.cos(angle), r * np.sin(angle)])
+
+
+# %% name="heard"
 def heard(world, seconds):
     """What an emulated lidar at a world's origin sends after SCAN, without the answer's head."""
     from slamlab.devices.emulator.robot_body import RobotBody
@@ -79,74 +91,103 @@ def heard(world, seconds):
     return sent[7 : 7 + (len(sent) - 7) // 5 * 5]
 
 
-@attempt
-def _():
-    turn = nodes(heard(worlds.polygon(), 0.2))
-    begin, end = np.flatnonzero(turn[:, 0])[:2]
-    print(f"{end - begin} nodes from one S to the next, {np.sum(turn[:, 3] == 0)} came back empty")
-    print("the first ones:", *(f"{a:.2f}° {d:.0f} mm" for _, _, a, d in turn[begin : begin + 3]))
-
-
 # %% [markdown]
-# ## 2 · Points
-#
-# The lidar counts its degrees **clockwise**, seen from above. It may be mounted any way round: the
-# robot's front lies at `front` degrees of the lidar's. Give points in the robot's frame: x ahead, y
-# to the left, in metres. A distance of 0 says that nothing came back.
-
-
-# %% name="points"
-def points(degrees, millimetres, front):
-    """The points of a turn, in the robot's frame.
-
-    degrees : (n,) clockwise;  millimetres : (n,) 0 where nothing came back
-    front : float, where the robot's front lies for the lidar [degree]
-    returns (k, 2) [m], in the order of the readings
-    """
-    ### BEGIN SOLUTION
-    back = millimetres > 0
-    angle, r = np.radians(front - degrees[back]), millimetres[back] / 1000
-    return np.column_stack([r * np.cos(angle), r * np.sin(angle)])
-    ### END SOLUTION
-
-
-# %%
-check("14-points")
-
-# %% [markdown]
-# The same turn, drawn with your `nodes` and `points`. **Before you run it:** how would a mirrored
-# map show here?
+# A lidar in Tuček's polygon sends two tenths of a second. **Predict first.** It sends about 2000
+# nodes a second and makes ten turns a second: how many nodes has a turn? And how would a mirrored
+# map show in the picture?
 
 
 # %% name="polygon"
 @attempt
 def _():
     world = worlds.polygon()
-    _, _, degrees, millimetres = nodes(heard(world, 0.2)).T
+    turn = nodes(heard(world, 0.2))
+    begin, end = np.flatnonzero(turn[:, 0])[:2]
+    print(f"{end - begin} nodes from one S to the next, {np.sum(turn[:, 3] == 0)} came back empty")
     fig, ax = views.axes("the polygon by your decoder", size=(5, 4))
     views.draw(ax, Segments("walls", world.outline()))
-    views.draw(ax, Points("scan", points(degrees, millimetres, 0.0)))
+    views.draw(ax, Points("scan", points(*turn[:, 2:].T)))
     views.legend(ax, loc="lower right")
     views.show(fig, alt="Points of a scan on the walls of the polygon.")
 
 
 # %% [markdown]
-# The points lie on the walls: bytes have become a map.
+# The points lie on the walls: your decoder has turned bytes into a map.
+
+# %% [markdown]
+# ## 2 · A lidar that the lesson has not seen
+#
+# Another lidar, and no example of its bytes: only what its maker's data sheet says. It sends
+# **packets** of $n$ points, $n$ from 1 to 255, taken while it turned on by less than a full turn:
+#
+# | byte | meaning |
+# | --- | --- |
+# | 0 | 0x54, here a packet begins |
+# | 1 | $n$, how many points it holds |
+# | 2, 3 | $\alpha_0$, angle of the first point [1/100 degree], 0 to 35999 |
+# | then three for each point | distance [mm] in two bytes, 0 where nothing came back; strength |
+# | two more | $\alpha_{n-1}$, angle of the last point [1/100 degree], 0 to 35999 |
+# | the last one | sum of all bytes before it, modulo 256 |
+#
+# Words are little endian and have no sign. The lidar turns **clockwise**, and its 0° is the robot's
+# front. The points lie evenly between the first and the last. That is almost the lesson's formula
+# for capsules, but only almost: there the second angle was that of the *next* capsule. Derive the
+# new one. The strength, 0 to 255, is of no interest here.
+#
+# A packet is damaged where its first byte is another one, where it is longer or shorter than its
+# $n$ asks for, or where its sum is wrong. For such a packet return `None`, not an empty list.
+#
+# What the rest of the course wants of a scan are **rays**: an angle counter-clockwise from the
+# robot's front, in radians (a full turn more or less does not matter), and a range in metres. Leave
+# points out that did not come back. But do not forget that they were there.
+#
+# **Predict first.** A packet of four points begins at 350° and ends at 20°; its second point did not
+# come back. Which are the angles of the other three?
+
+
+# %% name="sweep"
+def sweep(data):
+    """The rays in a packet of the other lidar.
+
+    data : bytes, seven or more, perhaps damaged
+    returns (k, 2), one row for each point that came back, in their order: angle [rad], range [m];
+        an empty array or list where none did; None where the packet is damaged
+    """
+    ### BEGIN SOLUTION
+    n = data[1]
+    if data[0] != 0x54 or len(data) != 3 * n + 7 or sum(data[:-1]) % 256 != data[-1]:
+        return None
+    first, last = data[2] | data[3] << 8, data[-3] | data[-2] << 8
+    step = (last - first) % 36000 / max(n - 1, 1)
+    found = []
+    for k in range(n):
+        low, high, _ = data[4 + 3 * k : 7 + 3 * k]
+        if low or high:
+            found.append([-np.radians((first + k * step) / 100), (low | high << 8) / 1000])
+    return found
+    ### END SOLUTION
+
+
+# %%
+check("14-sweep")
 
 # %% [markdown]
 # ## 3 · A command
 #
 # eMIR hears frames of text, `#OOTTRRCC/`: four bytes as two hexadecimal digits each. To drive, the
-# opcode OO is 01; TT is the speed and RR the turn, whole numbers in percent. Cut them off at ±100.
-# Negative ones go as two's complement: −50 as 256 − 50. CC makes **all four bytes add up to 0
-# modulo 256**.
+# opcode OO is 01; TT is the speed and RR the turn, in percent. What a joystick sends may be any
+# whole number: cut it off at ±100. Negative ones go as two's complement: −50 as 256 − 50. The
+# checksum CC makes **all four bytes add up to 0 modulo 256**.
+#
+# **Predict first.** Which checksum belongs to a speed of −40 and a turn of 39? How many digits would
+# the listing's rule, 256 − 1 − T − R, write there?
 
 
 # %% name="command"
 def command(speed, turn):
     """The frame that makes eMIR drive.
 
-    speed, turn : int [%];  returns str, such as "#013200CD/"
+    speed, turn : int, any whole numbers [%];  returns str, such as "#013200CD/"
     """
     ### BEGIN SOLUTION
     data = [1] + [max(-100, min(100, each)) % 256 for each in (speed, turn)]
@@ -172,55 +213,18 @@ def _():
 
 
 # %% [markdown]
-# ## 4 · A status
+# ## 4 · A counter that overflows
 #
-# Ten times a second eMIR says how it is: `*`, 17 bytes as hexadecimal digits, `/`. All 17 bytes add
-# up to 0 modulo 256; a frame that does not is damaged: return `None`. Bytes are counted from 0:
-#
-# | byte | meaning | sign |
-# | --- | --- | --- |
-# | 2 | distance of the infrared sensor in front [cm] | no |
-# | 7 | speed [%] | yes |
-# | 13 | compass [2 degrees] | no |
-# | 14 | path counter | yes |
-# | 15 | angle counter | yes |
-#
-# A signed byte above 127 is negative: take 256 off.
-
-
-# %% name="status"
-def status(text):
-    """What eMIR says in a frame.
-
-    text : str of 36 characters
-    returns distance [cm], speed [%], compass [degree], path [counts], angle [counts]; or None
-    """
-    ### BEGIN SOLUTION
-    data = bytes.fromhex(text[1:-1])
-    if sum(data) % 256:
-        return None
-    distance, speed, compass, path, angle = (data[k] for k in (2, 7, 13, 14, 15))
-    speed, path, angle = (byte - 256 if byte > 127 else byte for byte in (speed, path, angle))
-    return distance, speed, 2 * compass, path, angle
-    ### END SOLUTION
-
-
-# %%
-check("14-status")
-
-# %% [markdown]
-# ## 5 · A counter that overflows
-#
-# The path counter is a signed byte: after 127 comes −128. It is read often enough: between two
-# readings the robot goes fewer than 128 counts, ahead or back. How far is it, at each reading, from
-# where it was at the first?
+# The robot answers with its path counter, a signed byte: after 127 comes −128. It is read often
+# enough: between two readings the robot goes at most 127 counts, ahead or back, or none. How far is
+# it, at each reading, from where it was at the first?
 
 
 # %% name="unwrap"
 def unwrap(values):
     """Counts since the first reading.
 
-    values : (n,) signed bytes, −128 to 127;  returns (n,), the first is 0
+    values : (n,) signed bytes, −128 to 127, n at least 1;  returns (n,), the first is 0
     """
     ### BEGIN SOLUTION
     steps = (np.diff(values) + 128) % 256 - 128
@@ -232,8 +236,9 @@ def unwrap(values):
 check("14-unwrap")
 
 # %% [markdown]
-# An emulated eMIR drives along a corridor, ahead at 40 cm/s and then back at 20 cm/s, by your
-# `command`, read by your `status`. **Before you run it:** what will the raw counter look like?
+# Ten times a second eMIR sends a status: `*`, 17 bytes as hexadecimal digits, `/`. The counter is
+# byte 14. An emulated eMIR drives along a corridor, ahead at 40 cm/s and then back at 20 cm/s, by
+# your `command`. **Predict first.** What will the raw counter look like?
 
 
 # %% name="corridor"
@@ -249,8 +254,8 @@ def _():
     for begin, speed, seconds in ((0, 100, 10), (10, -50, 10)):
         emir.feed(command(speed, 0).encode(), begin)
         said += [emir.feed(b"", begin + 0.1 * k) for k in range(1, 10 * seconds + 1)]
-    frames = [text.decode() for text in said if len(text) == 36]
-    path = np.array([status(frame)[3] for frame in frames])
+    bytes_14 = [int(text[29:31], 16) for text in said if len(text) == 36]
+    path = np.array([byte - 256 if byte > 127 else byte for byte in bytes_14])
     counts = {"as sent": path, "unwrapped": unwrap(path)}
     time = 0.1 * np.arange(len(path))
     fig, _ = views.curves(time, counts, "t [s]", "path [counts]", "ahead, then back")
@@ -260,6 +265,94 @@ def _():
 # %% [markdown]
 # The saw-tooth is what the robot sends, the other line is where it was. One count is about 1 cm: it
 # went some 4 m ahead and half of that back.
+
+# %% [markdown]
+# ## 5 · Drivers that others wrote
 #
-# **Next:** the points are where they belong, the way is known as well as wheels know it. Lesson 13
-# matched such scans, lesson 15 makes a map of them that closes.
+# Your `unwrap` is right, a check says so. Most drivers come from others, without a check, and the
+# lesson's listing had a bug in nearly every function. You do not see the code of such a driver. All
+# you can do is hand it readings and compare what it returns with what it should return. Which
+# readings? A drive ahead and back, as above, finds no more than a third of what can be wrong.
+#
+# This is what a **right driver** promises:
+#
+# - it takes a way, the readings of a counter (signed bytes), and returns for each reading the counts
+#   since the first one, as your `unwrap` does;
+# - a way may have any number of readings, one, or none at all, when nothing comes back;
+# - it may begin at any byte;
+# - between two readings there are at most 127 counts, ahead or back, or none;
+# - it may be as long as it likes: a robot drives all day;
+# - the same driver is called with one way after the other, and each way begins anew.
+#
+# Write `trials`: ways, each with the counts that a right driver returns. One hundred faulty drivers,
+# each with one fault, are called with your ways in their order. A driver is found when, for one way
+# at least, it returns something else than you expect, or fails. Right drivers must pass. In all your
+# ways there may be **1000 readings at most, and 20 ways at most**: a robot sends ten readings a
+# second, and nobody waits longer.
+#
+# The faults are those that programmers make: an edge off by one, one side forgotten, a case that
+# "cannot happen", a number too large for its variable, something kept that should be forgotten. Each
+# promise above is one that somebody has broken. Any method goes. You earn points when 40, 70, 88 and
+# 97 of the hundred are found.
+#
+# This makes a way of its steps:
+
+
+# %% name="way"
+def way(begin, steps):
+    """A way from a byte on, by its steps: the values of its readings, and the counts."""
+    counts = np.concatenate([[0], np.cumsum(np.array(steps, dtype=int))])
+    return (begin + counts + 128) % 256 - 128, counts
+
+
+# %% [markdown]
+# **Predict first.** Here are three such drivers and two ways. Which of the drivers does the first way
+# find, which the second?
+
+
+# %% name="three-drivers"
+@attempt
+def _():
+    drivers = {
+        "nothing mended": lambda values: values - values[0],
+        "size of the way": lambda values: np.abs(unwrap(values)),
+        "short memory": lambda values: unwrap(values)[-100:],
+    }
+    for name, (values, counts) in {"ahead": way(0, [50] * 6), "back": way(0, [-50] * 6)}.items():
+        found = [driver for driver, f in drivers.items() if not np.array_equal(f(values), counts)]
+        print(f"{name:>5} finds:", ", ".join(found))
+
+
+# %% [markdown]
+# Ahead finds one, back finds two, and no way of seven readings will ever find the third.
+
+
+# %% name="trials"
+def trials():
+    """Ways that tell wrong drivers from right ones.
+
+    returns a list of pairs (values, counts), each (n,): the bytes that a driver is handed, and the
+        counts that it must return
+    """
+    ### BEGIN SOLUTION
+    size = np.arange(1, 128)
+    every = np.column_stack([size, -size[::-1]]).ravel()  # each step once, ahead and back by turns
+    return [
+        ([], []),
+        way(7, []),
+        way(5, [0, *every]),
+        way(3, [127] * 270),
+        way(3, [-127] * 270),
+    ]
+    ### END SOLUTION
+
+
+# %%
+check("14-trials")
+
+# %% [markdown]
+# Which of your ways is worth the most? Guess, then leave out one after the other and ask the check
+# again.
+#
+# **Next:** bytes have become points and ways, and you know what trials can find. Lesson 13 matched
+# such scans, lesson 15 makes a map of them that closes.

@@ -12,6 +12,10 @@ from slamlab.exercises.drives.arguments import CHANGED
 WIDTH = 92  # of what is said [letters]
 MOST = 60  # numbers of an array that are shown
 INDENT = "      "
+WRITTEN = {  # whole numbers that stand for something else, by their arrays' names
+    "codes": lambda codes: repr("".join(chr(code) for code in codes if code > 0)),
+    "data": lambda data: f"{bytes(data[data >= 0].tolist()).hex(' ')}   (bytes)",
+}
 
 
 def format_case(task, case: Case) -> str | None:
@@ -30,10 +34,13 @@ def format_case(task, case: Case) -> str | None:
         return None
     function = task.drive.functions[0]
     begin = f"For instance, with {case.probe}:" if case.probe else "For instance:"
+    shown = _named({n: a for n, a in case.inputs.items() if not n.startswith("_")}, True)
+    given = [f"{function} is given", shown] if shown else []  # what is the judge's own is not
     if isinstance(case.outputs, StudentError):
         why = re.split(r", at `| \(line", case.outputs.message)[0]  # the rest was told before
-        fails = textwrap.fill(f"and fails: {why}", WIDTH, subsequent_indent="      ")
-        return _joined([begin, f"{function} is given", _named(case.inputs, True), fails])
+        fails = f"{'and' if given else function} fails: {why}"
+        fails = textwrap.fill(fails, WIDTH, subsequent_indent="      ")
+        return _joined([begin, *given, fails])
     if case.law.name == "unchanged":
         names = list(case.inputs)
         which = [int(k) for k in case.outputs[CHANGED]]
@@ -46,7 +53,7 @@ def format_case(task, case: Case) -> str | None:
         taken = f"Taken together, with {case.probe}:" if case.probe else "Taken together:"
         return _joined([taken, *lines]) if lines else None
     got = {name: got[name] for name in want or got}
-    told = [f"{function} is given", _named(case.inputs, True), "it returns", _named(got, True)]
+    told = [*given, "it returns", _named(got, True)]
     if want:
         told += ["and should return", _named(want, True), *_worst(got, want)]
     return _joined([begin, *told, *lines])
@@ -67,6 +74,8 @@ def _worst(got, want):
 def format_numbers(name, array) -> str:
     """Format a name and its numbers, short and rounded: "P = [[0.1, 0], [0, 0.2]]"."""
     array = np.asarray(array)
+    if name in WRITTEN and array.ndim == 1:
+        return f"{name} = {WRITTEN[name](array.astype(int))}"
     if array.dtype.kind == "f":  # neither -0 nor rounding's dust
         array = np.where(np.abs(array) > 1e-12 * np.abs(array).max(initial=0), array, 0.0)
     text = np.array2string(

@@ -1,19 +1,19 @@
-"""How exercise 14, the eMIR system, is driven: bytes and texts go in, numbers come back."""
+"""How exercise 14, the eMIR system, is driven: bytes and numbers go in, numbers come back."""
 
 import numpy as np
 
-from slamlab.exercises.drives import Drive, StudentError, numbers, rows
+from slamlab.exercises.drives import MAX_NUMBERS, Drive, StudentError, numbers, rows
 
 LONGEST = 24
 """Characters of a command that are looked at; a right one has ten."""
 
 
-def _table(value, function, columns, most, told):
-    """What a function returned, as (n, columns), n up to a limit."""
+def _table(value, function, columns, told):
+    """What a function returned, as (n, columns)."""
     found = numbers(value, function)
     if found.size == 0:
         found = np.zeros((0, columns))
-    if found.ndim != 2 or found.shape[1] != columns or len(found) > most:
+    if found.ndim != 2 or found.shape[1] != columns:
         turned = " (transposed?)" if found.ndim == 2 and found.shape[0] == columns else ""
         raise StudentError(
             "malformed", f"{function} returned shape {found.shape}, expected {told}{turned}"
@@ -24,11 +24,11 @@ def _table(value, function, columns, most, told):
 
 
 def _filled(tables, most):
-    """Tables of different lengths as one array, filled up with zeros, and their lengths."""
+    """Tables of different lengths as one array, cut off or filled up with zeros; their lengths."""
     columns = tables[0].shape[1]
     filled = np.zeros((len(tables), most, columns))
     for row, table in zip(filled, tables, strict=True):
-        row[: len(table)] = table
+        row[: len(table)] = table[:most]
     return filled, np.array([float(len(table)) for table in tables])
 
 
@@ -46,7 +46,7 @@ def decoded(functions, inputs):
     """
     call, most = functions["nodes"], inputs["data"].shape[1] // 5
     found = [call(bytes(data.astype(int).tolist())) for (data,) in rows(inputs)]
-    nodes, count = _filled([_table(f, "nodes", 4, most, "(n, 4)") for f in found], most)
+    nodes, count = _filled([_table(f, "nodes", 4, "(n, 4)") for f in found], most)
     return {"nodes": nodes, "count": count}
 
 
@@ -60,69 +60,86 @@ def commanded(functions, inputs):
 
     Returns
     -------
-    {"codes": (n, LONGEST), 0 behind the end, "length": (n,)}
+    {"codes": (n, LONGEST), 0 behind the end}
     """
-    codes, length = np.zeros((len(inputs["speed"]), LONGEST)), []
+    codes = np.zeros((len(inputs["speed"]), LONGEST))
     for row, (speed, turn) in zip(codes, rows(inputs), strict=True):
         text = functions["command"](int(speed), int(turn))
         if isinstance(text, bytes):
             text = text.decode("latin-1")
         if not isinstance(text, str):
-            what = "nothing: is there a return at its end?" if text is None else type(text).__name__
+            what = "None: is there a return at its end?" if text is None else type(text).__name__
             raise StudentError("malformed", f"command returned {what}, expected a text (str)")
         shown = [min(ord(character), 255) for character in text[:LONGEST]]
         row[: len(shown)] = shown
-        length.append(float(len(text)))
-    return {"codes": codes, "length": np.array(length)}
+    return {"codes": codes}
 
 
-def reported(functions, inputs):
-    """What is read in every status frame, or that it was refused.
+def swept(functions, inputs):
+    """The rays of every packet of the other lidar, or that it was refused.
 
     Parameters
     ----------
-    functions : "status"
-    inputs : codes (n, 36) of the characters
+    functions : "sweep"
+    inputs : data (n, k) bytes, -1 behind the end
 
     Returns
     -------
-    {"taken": (n,) 0 where None came back, "values": (n, 5)}
+    {"taken": (n,) 0 where None came back, "count": (n,) how many rows, "rays": (n, m, 2),
+    "heard": (n,) bytes of each packet, by which to refuse all is a mistake, not idleness}
     """
-    taken, values = [], []
-    for (codes,) in rows(inputs):
-        found = functions["status"]("".join(map(chr, codes.astype(int).tolist())))
-        taken.append(float(found is not None))
-        five = np.zeros(5) if found is None else numbers(found, "status")
-        if five.shape != (5,):
+    found = []
+    for (data,) in rows(inputs):
+        found.append(functions["sweep"](bytes(data[data >= 0].astype(int).tolist())))
+    taken = np.array([float(rays is not None) for rays in found])
+    tables = [
+        np.zeros((0, 2)) if rays is None else _table(rays, "sweep", 2, "(k, 2)") for rays in found
+    ]
+    rays, count = _filled(tables, inputs["data"].shape[1] // 3)
+    heard = (inputs["data"] >= 0).sum(axis=1).astype(float)
+    return {"taken": taken, "count": count, "rays": rays, "heard": heard}
+
+
+def tried(functions, inputs):
+    """The trials, one behind the other.
+
+    Parameters
+    ----------
+    functions : "trials"
+    inputs : not used, the function has no arguments
+
+    Returns
+    -------
+    {"values", "counts": (n,) of all trials, "lengths": (k,) how many readings each has}
+    """
+    found = functions["trials"]()
+    try:
+        pairs = [(values, counts) for values, counts in found]
+    except (TypeError, ValueError):
+        raise StudentError(
+            "malformed", "trials returned no list of pairs (values, counts)"
+        ) from None
+    values, counts = [np.zeros(0)], [np.zeros(0)]
+    for k, pair in enumerate(pairs, 1):
+        two = [numbers(each, "trials") for each in pair]
+        if two[0].ndim != 1 or two[0].shape != two[1].shape:
+            shapes = " and ".join(str(each.shape) for each in two)
             raise StudentError(
-                "malformed", f"status returned shape {five.shape}, expected five numbers or None"
+                "malformed", f"values and counts of trial {k} are of shape {shapes}, not both (n,)"
             )
-        values.append(five)
-    return {"taken": np.array(taken), "values": np.array(values)}
-
-
-def placed(functions, inputs):
-    """The points of every turn.
-
-    Parameters
-    ----------
-    functions : "points"
-    inputs : degrees (n, k), millimetres (n, k), front (n,)
-
-    Returns
-    -------
-    {"points": (n, k, 2), "count": (n,) how many rows came back}
-    """
-    call, most = functions["points"], inputs["degrees"].shape[1]
-    found = [call(*row) for row in rows(inputs)]
-    points, count = _filled([_table(f, "points", 2, most, "(k, 2)") for f in found], most)
-    return {"points": points, "count": count}
+        values.append(two[0])
+        counts.append(two[1])
+        if sum(map(len, values)) > MAX_NUMBERS:
+            raise StudentError("malformed", "trials returned too many readings")
+    lengths = [float(len(each)) for each in values[1:]]
+    joined = np.concatenate(values), np.concatenate(counts)
+    return {"values": joined[0], "counts": joined[1], "lengths": np.array(lengths)}
 
 
 DRIVES = {
     "14-nodes": Drive(("nodes",), decoded),
     "14-command": Drive(("command",), commanded),
-    "14-status": Drive(("status",), reported),
     "14-unwrap": Drive(("unwrap",)),
-    "14-points": Drive(("points",), placed),
+    "14-sweep": Drive(("sweep",), swept),
+    "14-trials": Drive(("trials",), tried),
 }
