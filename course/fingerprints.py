@@ -1,7 +1,7 @@
 """Compile the fingerprints of slips and small mistakes: ``python -m course.fingerprints 06``.
 
-Programs are run on the open inputs twice, the second time with other kernels of linear algebra; rows
-that move are dropped. What ships is numbers and hints, no program.
+Programs are run on the open inputs twice, the second time with other kernels of linear algebra;
+rows that move are dropped. What ships is numbers and hints, no program.
 """
 
 import argparse
@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy as np
 
 from course.mutation import mutants
-from course.programs import ProgramError, Programs, programs
+from course.programs import SOLUTION, ProgramError, Programs, programs
 from course.source import ROOT
 from slamlab.checks.time_limit import TimeLimitExceeded, time_limit
 from slamlab.exercises import catalogue, fingerprints
@@ -31,7 +31,7 @@ MUTANT_SECONDS = 2.0
 
 
 def compiled(exercise_id) -> dict[str, np.ndarray]:
-    """The tables of an exercise as arrays by name, as :func:`slamlab.exercises.fingerprints.tables` reads them.
+    """The tables of an exercise as arrays by name, as ``exercises.fingerprints`` reads them.
 
     Parameters
     ----------
@@ -63,10 +63,10 @@ def digest(exercise_id) -> str:
     return hashlib.sha256("\n".join(texts).encode()).hexdigest()
 
 
-def prints_of(one: Programs, source, sets):
-    """The fingerprints of one program, part by part; None where it cannot be judged."""
+def prints_of(one: Programs, source, sets, seconds=60.0):
+    """The fingerprints of one program, part by part; None where it cannot be judged in time."""
     try:
-        with time_limit(MUTANT_SECONDS), np.errstate(all="ignore"):
+        with time_limit(seconds), np.errstate(all="ignore"):
             found = fingerprints.of_answers(one.task, sets, one.answers(source, sets))
     except (StudentError, TimeLimitExceeded, Exception):  # a mutant may do anything
         return None
@@ -84,17 +84,29 @@ def _table(one):
             rows.append((k, _slip_prints(one, slip, program, sets)))
     _check_precedence(one, rows)
     families = sorted(FAMILIES)
-    for source in one.ways.values():
-        for mutant in mutants(source):
-            label = 1 + len(one.slips) + families.index(mutant.family)
-            rows.append((label, prints_of(one, mutant.source, sets)))
-    names = [slip.name for slip in one.slips], [slip.hint for slip in one.slips]
-    table = {"names": np.array(names[0], dtype=str), "hints": np.array(names[1], dtype=str)}
-    for part in right[0]:
-        known = [(label, prints[part]) for label, prints in rows if prints and part in prints]
-        labels, values = _distinct(known)
-        table |= {f"labels/{part}": labels, f"prints/{part}": values}
-    return table
+    for mutant in _mutants(one):
+        label = 1 + len(one.slips) + families.index(mutant.family)
+        rows.append((label, prints_of(one, mutant.source, sets, MUTANT_SECONDS)))
+    parts = tuple(right[0])
+    labels, values = _distinct([(label, prints) for label, prints in rows if prints], parts)
+    return {
+        "names": np.array([slip.name for slip in one.slips], dtype=str),
+        "hints": np.array([slip.hint for slip in one.slips], dtype=str),
+        "parts": np.array(parts, dtype=str),
+        "labels": labels,
+        "prints": values,
+    }
+
+
+def _mutants(one):
+    """Mutants of all ways; of a slow task's solution only, evenly chosen, ``MUTANTS`` of them."""
+    most = getattr(one.module, "MUTANTS", None)
+    if most:
+        made = mutants(one.ways[SOLUTION])
+        return made[:: -(-len(made) // most)]
+    made = [mutants(source) for source in one.ways.values()]
+    # names are too many, and those of the solution suffice
+    return made[0] + [m for others in made[1:] for m in others if m.family != "name"]
 
 
 def _slip_prints(one, slip, program, sets):
@@ -128,19 +140,17 @@ def _check_precedence(one, rows):
         )
 
 
-def _distinct(known):
-    """Labels and fingerprints without repetitions, and without mutants that are right."""
-    kept, values = {}, []
-    right = [print for label, print in known if label == 0]
-    for label, print in known:
-        if label and any(_close(print, r) for r in right):
-            continue  # this part is as it should be: another one is wrong
-        key = (label, *np.round(print, 5))
-        if key not in kept:
-            kept[key] = len(values)
-            values.append(print)
-    labels = np.array([key[0] for key in kept], dtype=np.int16)
-    return labels, np.array(values).reshape(-1, fingerprints.SIZE)
+def _distinct(rows, parts):
+    """Labels (n,) and fingerprints (n, parts, SIZE), each once, without mutants that are right."""
+    missing = np.full(fingerprints.SIZE, np.nan)
+    found = [(label, np.array([prints.get(p, missing) for p in parts])) for label, prints in rows]
+    right = [values for label, values in found if label == 0]
+    kept = {}
+    for label, values in found:
+        if label == 0 or not any(_close(values, r) for r in right):
+            kept.setdefault((label, np.round(values, 5).tobytes()), values)
+    labels = np.array([label for label, _ in kept], dtype=np.int16)
+    return labels, np.array(list(kept.values())).reshape(len(kept), len(parts), -1)
 
 
 def _close(a, b):
@@ -158,17 +168,17 @@ def stable(arrays, others):
     -------
     tables, int : and how many rows moved
     """
-    moved = 0
-    for key in [key for key in arrays if "/prints/" in key]:
-        labels = key.replace("/prints/", "/labels/")
-        there = others[key]
-        margin = fingerprints.CLOSE / 10
-        keep = np.array(
-            [(np.abs(there - p) <= margin * (1 + np.abs(p))).all(axis=1).any() for p in arrays[key]]
-        )
-        keep |= arrays[labels] == 0
+    moved, margin = 0, fingerprints.CLOSE / 10
+    for key in [key for key in arrays if key.endswith("/prints")]:
+        labels, prints = arrays[key.replace("prints", "labels")], arrays[key]
+        there = np.nan_to_num(others[key])
+        near = [
+            (np.abs(there - p) <= margin * (1 + np.abs(p))).all(axis=(1, 2)).any()
+            for p in np.nan_to_num(prints)
+        ]
+        keep = (labels == 0) | np.array(near)
         moved += int((~keep).sum())
-        arrays = arrays | {key: arrays[key][keep], labels: arrays[labels][keep]}
+        arrays = arrays | {key: prints[keep], key.replace("prints", "labels"): labels[keep]}
     return arrays, moved
 
 
@@ -189,7 +199,7 @@ def main():
         arrays, moved = stable(arrays, _with_other_kernel(id))
         FOLDER.mkdir(parents=True, exist_ok=True)
         np.savez_compressed(FOLDER / f"{id}.npz", **arrays)
-        rows = sum(len(a) for key, a in arrays.items() if "/prints/" in key)
+        rows = sum(len(a) for key, a in arrays.items() if key.endswith("/prints"))
         size = (FOLDER / f"{id}.npz").stat().st_size / 1024
         print(f"{id}: {rows} fingerprints, {moved} dropped that moved, {size:.0f} kB")
 

@@ -1,8 +1,8 @@
 """Try the laws of tasks on every small change of every right way: ``python -m course.mutants 06``.
 
-A mutant that keeps full marks survives. It is listed with an input on which it differs from the way
-it was made of: then a probe is missing, or it is right as well and is to be entered, with its reason,
-in ``EQUIVALENT`` of the task's programs. One that agrees on all draws is equivalent.
+A mutant that keeps full marks survives. It is listed with an input on which it differs from the
+way it was made of: then a probe is missing, or it is right as well and is to be entered, with its
+reason, in ``EQUIVALENT`` of the task's programs. One that agrees on all draws is equivalent.
 """
 
 import argparse
@@ -115,7 +115,9 @@ def survivors(one: Programs, draws, sample=None, rng=None):
 def main():
     """List the survivors of exercises; exits with 1 where one is neither killed nor explained."""
     parser = argparse.ArgumentParser(prog="python -m course.mutants", description=__doc__)
-    parser.add_argument("exercise", nargs="*", help="such as 06, or a task, 06-update; default: all")
+    parser.add_argument(
+        "exercise", nargs="*", help="such as 06, or a task, 06-update; default: all"
+    )
     parser.add_argument("--draws", type=int, default=100, help="on which survivors are compared")
     arguments = parser.parse_args()
     holes = 0

@@ -5,6 +5,8 @@ The families are those of :mod:`slamlab.exercises.families`, whose texts are tol
 
 import ast
 import copy
+import itertools
+import pickle
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -89,19 +91,19 @@ def mutants(source) -> list[Mutant]:
     list of Mutant
     """
     tree, found = ast.parse(source), {}
-    nodes = list(ast.walk(tree))
-    for k, node in enumerate(nodes):
-        for family, change in _changes(node, _names_of(tree, node)):
-            twin = copy.deepcopy(tree)
-            target = list(ast.walk(twin))[k]
-            change(target, twin)
+    before, stored = ast.unparse(tree), pickle.dumps(tree)  # loads is a faster copy than deepcopy
+    names = _names(tree)
+    for k, node in enumerate(ast.walk(tree)):
+        for family, change in _changes(node, names.get(node, frozenset())):
+            twin = pickle.loads(stored)
+            change(next(itertools.islice(ast.walk(twin), k, None)), twin)
             try:
                 text = ast.unparse(ast.fix_missing_locations(twin))
                 compile(text, "<mutant>", "exec")
             except (SyntaxError, ValueError, TypeError, AttributeError, RecursionError):
                 continue
-            if text != ast.unparse(tree):
-                found.setdefault(text, Mutant(family, _difference(ast.unparse(tree), text), text))
+            if text != before and text not in found:
+                found[text] = Mutant(family, _difference(before, text), text)
     return list(found.values())
 
 
@@ -123,7 +125,7 @@ def _changes(node, names) -> Iterator:
         other = ast.Or if isinstance(node.op, ast.And) else ast.And
         yield "guard", lambda n, t: setattr(n, "op", other())
         for k in range(len(node.values)):
-            yield "guard", lambda n, t, k=k: _put(n, t, n.values[1 - k] if len(n.values) == 2 else n)
+            yield "guard", lambda n, t, k=k: n.values.pop(k)
     elif isinstance(node, ast.If | ast.IfExp | ast.While):
         yield "guard", lambda n, t: setattr(n, "test", ast.Constant(True))
         if not isinstance(node, ast.While):
@@ -137,7 +139,8 @@ def _changes(node, names) -> Iterator:
         for other in sorted(names - {node.id}):
             yield "name", lambda n, t, other=other: setattr(n, "id", other)
     elif isinstance(node, ast.AugAssign):
-        yield "sign", lambda n, t: setattr(n, "op", ast.Sub() if isinstance(n.op, ast.Add) else ast.Add())
+        turned = ast.Sub if isinstance(node.op, ast.Add) else ast.Add
+        yield "sign", lambda n, t: setattr(n, "op", turned())
     if isinstance(getattr(node, "body", None), list):
         yield from _statements(node)
 
@@ -159,8 +162,8 @@ def _operations(node):
     if op in (ast.Mult, ast.MatMult, ast.Add, ast.Sub):
         yield "factor", lambda n, t: _put(n, t, ast.BinOp(ast.Constant(2), ast.Mult(), _kept(n)))
         yield "factor", lambda n, t: _put(n, t, ast.BinOp(ast.Constant(0.5), ast.Mult(), _kept(n)))
-        yield "square", lambda n, t: setattr(n, "right", ast.BinOp(n.right, ast.Pow(), ast.Constant(2)))
-        yield "square", lambda n, t: setattr(n, "left", ast.BinOp(n.left, ast.Pow(), ast.Constant(2)))
+        yield "square", lambda n, t: setattr(n, "right", _squared(n.right))
+        yield "square", lambda n, t: setattr(n, "left", _squared(n.left))
 
 
 def _calls(node):
@@ -188,7 +191,8 @@ def _calls(node):
         if keyword.arg == "axis":
             yield "axis", lambda n, t, k=k: n.keywords.pop(k)
             for axis in (0, 1, -1):
-                yield "axis", lambda n, t, k=k, axis=axis: setattr(n.keywords[k], "value", ast.Constant(axis))
+                value = ast.Constant(axis)
+                yield "axis", lambda n, t, k=k, v=value: setattr(n.keywords[k], "value", v)
         elif keyword.arg in ("strict", "dtype"):
             continue
         else:
@@ -217,24 +221,21 @@ def _statements(node):
         if isinstance(node, ast.For) and isinstance(statement, ast.If):
             yield "guard", lambda n, t, k=k: n.body.insert(k + 1, ast.Break())
     if isinstance(node, ast.For):
-        yield "index", lambda n, t: setattr(
-            n, "iter", ast.Subscript(_call("list", n.iter, of=None), ast.Slice(ast.Constant(1)), ast.Load())
-        )
-        yield "index", lambda n, t: setattr(
-            n, "iter", ast.Subscript(_call("list", n.iter, of=None), ast.Slice(None, ast.Constant(-1)), ast.Load())
-        )
+        for cut in (ast.Slice(ast.Constant(1)), ast.Slice(None, ast.Constant(-1))):
+            yield "index", lambda n, t, cut=cut: setattr(n, "iter", _cut(n.iter, cut))
 
 
-def _names_of(tree, node):
-    """The local names of the function that holds a node."""
+def _names(tree):
+    """Node to the local names of the function that holds it."""
+    found = {}
     for function in ast.walk(tree):
-        if isinstance(function, ast.FunctionDef) and node in ast.walk(function):
+        if isinstance(function, ast.FunctionDef):
+            inside = list(ast.walk(function))
             stored = {
-                n.id for n in ast.walk(function)
-                if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)
-            }  # fmt: skip
-            return stored | {a.arg for a in function.args.args}
-    return set()
+                n.id for n in inside if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)
+            }
+            found |= dict.fromkeys(inside, stored | {a.arg for a in function.args.args})
+    return found
 
 
 def _put(node, tree, value):
@@ -265,6 +266,14 @@ def _transposed(value):
     if isinstance(value, ast.Attribute) and value.attr == "T":
         return value.value
     return ast.Attribute(value, "T", ast.Load())
+
+
+def _squared(value):
+    return ast.BinOp(value, ast.Pow(), ast.Constant(2))
+
+
+def _cut(iterable, part):
+    return ast.Subscript(_call("list", iterable, of=None), part, ast.Load())
 
 
 def _call(name, argument, of="np"):

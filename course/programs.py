@@ -13,7 +13,6 @@ from types import ModuleType
 
 import numpy as np
 
-import course.tasks
 from course.exercise import BEGIN, END
 from course.source import ROOT, read
 from course.tasks import Edit
@@ -161,8 +160,9 @@ def _base(exercise_id):
     cells = (
         re.sub(r"^from slamlab\.checks import .*$", _STUBS, cell, flags=re.M)
         for cell in _cells(exercise_id)
+        if not cell.startswith(("%", "!"))
     )
-    return tuple(compile(cell, "<cell 1>", "exec") for cell in cells if not cell.startswith(("%", "!")))
+    return tuple(compile(cell, "<cell 1>", "exec") for cell in cells)
 
 
 @functools.cache

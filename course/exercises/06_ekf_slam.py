@@ -1,17 +1,22 @@
 # %% [markdown]
 # # 06 · EKF-SLAM: exercise
 #
-# **You will be able to** write EKF-SLAM, block by block: predict, augment, update, and the loop that
-# calls them; and to say from P who is related to whom.
+# **You will be able to** write EKF-SLAM, block by block: augment, update, and the loop that calls
+# them; to tell the filter something no sensor has measured; and to keep it from believing lies.
 #
 # **60 minutes. Before:** lesson 06.
 #
 # Replace each `raise NotImplementedError(...)` by your code, run the cell, then run the check below
-# it, as often as you like. A check tries random inputs and tells you which law is broken.
+# it, as often as you like.
 #
 # The state is `x = [x, y, θ, p_0x, p_0y, p_1x, p_1y, …]`, its covariance `P` has as many rows.
 # Landmarks are counted from 0. `u = [d, Δθ]` is a drive, `z = [r, β]` a range and a bearing. Metres
 # and radians throughout. You have the models and, from exercise 04, their Jacobians.
+#
+# A check tries random inputs and others that are as special as the text allows: an empty map, a map of
+# many landmarks. Where a law is broken it shows a small input that breaks it, and `hint("06-augment")`
+# in a cell of your own leads on. No function may change the arrays it is given: whoever called it
+# still needs them.
 
 # %%
 import numpy as np
@@ -24,26 +29,18 @@ from slamlab.layers import Ellipses, Points, Poses
 from slamlab.models import f_odometry, g, h
 
 # %% [markdown]
-# ## Predict
+# ## What you are given
 #
-# The robot drives `u`, which errs with covariance `C` (2, 2). The landmarks stand still.
+# A drive `u` with covariance `C` moves the robot and no landmark; landmark `j` is seen from the pose,
+# so that only five columns of H are not zero:
 #
-# $$P_{rr} \leftarrow A P_{rr} A^T + W C W^T, \qquad P_{ri} \leftarrow A P_{ri}$$
-#
-# **Predict first.** There are N landmarks. Which blocks of P change? Which of them hold C's noise?
-#
-# **Your task.** The state and the covariance after the drive. Return new arrays, and mind that P is
-# symmetric. (`A_odometry(x, u)` and `W_odometry(x, u)` take the pose *before* the drive;
-# `f_odometry(x, u)` returns the one after.)
+# $$P_{rr} \leftarrow A P_{rr} A^T + W C W^T, \qquad P_{ri} \leftarrow A P_{ri}, \qquad
+# H = [\, H_r \; 0 \cdots H_{p_j} \cdots 0 \,]$$
 
 
 # %%
 def predict(x, P, u, C):
-    """The robot drives u; returns x (n,), P (n, n).
-
-    x : (n,) state;  P : (n, n);  u : (2,) d [m], Δθ [rad];  C : (2, 2) covariance of u
-    """
-    ### BEGIN SOLUTION
+    """The robot drives u; returns x (n,), P (n, n)."""
     A, W = A_odometry(x[:3], u), W_odometry(x[:3], u)
     x, P = x.copy(), P.copy()
     x[:3] = f_odometry(x[:3], u)
@@ -51,11 +48,16 @@ def predict(x, P, u, C):
     P[:3, 3:] = A @ P[:3, 3:]
     P[3:, :3] = P[:3, 3:].T
     return x, P
-    ### END SOLUTION
 
 
-# %%
-check("06-predict")
+def H_full(x, j):
+    """∂h/∂x of landmark j over the whole state: (2, n)."""
+    at = 3 + 2 * j
+    H = np.zeros((2, len(x)))
+    H[:, :3] = H_robot(x[:3], x[at : at + 2])
+    H[:, at : at + 2] = H_landmark(x[:3], x[at : at + 2])
+    return H
+
 
 # %% [markdown]
 # ## Augment
@@ -66,7 +68,8 @@ check("06-predict")
 # **Predict first.** The robot knows an old landmark i. Are the errors of i and of the new landmark
 # related? Through whom?
 #
-# **Your task.** The state with two more numbers, the covariance with two more rows and columns.
+# **Your task.** The state with two more numbers, the covariance with two more rows and columns. The
+# map may still be empty; the pose may be known exactly, so that its block of P is zero.
 
 
 # %%
@@ -109,36 +112,6 @@ def _():
 # %% [markdown]
 # **See:** no block should be white: one robot placed them all, and its error is in each of them.
 #
-# ## H over the whole state
-#
-# Landmark `j` is seen again. `h(x[:3], p)` depends on the pose and on that landmark only.
-#
-# **Predict first.** The state holds five landmarks and `j = 3`. Which shape has H, and which columns
-# are not zero? Compare with (4.9) of the MAK thesis as printed: [0 0 H_r H_p 0 …].
-#
-# **Your task.** H, with the parts `H_robot(pose, p)` (2, 3) and `H_landmark(pose, p)` (2, 2) in
-# their places.
-
-
-# %%
-def H_full(x, j):
-    """∂h/∂x of landmark j over the whole state: (2, n).
-
-    x : (n,) state;  j : int, from 0
-    """
-    ### BEGIN SOLUTION
-    at = 3 + 2 * j
-    H = np.zeros((2, len(x)))
-    H[:, :3] = H_robot(x[:3], x[at : at + 2])
-    H[:, at : at + 2] = H_landmark(x[:3], x[at : at + 2])
-    return H
-    ### END SOLUTION
-
-
-# %%
-check("06-h")
-
-# %% [markdown]
 # ## Update
 #
 # Landmark `j` was seen at `z`. With v = z − h and S = H P Hᵀ + R,
@@ -148,8 +121,9 @@ check("06-h")
 # **Predict first.** Landmark i is not seen. When does it move all the same? And could the update
 # make any variance *grow*?
 #
-# **Your task.** The state and the covariance after the sight, with your `H_full`. Bearings, and what
-# you get when you subtract two of them, count modulo 2π.
+# **Your task.** The state and the covariance after the sight; `H_full` above is H. The map holds one
+# landmark or more, and P is positive definite. Bearings, and what you get when you subtract two of
+# them, count modulo 2π.
 
 
 # %%
@@ -268,6 +242,88 @@ def _():
 # again. The ellipses are small at both ends of the round, and largest far from the start, at the
 # top. The true landmarks should lie in them, but for one in twenty.
 #
+# ## Two landmarks turn out to be one
+#
+# A map was begun at both ends of a corridor. Then somebody tells the robot: what you call landmark
+# `i` and landmark `j` is one and the same post. Nobody has measured anything, and yet the filter
+# has learned something it knows for certain:
+#
+# $$p_i - p_j = 0$$
+#
+# It is an observation like any other: some h of the state was "seen" to be 0, and it does not err at
+# all. The lesson has not coded it; its derivation covers it.
+#
+# **Predict first.** The two stood 10 cm apart. Where will the post stand: in the middle? Will the
+# robot move? And landmarks that have nothing to do with either?
+#
+# **Your task.** The state and covariance when both are known to be one. Landmark `j` leaves the
+# state and those behind it move up; landmark `i` keeps its order among the rest. `i` may stand before
+# or behind `j`. P is positive definite.
+
+
+# %%
+def merge(x, P, i, j):
+    """Landmarks i and j are one; returns x (n - 2,), P (n - 2, n - 2), without landmark j.
+
+    x : (n,) state;  P : (n, n);  i, j : int, from 0, i ≠ j
+    """
+    ### BEGIN SOLUTION
+    D = np.zeros((2, len(x)))
+    D[:, 3 + 2 * i : 5 + 2 * i] = np.eye(2)
+    D[:, 3 + 2 * j : 5 + 2 * j] = -np.eye(2)
+    S = D @ P @ D.T
+    K = P @ D.T @ np.linalg.inv(S)
+    x, P = x - K @ D @ x, P - K @ S @ K.T
+    gone = [3 + 2 * j, 4 + 2 * j]
+    return np.delete(x, gone), np.delete(np.delete(P, gone, axis=0), gone, axis=1)
+    ### END SOLUTION
+
+
+# %%
+check("06-same")
+
+# %% [markdown]
+# ## Make it better: one sight in ten is false
+#
+# The sensor now lies: one sight in ten shows something else, a metre or so and some half a radian off
+# the landmark whose id it carries. Nobody says which. A landmark's *first* sight is never false. The
+# wheels are worse than before, so that a robot which ignores its eyes is lost as well.
+#
+# **Predict first.** What does one false sight do to the robot's pose, and what to all the landmarks?
+# How would you notice, before it has happened, that a sight cannot be true? What does the filter know
+# about how far off a true sight may be?
+#
+# **Your task.** Another step of SLAM, called as `slam_step` is, as good as you can make it. The check
+# drives it through twenty runs of 23 steps and looks at the pose at the end: how far off it is, and
+# whether the filter knows how far (NEES, 3 on average). Points come in four steps; `slam_step` itself
+# reaches the lowest at best.
+
+
+# %%
+def careful_step(x, P, ids, u, seen, z, C, R):
+    """One step of EKF-SLAM among false sights; returns x, P, ids. Arguments as those of slam_step."""
+    ### BEGIN SOLUTION
+    x, P = predict(x, P, u, C)
+    for i, one in zip(seen, z, strict=True):
+        if i not in ids:
+            x, P = augment(x, P, one, R)
+            ids = [*ids, i]
+            continue
+        j = ids.index(i)
+        v = one - h(x[:3], x[3 + 2 * j : 5 + 2 * j])
+        v[1] = wrap(v[1])
+        H = H_full(x, j)
+        # χ² with two degrees of freedom: a true sight is farther off once in a thousand times
+        if v @ np.linalg.solve(H @ P @ H.T + R, v) < 13.8:
+            x, P = update(x, P, one, j, R)
+    return x, P, ids
+    ### END SOLUTION
+
+
+# %%
+check("06-false-sights")
+
+# %% [markdown]
 # ## Done?
 #
 # Save the notebook. The cell below then says what the grader will say about it;

@@ -7,6 +7,7 @@ A module ``exNN/topic.py`` belongs to ``slamlab/exercises/tasks/exNN/topic.py``.
 - ``SLIPS``, the mistakes that have a name and a hint
 - ``STUMBLES``, programs whose answer cannot be judged
 - ``PASTED``, name to source: functions of the lesson adapted to the task, worth a fifth at most
+- ``MUTANTS``, of a task that takes long: how many mutants of the solution are fingerprinted
 - ``EQUIVALENT``, text of a mutation to the reason why it is right as well
 
 A program is an edit of the solution ``("find", "replace")``, a list of such edits, an :class:`Edit`

@@ -1,4 +1,4 @@
-"""Checks of the exercises, for notebooks: ``check("04-h-robot")``, ``hint``, ``attempt``, ``validate``.
+"""Checks of the exercises, for notebooks: ``check("04-h-robot")``, hint, attempt, validate.
 
 Read in this order:
 

@@ -34,7 +34,7 @@ def next_rung(task, namespace) -> str:
         return f"{task.id} breaks no law: there is nothing to hint at"
     rung = _climbed.get((task.id, case.law.name), 0)
     _climbed[task.id, case.law.name] = rung + 1
-    asks = case.law.asks or f"The law says: {case.law.says}. At which line does your answer leave it?"
+    asks = case.law.asks or f"{case.law.says}: at which line does your answer leave this law?"
     if rung == 0:
         return f"A question: {asks}\nCalled again, hint shows a step on the way."
     return _step(task, case, asks)

@@ -26,28 +26,30 @@ _STEPS = np.array([0.7548776662466927, 0.5698402909980532, 0.8191725133961645, 0
 
 @dataclass(frozen=True)
 class Table:
-    """The fingerprints of one task.
+    """The fingerprints of one task's programs.
 
     Parameters
     ----------
-    parts : part's name to (fingerprints (n, SIZE), labels (n,) int)
+    parts : names of the parts
+    prints : (n, parts, SIZE), NaN where a program has no such part
+    labels : (n,) int
     names : name of each label: ``RIGHT``, then slips in the order of their precedence, then families
     hints : the hint of each label, empty for ``RIGHT``
     slips : int, labels from 1 to this one are slips
     """
 
-    parts: dict
+    parts: tuple[str, ...]
+    prints: np.ndarray
+    labels: np.ndarray
     names: tuple[str, ...]
     hints: tuple[str, ...]
     slips: int
 
-    def labels(self, part, print):
-        """The labels whose fingerprints of a part are the same, as a set."""
-        if part not in self.parts:
-            return set()
-        known, labels = self.parts[part]
-        off = np.abs(known - print) <= CLOSE * (1 + np.abs(known))
-        return set(labels[off.all(axis=1)].tolist())
+    def same(self, prints):
+        """(n, parts) bool, which parts of which programs have these fingerprints."""
+        asked = np.array([prints.get(part, np.full(SIZE, np.nan)) for part in self.parts])
+        off = np.abs(self.prints - asked)
+        return (off <= CLOSE * (1 + np.abs(self.prints))).all(axis=2)
 
 
 def fingerprint(arrays):
@@ -102,8 +104,9 @@ def of_answers(task, sets, answers):
 def recognise(task, sets, answers) -> Diagnosis | None:
     """Name the mistake that explains an answer, if exactly one does.
 
-    Slips go before families. Of parts that are wrong, one mistake must explain all; where none does,
-    there are several, and the first part that a single one explains is told.
+    One program that computes all of it explains it best; else one that computes all that is wrong.
+    Where none does there are several mistakes, and the first part that one explains is told. Slips go
+    before families; two families explain nothing.
 
     Parameters
     ----------
@@ -117,13 +120,13 @@ def recognise(task, sets, answers) -> Diagnosis | None:
     if table is None:
         return None
     with np.errstate(all="ignore"):
-        prints = of_answers(task, sets, answers)
-    matching = [table.labels(part, print) for part, print in prints.items()]
-    wrong = [labels - {0} for labels in matching if 0 not in labels]
-    if not wrong:
+        same = table.same(of_answers(task, sets, answers))
+    wrong = ~same[table.labels == 0].any(axis=0)
+    if not wrong.any():
         return None
-    for candidates in (set.intersection(*wrong), *wrong):
-        label = _single(candidates, table.slips)
+    explaining = [same.all(axis=1), same[:, wrong].all(axis=1), *same[:, wrong].T]
+    for programs in explaining:
+        label = _single(set(table.labels[programs].tolist()), table.slips)
         if label:
             return Diagnosis(table.names[label], table.hints[label], lambda inputs, outputs: True)
     return None
@@ -140,14 +143,11 @@ def tables(exercise_id) -> dict[str, Table]:
     found = {}
     for task in [key.partition("/")[0] for key in arrays if key.endswith("/names")]:
         of = {key.split("/", 1)[1]: a for key, a in arrays.items() if key.startswith(f"{task}/")}
-        parts = {
-            key.removeprefix("prints/"): (a, of["labels/" + key.removeprefix("prints/")])
-            for key, a in of.items()
-            if key.startswith("prints/")
-        }
         slips, families = of["names"].tolist(), sorted(FAMILIES)
         found[task] = Table(
-            parts,
+            tuple(of["parts"].tolist()),
+            of["prints"],
+            of["labels"],
             (RIGHT, *slips, *families),
             ("", *of["hints"].tolist(), *(FAMILIES[name] for name in families)),
             len(slips),
@@ -157,6 +157,7 @@ def tables(exercise_id) -> dict[str, Table]:
 
 def _single(labels, slips):
     """The one label that explains: the first slip, else the only family, else None."""
+    labels = labels - {0}
     named = sorted(label for label in labels if label <= slips)
     if named:
         return named[0]

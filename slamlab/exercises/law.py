@@ -64,7 +64,8 @@ def equals(name, points, says, want, parts=None, angles=None, tolerance=TOLERANC
     ----------
     name, points, says : as of :class:`Law`
     want : inputs -> output's name to (n, ...) array; others of its outputs are not looked at
-    parts : output's name to an index within one row, such as ``np.s_[:3, 3:]``; None: all of ``want``
+    parts : output's name to an index within one row, such as ``np.s_[:3, 3:]``, or to a list of
+        them; None: all of ``want``
     angles : output's name to the index, on the last axis, of what counts modulo 2π
     tolerance : float, share of the largest number wanted in a row
     more : ``asks``, ``step``, ``main`` of :class:`Law`
@@ -76,10 +77,10 @@ def equals(name, points, says, want, parts=None, angles=None, tolerance=TOLERANC
 
     def holds(inputs, outputs):
         right = want(inputs)
-        names = parts or dict.fromkeys(right, np.s_[...])
         same = [
             _rows_close(outputs[o], right[o], at, (angles or {}).get(o), tolerance)
-            for o, at in names.items()
+            for o, places in (parts or dict.fromkeys(right, np.s_[...])).items()
+            for at in (places if isinstance(places, list) else [places])
         ]
         return np.logical_and.reduce(same)
 

@@ -172,7 +172,9 @@ class Task:
 
     def broken(self, law, inputs, outputs, idle=False):
         """(n,) bool, which inputs of a set broke a law; one entry where it is judged as a whole."""
-        if isinstance(outputs, StudentError) or (idle and law is not UNCHANGED):
+        if isinstance(outputs, StudentError):
+            return np.array([law is not UNCHANGED])
+        if idle and law is not UNCHANGED:
             return np.array([True])
         holds = _safely(law.holds, inputs, outputs)
         return ~np.atleast_1d(np.asarray(holds, dtype=bool))

@@ -82,4 +82,7 @@ def test_of_several_functions_the_one_not_attempted_is_named():
 
 def test_an_output_of_any_length_may_not_be_of_every_length():
     task = dataclasses.replace(TURN, shapes={"points": (None, 2)})
-    assert "2001 entries: too many" in task.judge(SETS, {MAIN: {"points": np.zeros((2001, 2))}}).problem
+    assert (
+        "2001 entries: too many"
+        in task.judge(SETS, {MAIN: {"points": np.zeros((2001, 2))}}).problem
+    )

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from slamlab.exercises.drives import Drive, StudentError, numbers
-from slamlab.exercises.drives.slam_step import SLAM_STEP, belief
+from slamlab.exercises.drives import Drive
+from slamlab.exercises.drives.slam_step import SLAM_STEP, belief, drive_of
 
 
 def _beliefs(functions, inputs, grows=0):
@@ -20,10 +20,6 @@ def _rows(inputs):
         yield [np.array(a) if a.ndim else int(a) for a in row]
 
 
-def _predicted(functions, inputs):
-    return _beliefs(functions, inputs)
-
-
 def _augmented(functions, inputs):
     return _beliefs(functions, inputs, grows=2)
 
@@ -32,21 +28,14 @@ def _updated(functions, inputs):
     return _beliefs(functions, inputs)
 
 
-def _observed(functions, inputs):
-    H_full = functions["H_full"]
-    found = [numbers(H_full(*row), "H_full") for row in _rows(inputs)]
-    want = (2, inputs["x"].shape[1])
-    for H in found:
-        if H.shape != want:
-            turned = " (transposed?)" if H.shape == want[::-1] else ""
-            raise StudentError("malformed", f"H_full has shape {H.shape}, expected {want}{turned}")
-    return {"H": np.array(found)}
+def _merged(functions, inputs):
+    return _beliefs(functions, inputs, grows=-2)
 
 
 DRIVES = {
-    "06-predict": Drive(("predict",), _predicted),
     "06-augment": Drive(("augment",), _augmented),
-    "06-h": Drive(("H_full",), _observed),
     "06-update": Drive(("update",), _updated),
     "06-slam": SLAM_STEP,
+    "06-same": Drive(("merge",), _merged),
+    "06-false-sights": drive_of("careful_step"),
 }

@@ -1,4 +1,4 @@
-"""The drive of a whole filter, slam_step, over many runs: exercises 06 and 09."""
+"""The drive of a whole filter, such as slam_step, over many runs: exercises 06 and 09."""
 
 from traceback import walk_tb
 
@@ -39,22 +39,23 @@ def belief(value, function, size):
 
 def _driven(functions, inputs):
     """Every run from its start to its end: the last state, its covariance, the ids in it."""
+    name, step = next(iter(functions.items()))
     ends = [
-        _one_run(functions["slam_step"], inputs, x, u, z)
+        _one_run(step, name, inputs, x, u, z)
         for x, u, z in zip(inputs["x"], inputs["u"], inputs["z"], strict=True)
     ]
     if len({(len(x), len(ids)) for x, _, ids in ends}) > 1:
-        raise StudentError("malformed", "slam_step's map differs in size from run to run")
+        raise StudentError("malformed", f"{name}'s map differs in size from run to run")
     x, P, ids = map(np.array, zip(*ends, strict=True))
     return {"x": x, "P": P, "ids": ids}
 
 
-def _one_run(slam_step, inputs, x, drives, sights):
+def _one_run(step, name, inputs, x, drives, sights):
     P, ids, C, R = inputs["P"], [], inputs["C"], inputs["R"]
     for u, seen, z in zip(drives, inputs["seen"], sights, strict=True):
         there = seen >= 0  # a scan of fewer landmarks is filled up with -1
         try:
-            value = slam_step(
+            value = step(
                 np.array(x), np.array(P), list(ids), u.copy(), seen[there].tolist(), z[there],
                 C.copy(), R.copy(),
             )  # fmt: skip
@@ -62,9 +63,9 @@ def _one_run(slam_step, inputs, x, drives, sights):
             _tell_id_from_index(error, seen)
             raise
         if not isinstance(value, tuple | list) or len(value) != 3:
-            raise StudentError("malformed", "slam_step must end with: return x, P, ids")
-        x, P = belief(value[:2], "slam_step", None)
-        ids = _whole(value[2])
+            raise StudentError("malformed", f"{name} must end with: return x, P, ids")
+        x, P = belief(value[:2], name, None)
+        ids = _whole(value[2], name)
     return x, P, np.array(ids, dtype=float)
 
 
@@ -80,11 +81,16 @@ def _tell_id_from_index(error, seen):
             ) from None
 
 
-def _whole(ids):
-    ids = numbers(ids, "slam_step's ids")
+def _whole(ids, name):
+    ids = numbers(ids, f"{name}'s ids")
     if ids.ndim != 1:
-        raise StudentError("malformed", f"slam_step's ids have shape {ids.shape}, expected a list")
+        raise StudentError("malformed", f"{name}'s ids have shape {ids.shape}, expected a list")
     return [int(i) if np.isfinite(i) else i for i in ids]
 
 
-SLAM_STEP = Drive(("slam_step",), _driven)
+def drive_of(function):
+    """The drive of a filter's step by the name of the function that takes it."""
+    return Drive((function,), _driven)
+
+
+SLAM_STEP = drive_of("slam_step")

@@ -7,11 +7,11 @@ is what the start and the wheels know. All runs share the world; noise is their 
 import numpy as np
 
 from slamlab import models
-from slamlab.exercises.tasks.ex06_beliefs import either_sign
-from slamlab.exercises.tasks.ex06_runs import LANDMARKS as WALLS
-from slamlab.exercises.tasks.ex06_runs import STEPS, measured
-from slamlab.exercises.tasks.ex06_runs import least_squares as least_squares_of
-from slamlab.exercises.tasks.ex06_runs import truth as truth_of
+from slamlab.exercises.tasks.ex06.beliefs import either_sign
+from slamlab.exercises.tasks.ex06.runs import LANDMARKS as WALLS
+from slamlab.exercises.tasks.ex06.runs import STEPS, measured
+from slamlab.exercises.tasks.ex06.runs import least_squares as least_squares_of
+from slamlab.exercises.tasks.ex06.runs import truth as truth_of
 from slamlab.filters.landmark_models import LINES
 from slamlab.geometry import wrap
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from slamlab.exercises.tasks.ex06_beliefs import covariances, either_sign, moments, sigmas
+from slamlab.exercises.tasks.ex06.beliefs import covariances, either_sign, moments, sigmas
 from slamlab.geometry import wrap
 
 ROWS, BEYOND = 8, 2  # the last BEYOND walls stand between the robot and the world's origin

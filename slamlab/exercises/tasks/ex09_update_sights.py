@@ -3,7 +3,7 @@
 import numpy as np
 
 from slamlab import models
-from slamlab.exercises.tasks.ex06_beliefs import T, covariances, either_sign, same_block, sigmas
+from slamlab.exercises.tasks.ex06.beliefs import T, covariances, either_sign, same_block, sigmas
 from slamlab.geometry import wrap
 
 ROWS, WALLS, BEHIND = 9, 3, 3  # the last BEHIND sights cross the direction ±π

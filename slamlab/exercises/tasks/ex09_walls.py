@@ -5,10 +5,10 @@ import numpy as np
 from slamlab.exercises.drives.ex09 import DRIVES
 from slamlab.exercises.law import Diagnosis, Law
 from slamlab.exercises.task import Task
-from slamlab.exercises.tasks.ex06_ends import MAP, Ends, whole
-from slamlab.exercises.tasks.ex06_orders import ordered
-from slamlab.exercises.tasks.ex06_runs import LANDMARKS as MET
-from slamlab.exercises.tasks.ex06_runs import RUNS
+from slamlab.exercises.tasks.ex06.ends import MAP, Ends, whole
+from slamlab.exercises.tasks.ex06.orders import ordered
+from slamlab.exercises.tasks.ex06.runs import LANDMARKS as MET
+from slamlab.exercises.tasks.ex06.runs import RUNS
 from slamlab.exercises.tasks.ex09_corridor import least_squares, runs, truth
 from slamlab.filters.landmark_models import LINES
 

@@ -9,7 +9,7 @@ import numpy as np
 from slamlab.exercises.law import Diagnosis
 from slamlab.geometry import wrap
 
-SMALL = 1e-3  # the errors carried, as a share of the belief's: there every model is straight
+SMALL = 1e-4  # the errors carried, as a share of the belief's: there every model is straight
 TOLERANCE = 1e-3  # of a mean, in standard deviations; of a covariance, in two of them
 ROBOT = slice(0, 3)
 
@@ -60,12 +60,18 @@ def moments(f, x, P, C):
     """
     (state, other), n = x, len(P)
     root = np.zeros((n + len(C), n + len(C)))
-    root[:n, :n], root[n:, n:] = np.linalg.cholesky(P), np.linalg.cholesky(C)
+    root[:n, :n], root[n:, n:] = square_root(P), square_root(C)
     errors = SMALL * np.sqrt(len(root)) * np.hstack([root, -root])
     mean = f(state[:, None], other[:, None])[:, 0]
     off = f(state[:, None] + errors[:n], other[:, None] + errors[n:]) - mean[:, None]
     off[2] = wrap(off[2])
     return mean, off @ off.T / (2 * len(root)) / SMALL**2
+
+
+def square_root(P):
+    """(n, n) B with B Bᵀ = P, where P may be singular."""
+    variances, directions = np.linalg.eigh(P)
+    return directions * np.sqrt(np.maximum(variances, 0))
 
 
 def sigmas(P):

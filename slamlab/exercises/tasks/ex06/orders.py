@@ -3,7 +3,7 @@
 import numpy as np
 
 from slamlab import models
-from slamlab.exercises.tasks.ex06_ends import whole
+from slamlab.exercises.tasks.ex06.ends import whole
 from slamlab.filters.mak import MAK
 from slamlab.models import jacobians, noise
 

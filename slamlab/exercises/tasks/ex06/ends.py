@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from slamlab.exercises.tasks.ex06_runs import LANDMARKS, RUNS, least_squares, truth
+from slamlab.exercises.tasks.ex06.runs import least_squares, truth
 from slamlab.evaluation import band, nees
 from slamlab.filters.landmark_models import LINES
 from slamlab.geometry import wrap
@@ -15,7 +15,8 @@ SLACK = 1.15  # the Jacobians are taken at estimates: bands are this much wider
 def whole(inputs, outputs):
     """Whether the map holds each landmark once, so that it can be looked at."""
     ids, met = outputs["ids"], np.unique(inputs["seen"][inputs["seen"] >= 0])
-    fits = ids.shape == (RUNS, LANDMARKS) and outputs["x"].shape == (RUNS, 3 + 2 * LANDMARKS)
+    runs = len(inputs["x"])
+    fits = ids.shape == (runs, len(met)) and outputs["x"].shape == (runs, 3 + 2 * len(met))
     return bool(fits and (np.sort(ids, axis=1) == met).all())
 
 
@@ -66,17 +67,31 @@ class Ends:
             x, P = self.of(inputs, outputs)
             error = self.errors(inputs, x)[:, part]
             # the runs' common mean costs one of them
-            low, high = band(error.shape[1], RUNS - 1, HONEST)
+            low, high = band(error.shape[1], len(x) - 1, HONEST)
             return low / SLACK <= nees(error, P[:, part, part]).mean() <= high * SLACK
 
         return holds
+
+    def ratios(self, inputs, outputs):
+        """Least and largest variance of the mean P, in units of least squares', of all directions."""
+        P = self.of(inputs, outputs)[1]
+        root = np.linalg.inv(np.linalg.cholesky(least_squares(inputs, self.kind)))
+        ratios = np.linalg.eigvalsh(root @ P.mean(axis=0) @ root.T)
+        return ratios.min(), ratios.max()
 
     def sure(self, inputs, outputs):
         """A law: the mean of P has the variances of least squares, in every direction."""
         if not whole(inputs, outputs):
             return False
-        P = self.of(inputs, outputs)[1]
-        root = np.linalg.inv(np.linalg.cholesky(least_squares(inputs, self.kind)))
-        ratios = np.linalg.eigvalsh(root @ P.mean(axis=0) @ root.T)
-        low, high = self.sure_within
-        return low <= ratios.min() and ratios.max() <= high
+        (least, largest), (low, high) = self.ratios(inputs, outputs), self.sure_within
+        return low <= least and largest <= high
+
+    def ratios_told(self, inputs, outputs):
+        """Why P cannot be, in words."""
+        if not whole(inputs, outputs):
+            return "the map does not hold each landmark once"
+        least, largest = self.ratios(inputs, outputs)
+        return (
+            f"in some direction P's variance is {least:.2g} times that of least squares, in another "
+            f"{largest:.2g} times"
+        )

@@ -8,7 +8,7 @@ import numpy as np
 from scipy.linalg import block_diag
 
 from slamlab import models
-from slamlab.exercises.tasks.ex06_beliefs import either_sign
+from slamlab.exercises.tasks.ex06.beliefs import either_sign
 from slamlab.filters.landmark_models import POINTS
 from slamlab.geometry import wrap
 from slamlab.models import jacobians
@@ -41,7 +41,7 @@ def measured(rng, start, drives, p, scans, sigmas, kind=POINTS):
     Parameters
     ----------
     rng : numpy.random.Generator
-    start : (3,), drives : (STEPS, 2), p : (LANDMARKS, 2), all true
+    start : (3,), drives : (s, 2), p : (LANDMARKS, 2), all true
     scans : (STEPS, 2) int, rows of p that each scan holds, -1 for none
     sigmas : (3,), (2,), (2,) deviations of start, drives and sights
     kind : LandmarkModel
@@ -52,15 +52,15 @@ def measured(rng, start, drives, p, scans, sigmas, kind=POINTS):
     """
     of_start, of_wheels, of_eyes = sigmas
     way = driven(start, drives)
-    names = rng.permutation(np.arange(30, 90))[:LANDMARKS]
+    names = rng.permutation(np.arange(30, 90))[: len(p)]
     names[:2].sort()  # which are met in the order 1, 0: sorted ids are never right
     z = np.array([kind.h(pose, p[scan]) for pose, scan in zip(way, scans, strict=True)])
-    z = z + of_eyes * _errors_of(rng, STEPS, 2, 2)
+    z = z + of_eyes * _errors_of(rng, *z.shape)
     z[..., 1] = wrap(z[..., 1])
     return {
         "x": start + of_start * _errors_of(rng, 3),
         "P": np.diag(of_start**2),
-        "u": drives + of_wheels * _errors_of(rng, STEPS, 2),
+        "u": drives + of_wheels * _errors_of(rng, *drives.shape),
         "seen": np.where(scans < 0, -1, names[scans]),
         "z": z,
         "C": np.diag(of_wheels**2),
@@ -108,11 +108,12 @@ def least_squares(inputs, kind=POINTS):
     Unknown are the start's error, those of all drives and the landmarks; a pose is a sum of them.
     """
     before, drives, way, landmarks = truth(inputs, kind)
-    unknowns = 3 + 2 * STEPS + 2 * LANDMARKS
-    sure = [np.linalg.inv(inputs["P"]), *[np.linalg.inv(inputs["C"])] * STEPS]
-    information = block_diag(*sure, np.zeros((2 * LANDMARKS, 2 * LANDMARKS)))
+    steps, size = len(drives), 2 * len(landmarks)
+    unknowns = 3 + 2 * steps + size
+    sure = [np.linalg.inv(inputs["P"]), *[np.linalg.inv(inputs["C"])] * steps]
+    information = block_diag(*sure, np.zeros((size, size)))
     weight, D = np.linalg.inv(inputs["R"]), np.eye(3, unknowns)
-    first = {i: 3 + 2 * STEPS + 2 * k for k, i in enumerate(landmarks)}
+    first = {i: 3 + 2 * steps + 2 * k for k, i in enumerate(landmarks)}
     for k, (u, pose, seen) in enumerate(zip(drives, way, inputs["seen"].tolist(), strict=True)):
         D = jacobians.A_odometry(before, u) @ D
         D[:, 3 + 2 * k : 5 + 2 * k] += jacobians.W_odometry(before, u)
@@ -123,5 +124,5 @@ def least_squares(inputs, kind=POINTS):
                 H[:, first[i] : first[i] + 2] += H_p
                 information += H.T @ weight @ H
         before = pose
-    G = np.vstack([D, np.eye(2 * LANDMARKS, unknowns, 3 + 2 * STEPS)])
+    G = np.vstack([D, np.eye(size, unknowns, 3 + 2 * steps)])
     return G @ np.linalg.inv(information) @ G.T

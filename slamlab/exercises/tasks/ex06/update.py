@@ -1,0 +1,131 @@
+"""Task 06-update: a landmark is seen again, and everyone learns."""
+
+import numpy as np
+
+from slamlab import models
+from slamlab.exercises.drives.ex06 import DRIVES
+from slamlab.exercises.law import equals
+from slamlab.exercises.task import Probe, Task
+from slamlab.exercises.tasks.ex06.beliefs import T, beliefs, covariances, either_sign
+from slamlab.geometry import wrap
+from slamlab.models import jacobians
+
+
+def sights(rng, rows=8, landmarks=3, behind=False):
+    """Beliefs, a landmark that is seen again, and how: beside the robot, or right behind it."""
+    x, P = beliefs(rng, rows, landmarks)
+    j, R = np.arange(rows) % landmarks, covariances(rng, rng.uniform(0.03, 0.06, (rows, 2)))
+    side = np.where(np.arange(rows) % 2, 1.0, -1.0)  # both, whatever is drawn
+    z = np.empty((rows, 2))
+    for k in range(rows):
+        r = rng.uniform(2, 5)
+        bearing = side[k] * (np.pi - rng.uniform(0.01, 0.04) if behind else rng.uniform(0.3, 2.2))
+        x[k, 3 + 2 * j[k] : 5 + 2 * j[k]] = models.g(x[k], np.array([r, bearing]))
+        z[k] = r + either_sign(rng, 0.1, 0.2), wrap(bearing + side[k] * rng.uniform(0.06, 0.1))
+    return {"x": x, "P": P, "z": z, "j": j, "R": R}
+
+
+def _as_expected(rng):
+    inputs = sights(rng, 2, 2)
+    _, inputs["z"] = _linearised(inputs)
+    return inputs
+
+
+def _far_off(rng):
+    inputs = sights(rng, 2, 2)
+    inputs["z"][:, 0] += 4  # more than π: ranges are not to be wrapped
+    return inputs
+
+
+def _uncorrelated(rng):
+    inputs = sights(rng, 2, 2)
+    return inputs | {"P": inputs["P"] * np.eye(7), "R": inputs["R"] * np.eye(2)}
+
+
+def _linearised(inputs):
+    """H (k, 2, n) of the landmark seen, and where it is expected (k, 2)."""
+    rows = range(len(inputs["x"]))
+    H, expected = np.zeros((len(rows), 2, inputs["x"].shape[1])), np.zeros((len(rows), 2))
+    for k in rows:
+        x, at = inputs["x"][k], 3 + 2 * inputs["j"][k]
+        H[k, :, :3] = jacobians.H_robot(x[:3], x[at : at + 2])
+        H[k, :, at : at + 2] = jacobians.H_landmark(x[:3], x[at : at + 2])
+        expected[k] = models.h(x[:3], x[at : at + 2])
+    return H, expected
+
+
+def _innovation(inputs):
+    H, expected = _linearised(inputs)
+    v = inputs["z"] - expected
+    v[:, 1] = wrap(v[:, 1])
+    return H, v
+
+
+def want(inputs):
+    """Least squares: the x that fits belief and sight best, and the inverse of its information."""
+    H, v = _innovation(inputs)
+    weight = np.linalg.inv(inputs["R"])
+    P = np.linalg.inv(np.linalg.inv(inputs["P"]) + T(H) @ weight @ H)
+    return {"x": inputs["x"] + (P @ T(H) @ weight @ v[..., None])[..., 0], "P": P}
+
+
+def _on_the_way(inputs):
+    H, v = _innovation(inputs)
+    return {"v": v, "H": H, "S": H @ inputs["P"] @ T(H) + inputs["R"]}
+
+
+def _parts(inputs, outputs):
+    x = outputs["x"].copy()
+    x[:, 2] = wrap(x[:, 2])
+    return {"x": x, "P": outputs["P"]}
+
+
+MEAN = {"angles": {"x": 2}, "step": _on_the_way}
+
+UPDATE = Task(
+    id="06-update",
+    title="Update: a landmark is seen again",
+    drive=DRIVES["06-update"],
+    inputs=sights,
+    probes=(
+        Probe(
+            "a landmark right behind the robot",
+            lambda rng: sights(rng, 4, 3, behind=True),
+            ("wrapped", "P"),
+        ),
+        Probe("a map of one landmark", lambda rng: sights(rng, 2, 1)),
+        Probe("a map of six landmarks", lambda rng: sights(rng, 6, 6)),
+        Probe("a sight that is just as expected", _as_expected),
+        Probe("a landmark four metres farther off than expected", _far_off),
+        Probe("errors that share nothing", _uncorrelated),
+    ),
+    shapes=lambda inputs: {"x": inputs["x"].shape, "P": inputs["P"].shape},
+    parts=_parts,
+    laws=(
+        equals(
+            "mean",
+            2,
+            "x fits belief and sight best: no other state has a smaller sum of squares",
+            lambda inputs: {"x": want(inputs)["x"]},
+            asks="Which entries of K are zero? And what is it that K is multiplied by?",
+            **MEAN,
+        ),
+        equals(
+            "wrapped",
+            1,
+            "the same for landmarks behind the robot, where bearings jump from π to −π",
+            lambda inputs: {"x": want(inputs)["x"]},
+            asks="Expected at 179°, seen at −179°: by how much is the landmark off?",
+            main=False,
+            **MEAN,
+        ),
+        equals(
+            "P",
+            2,
+            "P holds what belief and sight know together: its inverse is P⁻¹ + Hᵀ R⁻¹ H",
+            lambda inputs: {"P": want(inputs)["P"]},
+            asks="Which blocks of K S Kᵀ are zero, and what has that to say of landmarks not seen?",
+            step=_on_the_way,
+        ),
+    ),
+)
