@@ -288,7 +288,9 @@ def _():
     if kept is not None:
         views.draw(ax, Boxes("after", [kept]), color=views.COLOURS["corrected"], linewidth=2.5)
     ax.legend(loc="upper right")
-    views.show(fig, alt="Places on two arcs within a box, and the smaller box that your ring returns.")
+    views.show(
+        fig, alt="Places on two arcs within a box, and the smaller box that your ring returns."
+    )
 
 
 # %% [markdown]
@@ -355,7 +357,7 @@ def look(robot, heading, objects, z, bounds):
 # that agrees with all sightings, and with the box and the heading given, has to be inside. That is
 # checked, on many robots, for the poses farthest out. Besides, the average width of your boxes and
 # headings is compared with the smallest there are: no wider than those of `look` earns half a point,
-# at most 2.3, 1.65 and 1.35 times as wide as the smallest earn more, step by step.
+# at most 1.85, 1.6 and 1.4 times as wide as the smallest earn more, step by step.
 #
 # There may be one object, many, or none at all, and they may stand in the robot's box. left − right
 # is at most 4 rad. Ranges and bearings are off by at most `bounds`, which are above 0; no range is
@@ -400,7 +402,7 @@ def narrow(robot, heading, objects, z, bounds):
 
     for _ in range(2):  # the second time the pieces are pieces of what the first has left
         ends = np.linspace(*heading, 25)
-        pieces = [(piece, possible(piece)) for piece in zip(ends[:-1], ends[1:], strict=True)]
+        pieces = [(piece, possible(piece)) for piece in np.column_stack([ends[:-1], ends[1:]])]
         x, y = np.array([corner for _, corners in pieces for corner in corners]).T
         angles = [piece for piece, corners in pieces if corners]
         robot = np.array([x.min(), x.max(), y.min(), y.max()])
@@ -439,7 +441,9 @@ def _():
     one_round = look(robot, heading, objects, z, bounds)[0]
     views.draw(ax, Boxes("one round", [one_round]), color=views.COLOURS["naive"])
     ax.legend(loc="upper right")
-    views.show(fig, alt="Poses that agree with all, your box round them, and the wider ones before.")
+    views.show(
+        fig, alt="Poses that agree with all, your box round them, and the wider ones before."
+    )
 
 
 # %% [markdown]

@@ -112,7 +112,10 @@ SLIPS = (
     Slip(
         "near-ahead",
         "The near edge points ahead: it allows what is nearer, and forbids the object itself.",
-        (NEAR_ROW + NEAR, "[np.cos(direction), np.sin(direction), (z[0] - bounds[0]) * np.cos(d_abs)"),
+        (
+            NEAR_ROW + NEAR,
+            "[np.cos(direction), np.sin(direction), (z[0] - bounds[0]) * np.cos(d_abs)",
+        ),
         (NEAR_ROW, "[np.cos(direction), np.sin(direction), "),
     ),
     Slip(
@@ -187,14 +190,20 @@ SLIPS = (
     Slip(
         "sides-inward",
         "The side edges point inward: they forbid the region between the two rays.",
-        [(SIDES[0], "[np.sin(left), -np.cos(left), 0]"), (SIDES[1], "[-np.sin(right), np.cos(right), 0]")],
+        [
+            (SIDES[0], "[np.sin(left), -np.cos(left), 0]"),
+            (SIDES[1], "[-np.sin(right), np.cos(right), 0]"),
+        ],
         (SIDES[0], "[np.sin(left), -np.cos(left), 0]"),
         (SIDES[1], "[-np.sin(right), np.cos(right), 0]"),
     ),
     Slip(
         "sides-along",
         "The side edges' (a, b) point along the rays. A normal stands at a right angle to its line.",
-        [(SIDES[0], "[np.cos(left), np.sin(left), 0]"), (SIDES[1], "[np.cos(right), np.sin(right), 0]")],
+        [
+            (SIDES[0], "[np.cos(left), np.sin(left), 0]"),
+            (SIDES[1], "[np.cos(right), np.sin(right), 0]"),
+        ],
     ),
     Slip(
         "sides-at-range",
@@ -264,8 +273,14 @@ SLIPS = (
     Slip(
         "degrees",
         "The angles are in radians already, and np.cos wants radians.",
-        [(DIRECTION, DIRECTION.replace("= (", "= np.radians((") + ")"), (D_ABS, f"d_abs = np.radians({D_ABS[8:]})")],
-        [(DIRECTION, DIRECTION.replace("= (", "= np.degrees((") + ")"), (D_ABS, f"d_abs = np.degrees({D_ABS[8:]})")],
+        [
+            (DIRECTION, DIRECTION.replace("= (", "= np.radians((") + ")"),
+            (D_ABS, f"d_abs = np.radians({D_ABS[8:]})"),
+        ],
+        [
+            (DIRECTION, DIRECTION.replace("= (", "= np.degrees((") + ")"),
+            (D_ABS, f"d_abs = np.degrees({D_ABS[8:]})"),
+        ],
         (NEAR, "-(z[0] - bounds[0]) * np.cos(np.radians(d_abs))"),
         (NEAR, "-(z[0] - bounds[0]) * np.cos(np.degrees(d_abs))"),
     ),
@@ -281,3 +296,5 @@ STUMBLES = (
     Stumble("raised", (PUSH, "row[3] += 0")),
     Stumble("not attempted", "def edges(z, bounds, heading, box):\n    raise NotImplementedError"),
 )
+
+MUTANTS = 1000

@@ -64,9 +64,7 @@ def sharpen(heading, robot, box, bearing, bound):
 """,
 }
 
-APART = (
-    "apart = robot[1] < box[0] or box[1] < robot[0] or robot[3] < box[2] or box[3] < robot[2]"
-)
+APART = "apart = robot[1] < box[0] or box[1] < robot[0] or robot[3] < box[2] or box[3] < robot[2]"
 SEEN = "np.arctan2(v - y, u - x)"
 OFF = "[wrap(angle - seen[0]) for angle in seen]"
 TOLD = "right, left = seen[0] + min(off) - bearing - bound, seen[0] + max(off) - bearing + bound"
@@ -259,5 +257,10 @@ SLIPS = (
 STUMBLES = (
     Stumble("malformed", (RESULT, "right"), (RESULT, "None")),
     Stumble("raised", (TURNS, "turns = here + wrapped(there - here) - there")),
-    Stumble("not attempted", "def sharpen(heading, robot, box, bearing, bound):\n    raise NotImplementedError"),
+    Stumble(
+        "not attempted",
+        "def sharpen(heading, robot, box, bearing, bound):\n    raise NotImplementedError",
+    ),
 )
+
+MUTANTS = 1000

@@ -47,39 +47,6 @@ def narrow(robot, heading, objects, z, bounds):
         robot, heading = ends[:, :2].T.ravel(), ends[:, 2]
     return robot, heading
 """,
-    "halves of the heading": """
-def narrow(robot, heading, objects, z, bounds):
-    def rest(corners, edge):
-        c = edge[2] - corners @ edge[:2]
-        ahead, there = np.roll(corners, -1, axis=0), np.roll(c, -1)
-        share = c / np.where(c == there, 1, c - there)
-        crossed = corners + share[:, None] * (ahead - corners)
-        return np.concatenate([corners[c >= 0], crossed[(c >= 0) != (there >= 0)]])
-
-    def halves(piece, corners, depth):
-        for place, sight in zip(objects, z):
-            if len(corners) and np.ptp(piece) < 2:
-                for edge in edges(sight, bounds, np.add(piece, np.pi), np.repeat(place, 2)):
-                    corners = around(rest(corners, edge)) if len(corners) else corners
-        if not len(corners):
-            return []
-        if depth == 0:
-            return [(corners, piece)]
-        middle = (piece[0] + piece[1]) / 2
-        return halves((piece[0], middle), corners, depth - 1) + halves((middle, piece[1]), corners, depth - 1)
-
-    def around(points):
-        if not len(points):
-            return points
-        angle = np.arctan2(*(points - points.mean(axis=0)).T)
-        return points[np.argsort(angle)]
-
-    whole = np.array([(x, y) for x in robot[:2] for y in robot[2:]])
-    found = halves(tuple(heading), around(whole), 7)
-    x, y = np.concatenate([corners for corners, _ in found]).T
-    angles = np.array([piece for _, piece in found])
-    return [x.min(), x.max(), y.min(), y.max()], [angles.min(), angles.max()]
-""",
     "pieces after many rounds": """
 def narrow(robot, heading, objects, z, bounds):
     for _ in range(12):
@@ -105,10 +72,179 @@ def narrow(robot, heading, objects, z, bounds):
         for place, sight in zip(objects, z):
             for a, b, c in edges(sight, bounds, np.add(piece, np.pi), place[[0, 0, 1, 1]]):
                 polygon = rest(polygon, a, b, c)
+            if not polygon:
+                break
         if polygon:
             boxes.append((*np.min(polygon, axis=0), *np.max(polygon, axis=0), *piece))
     x0, y0, x1, y1, right, left = np.transpose(boxes)
     return (x0.min(), x1.max(), y0.min(), y1.max()), (right.min(), left.max())
 """,
 }
-SLIPS = ()
+PUSHED = "edges(sight, bounds, np.add(piece, np.pi), np.repeat(place, 2))"
+PASSES = "for _ in range(2):"
+PIECES = "np.linspace(*heading, 25)"
+ROBOT = "robot = np.array([x.min(), x.max(), y.min(), y.max()])"
+HEADING = "heading = np.array([angles[0][0], angles[-1][1]])"
+RETURN = "    return robot, heading"
+CROSSING = "if (here >= 0) != (there >= 0):"
+ROUND = "look(robot, heading, objects, z, bounds)"
+
+SLIPS = (
+    Slip(
+        "one-round",
+        "This is what one round of look leaves: sound, and wide. Nothing has been done yet about the width "
+        "of the heading, nor about the boxes that are put round what is left.",
+        f"def narrow(robot, heading, objects, z, bounds):\n    return {ROUND}",
+    ),
+    Slip(
+        "many-rounds",
+        "Rounds help until nothing shrinks any more, and then no more. What would the edges look like if "
+        "the heading were known better than that?",
+        *(
+            f"""
+def narrow(robot, heading, objects, z, bounds):
+    for _ in range({rounds}):
+        robot, heading = {ROUND}
+    return robot, heading
+"""
+            for rounds in (2, 3, 5, 10, 20)
+        ),
+    ),
+    Slip(
+        "boxes-between",
+        "A box is put round what each edge leaves. Places that had been given up come back by that.",
+        (
+            "corners = rest(corners, edge)",
+            "x, y = np.transpose(rest(corners, edge)) if rest(corners, edge) else ((), ())\n"
+            "                corners = [(u, v) for u, v in ((min(x), min(y)), (max(x), min(y)), "
+            "(max(x), max(y)), (min(x), max(y)))] if len(x) else []",
+        ),
+    ),
+    Slip(
+        "one-pass",
+        "The pieces of the heading are as wide as before once most of them are gone. What is left of it "
+        "can be cut into pieces again.",
+        (PASSES, "for _ in range(1):"),
+    ),
+    Slip(
+        "few-pieces",
+        "The heading is cut into a few wide pieces only: the edges of each allow much that no single "
+        "heading allows.",
+        *((PIECES, f"np.linspace(*heading, {n})") for n in (3, 5, 6)),
+    ),
+    Slip(
+        "middles-of-pieces",
+        "Each piece of the heading is taken for the heading in its middle. A heading between two middles "
+        "allows other places: nobody has shown that these are impossible.",
+        [
+            (PASSES, "for _ in range(1):"),
+            (PIECES, "np.linspace(*heading, 201)"),
+            (
+                PUSHED,
+                "edges(sight, bounds, np.repeat(np.mean(piece), 2) + np.pi, np.repeat(place, 2))",
+            ),
+        ],
+    ),
+    Slip(
+        "inner-ends",
+        "The first and the last piece that are left are cut off the heading. Their headings are possible.",
+        (HEADING, "heading = np.array([angles[0][1], angles[-1][0]])"),
+    ),
+    Slip(
+        "one-piece",
+        "Only one piece of the heading is kept. Each of the pieces that are left may hold the true one.",
+        [
+            (
+                "x, y = np.array([corner for _, corners in pieces for corner in corners]).T",
+                "pieces = [pair for pair in pieces if pair[1]][:1]\n"
+                "        x, y = np.array(pieces[0][1]).T",
+            ),
+        ],
+    ),
+    Slip(
+        "heading-kept",
+        "The heading comes back as it was. Which pieces of it are left?",
+        [(PASSES, "known = heading\n    " + PASSES), (RETURN, "    return robot, known")],
+    ),
+    Slip(
+        "robot-kept",
+        "The robot's box comes back as it was. Which places are left, over all pieces of the heading?",
+        [(PASSES, "known = robot\n    " + PASSES), (RETURN, "    return known, heading")],
+    ),
+    Slip(
+        "shaved",
+        "Box and heading are shaved all round, as if poses near the rim did not count. A guarantee holds "
+        "for them as well.",
+        *(
+            (RETURN, f"    return {k} * robot + {1 - k:.2f} * robot[[1, 0, 3, 2]], heading")
+            for k in (0.9, 0.95)
+        ),
+        (RETURN, "    return robot, 0.9 * heading + 0.1 * heading[::-1]"),
+    ),
+    Slip(
+        "sampled",
+        "Poses were tried at random. Between those that agree, and beyond them, others agree as well: what "
+        "was not tried is not impossible.",
+        *(
+            f"""
+def narrow(robot, heading, objects, z, bounds):
+    poses = np.random.default_rng(0).uniform(*np.reshape([*robot, *heading], (3, 2)).T, ({n}, 3))
+    for (x, y), seen in zip(objects, z):
+        dx, dy = x - poses[:, 0], y - poses[:, 1]
+        off = np.array([np.hypot(dx, dy) - seen[0], wrap(np.arctan2(dy, dx) - poses[:, 2] - seen[1])])
+        share = np.abs(off / bounds[:, None]).max(axis=0)
+        poses = poses[share <= max(1, share.min())]
+    low, high = poses.min(axis=0), poses.max(axis=0)
+    return [low[0], high[0], low[1], high[1]], [low[2], high[2]]
+"""
+            for n in (10_000, 40_000)
+        ),
+    ),
+)
+
+PASTED = {
+    "look": f"def narrow(robot, heading, objects, z, bounds):\n    return {ROUND}",
+    "look until nothing shrinks": f"""
+def narrow(robot, heading, objects, z, bounds):
+    for _ in range(20):
+        robot, heading = {ROUND}
+    return robot, heading
+""",
+    "each sighting until nothing shrinks": """
+def narrow(robot, heading, objects, z, bounds):
+    for place, sight in zip(objects, z):
+        for _ in range(10):
+            robot, heading = look(robot, heading, place[None], sight[None], bounds)
+    return robot, heading
+""",
+    "predict backwards": """
+def narrow(robot, heading, objects, z, bounds):
+    for place, (r, bearing) in zip(objects, z):
+        way = -r - bounds[0], -r + bounds[0]
+        back = predict(np.repeat(place, 2), heading, way, (bearing - bounds[1], bearing + bounds[1]))
+        robot = np.where([1, 0, 1, 0], np.maximum(robot, back), np.minimum(robot, back))
+        heading = sharpen(heading, robot, np.repeat(place, 2), bearing, bounds[1])
+    return robot, heading
+""",
+}
+
+STUMBLES = (
+    Stumble("malformed", (RETURN, "    return robot"), (RETURN, "    return heading, robot")),
+    Stumble(
+        "raised",  # as nothing is left at all
+        (PUSHED, "edges(sight, bounds, piece, np.repeat(place, 2))"),
+        (PUSHED, "edges(sight, bounds / 2, np.add(piece, np.pi), np.repeat(place, 2))"),
+        (CROSSING, "if not kept and (here >= 0) != (there >= 0):"),
+    ),
+    Stumble(
+        "not attempted",
+        "def narrow(robot, heading, objects, z, bounds):\n    raise NotImplementedError",
+    ),
+)
+
+MUTANTS = 40
+
+EQUIVALENT = {
+    "": "any method is right whose boxes hold all poses that agree, and are small enough: that is what "
+    "the laws ask",
+}

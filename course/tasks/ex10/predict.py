@@ -248,7 +248,11 @@ SLIPS = (
 )
 
 STUMBLES = (
-    Stumble("malformed", (f"np.array({RESULT})", "[(0, 1), (0, 1)]"), (f"np.array({RESULT})", "None")),
+    Stumble(
+        "malformed", (f"np.array({RESULT})", "[(0, 1), (0, 1)]"), (f"np.array({RESULT})", "None")
+    ),
     Stumble("raised", (COURSE, "low, high = heading.low, heading.high")),
-    Stumble("not attempted", "def predict(box, heading, way, direction):\n    raise NotImplementedError"),
+    Stumble(
+        "not attempted", "def predict(box, heading, way, direction):\n    raise NotImplementedError"
+    ),
 )

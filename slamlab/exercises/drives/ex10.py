@@ -44,7 +44,9 @@ def looks(functions, inputs):
     StudentError : "malformed" when a call returns no box and heading
     """
     found = [_believed(functions["narrow"](*row)) for row in rows(inputs)]
-    return {name: np.array([pair[k] for pair in found]) for k, name in enumerate(("robot", "heading"))}
+    return {
+        name: np.array([pair[k] for pair in found]) for k, name in enumerate(("robot", "heading"))
+    }
 
 
 def _believed(result):

@@ -1,8 +1,8 @@
 """Exercise 10, boxes: what it asks and what its solutions may import.
 
-``predict``, ``edges``, ``heading``, ``ring`` and ``narrow`` hold a task each; ``boxes`` draws boxes and
-intervals, ``bearings`` robots that see an object, ``poses`` robots that see several, with the poses that
-agree with all they saw.
+``predict``, ``edges``, ``heading``, ``ring`` and ``narrow`` hold a task each; ``boxes`` draws boxes
+and intervals, ``bearings`` robots that see an object, ``poses`` robots that see several, with the
+poses that agree with all they saw.
 """
 
 from slamlab.exercises.exercise import Exercise

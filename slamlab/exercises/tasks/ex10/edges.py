@@ -9,8 +9,8 @@ from slamlab.exercises.tasks.ex10.boxes import boxes, wrapped
 
 ROWS = 24
 CLOSE = 1e-6
-"""What normals may be off, and c by the length of the numbers it is made of: rounding moves them by 1e-15,
-and lines through two points, some metres apart, by 1e-9."""
+"""What normals may be off, and c by the length of the numbers it is made of: rounding moves them by
+1e-15, and lines through two points, some metres apart, by 1e-9."""
 
 
 def inputs(rng, n=ROWS, width=(0.3, 0.9), size=(0.1, 0.4)):
@@ -126,14 +126,14 @@ EDGES = Task(
             2,
             "the second edge points back, touches the nearest place, and cuts off none",
             [1],
-            "How far along the middle direction do the two inner corners of the piece of a ring lie?",
+            "How far along the middle direction do the inner corners of the piece of a ring lie?",
         ),
         _law(
             "sides",
             2,
             "the third and fourth edge point out to the left and right, and touch what may be seen",
             [2, 3],
-            "Which way does (a, b) point if a x + b y ≤ c is to hold just on the inner side of a ray?",
+            "Which way does (a, b) point if a x + b y ≤ c holds just on the inner side of a ray?",
         ),
     ),
     probes=(

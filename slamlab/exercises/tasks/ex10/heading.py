@@ -64,7 +64,7 @@ HEADING = Task(
             1.5,
             "right is the first heading, going counter-clockwise, that agrees with the sighting",
             _right,
-            "From which corner to which is the bearing least, and what does the sighting make of it?",
+            "From which corner to which is the bearing least, and which heading follows from it?",
         ),
         _law(
             "left",
@@ -78,7 +78,7 @@ HEADING = Task(
             1,
             "where the boxes overlap the heading stays as it is",
             _overlap,
-            "In which directions may the object stand if robot and object may be at the same place?",
+            "In which directions may the object stand if both may be at the same place?",
         ),
     ),
     probes=(

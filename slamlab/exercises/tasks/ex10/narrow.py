@@ -13,10 +13,11 @@ from slamlab.filters.bor.half_planes import absolute_bearing, reversed_edges
 
 SOUND = 1e-6
 """What a pose may be outside [m], [rad]: solvers of linear programs stop at 1e-7."""
-STEPS = {"less": (1, 2.3), "small": (1.5, 1.65), "smallest": (2, 1.35)}
+STEPS = {"less": (1, 1.85), "small": (1.5, 1.6), "smallest": (2, 1.4)}
 """Points, and how many times as wide as the smallest boxes may be on average.
 
-Rounds of the lesson's filter, repeated until nothing shrinks, stay above 2.7.
+Rounds of the lesson's filter, repeated until nothing shrinks, come to 3.0
+(1.9 to 4.1 over 31 seeds).
 """
 NAMES = "x", "y", "the heading"
 
@@ -28,9 +29,14 @@ def widths(out):
 
 
 def one_round(given):
-    """What one round of the lesson's filter leaves: object by object the box is cut, the heading sharpened."""
-    found = [_one_round(*row) for row in zip(*(given[name].tolist() for name in given), strict=True)]
-    return {name: np.array(a) for name, a in zip(("robot", "heading"), zip(*found, strict=True), strict=True)}
+    """What one round of the lesson's filter leaves: box cut, heading sharpened, one by one."""
+    found = [
+        _one_round(*row) for row in zip(*(given[name].tolist() for name in given), strict=True)
+    ]
+    return {
+        name: np.array(a)
+        for name, a in zip(("robot", "heading"), zip(*found, strict=True), strict=True)
+    }
 
 
 def _one_round(robot, heading, objects, sights, bounds):
@@ -69,12 +75,12 @@ def _why(reference, most, name):
             row, which = np.unravel_index(by.argmax(), by.shape)
             x, y, theta = poses.extremes(given)[row, which]
             return (
-                f"The pose ({x:.3f} m, {y:.3f} m, {theta:.3f} rad) agrees with every sighting and with all "
-                f"that was known before, and lies {by.max():.2g} outside."
+                f"The pose ({x:.3f} m, {y:.3f} m, {theta:.3f} rad) agrees with every sighting and "
+                f"with all that was known before, and lies {by.max():.2g} outside."
             )
         each, _ = _ratios(widths(out), reference(given))
         told = ", ".join(f"{w} {ratio:.2f}" for w, ratio in zip(NAMES, each[0], strict=True))
-        return f"This is {told} times as wide as {name}; on average over all robots {most:g} is allowed."
+        return f"This is {told} times as wide as {name}; {most:g} on average is allowed."
 
     return why
 
@@ -90,7 +96,9 @@ def _law(name, points, says, reference, most, asks, of):
 
 def _step(name, asks):
     points, most = STEPS[name]
-    says = f"and on average it is at most {most:g} times as wide as the smallest box there is"
+    says = (
+        f"the same, and on average all is at most {most:g} times as wide as the smallest there is"
+    )
     return _law(name, points, says, poses.tightest, most, asks, "the smallest there is")
 
 
@@ -113,15 +121,20 @@ NARROW = Task(
         _law(
             "sound",
             0.5,
-            "no pose that agrees with all is outside, and no more is left than by one round of look",
+            "no pose that agrees with all is outside, and no more is left than by a round of look",
             _lesson,
             1.0,
             "Which poses does each line give up? Has each of them been shown to be impossible?",
             "what one round of look leaves",
         ),
-        _step("less", "Which of the three, x, y or θ, makes d_abs wide? What if you knew it better?"),
+        _step(
+            "less", "Which of the three, x, y or θ, makes d_abs wide? What if you knew it better?"
+        ),
         _step("small", "Once much has been given up, what may be tried again?"),
-        _step("smallest", "Where does a box grow round what is left, although nobody asked for a box yet?"),
+        _step(
+            "smallest",
+            "Where does a box grow round what is left, although nobody asked for a box yet?",
+        ),
     ),
     needs=("10-edges",),
     probes=(
@@ -130,7 +143,11 @@ NARROW = Task(
         Probe("seven objects", lambda rng: poses.inputs(rng, 2, 7), ("sound",)),
         Probe("a wide heading", _wide, ("sound",)),
         Probe("a heading across π", _across_pi, ("sound",)),
-        Probe("objects inside the robot's box", lambda rng: poses.inputs(rng, 2, far=(0.6, 1)), ("sound",)),
+        Probe(
+            "objects inside the robot's box",
+            lambda rng: poses.inputs(rng, 2, far=(0.6, 1)),
+            ("sound",),
+        ),
     ),
     parts=lambda given, out: {"robot": out["robot"], "heading": turned(out["heading"])},
     rounds=False,

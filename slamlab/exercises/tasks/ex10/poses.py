@@ -1,7 +1,7 @@
-"""Exercise 10, helper: robots that stand among known objects, and the poses that agree with all they saw.
+"""Exercise 10, helper: robots among known objects, and the poses that agree with all they saw.
 
 The truth is in no array, and is not needed: a box is sound if it holds every pose that agrees with
-all that is known. :func:`extremes` looks for those farthest out.
+all that is known. ``extremes`` looks for those farthest out.
 """
 
 import functools
@@ -25,7 +25,9 @@ def inputs(rng, n=ROWS, objects=OBJECTS, far=(1.5, 4), half=(0.6, 1.2)):
 def sightings(rng, pose, objects=OBJECTS, far=(1.5, 4), half=(0.6, 1.2)):
     """What robots at poses (n, 3) know and see."""
     n = len(pose)
-    round_about = np.arange(objects) * 2 * np.pi / max(objects, 1) + rng.uniform(-np.pi, np.pi, (n, 1))
+    round_about = np.arange(objects) * 2 * np.pi / max(objects, 1) + rng.uniform(
+        -np.pi, np.pi, (n, 1)
+    )
     angle, r = round_about + rng.uniform(-0.6, 0.6, (n, objects)), rng.uniform(*far, (n, objects))
     bounds = np.column_stack([rng.uniform(0.1, 0.25, n), rng.uniform(0.02, 0.05, n)])
     errors = rng.uniform(-1, 1, (n, objects, 2))
@@ -38,7 +40,8 @@ def sightings(rng, pose, objects=OBJECTS, far=(1.5, 4), half=(0.6, 1.2)):
     return {
         "robot": boxes_around(middle, size),
         "heading": wrapped(pose[:, 2] - before, 2 * wide),
-        "objects": pose[:, None, :2] + r[..., None] * np.stack([np.cos(angle), np.sin(angle)], axis=-1),
+        "objects": pose[:, None, :2]
+        + r[..., None] * np.stack([np.cos(angle), np.sin(angle)], axis=-1),
         "z": z,
         "bounds": bounds,
     }
@@ -51,7 +54,7 @@ def _known(given):
 
 
 def share(given, poses):
-    """(n, k) the largest share of any bound that poses (n, k, 3) need: up to 1 they agree with all."""
+    """(n, k) the largest share of any bound that poses (n, k, 3) need: up to 1 they agree."""
     middle, half = _known(given)
     needed = (np.abs(poses - middle[:, None]) / half[:, None]).max(axis=-1)
     (d_r, d_beta), (px, py, theta) = given["bounds"].T[..., None], np.moveaxis(poses, -1, 0)
@@ -70,7 +73,9 @@ def extremes(given):
     Tries are made round the best so far, first until one agrees, then farther and farther out. The
     rows of a robot for which none is found are NaN.
     """
-    return _extremes(tuple((name, a.shape, np.asarray(a, float).tobytes()) for name, a in given.items()))
+    return _extremes(
+        tuple((name, a.shape, np.asarray(a, float).tobytes()) for name, a in given.items())
+    )
 
 
 @functools.lru_cache(maxsize=16)
@@ -79,13 +84,15 @@ def _extremes(key):
     rng, (middle, half) = np.random.default_rng(0), _known(given)
 
     start = _agreeing(given, rng, middle[:, None], half[:, None])
-    found = _farthest(given, rng, np.repeat(start, 6, axis=1), np.repeat(half[:, None] / 2, 6, axis=1))
+    found = _farthest(
+        given, rng, np.repeat(start, 6, axis=1), np.repeat(half[:, None] / 2, 6, axis=1)
+    )
     found[(share(given, found) > 1).any(axis=1)] = np.nan
     return found
 
 
 def _agreeing(given, rng, best, scale):
-    """(n, 1, 3) poses that agree with all, by tries round the best so far, wide and narrow in turn."""
+    """(n, 1, 3) poses that agree, by tries round the best so far, wide and narrow in turn."""
     for k in range(SEEK):
         if (share(given, best) <= AGREE).all():
             break
@@ -110,14 +117,20 @@ def _farthest(given, rng, best, scale):
 
 
 def tightest(given):
-    """(n, 3) widths of the smallest box and heading there are, as found: in truth a little wider."""
+    """(n, 3) widths of the smallest box and heading, as found: in truth a little wider."""
     found = extremes(given)
     return np.stack([found[:, k, k] - found[:, k + 3, k] for k in range(3)], axis=-1)
 
 
 def outside_each(given, out):
-    """(n, 6) how far the poses that agree lie outside of boxes and headings, in or below 0 inside."""
+    """(n, 6) how far the poses that agree lie outside of boxes and headings; below 0 inside."""
     x, y, angle = np.moveaxis(extremes(given), -1, 0)
     (x0, x1, y0, y1), (right, left) = out["robot"].T[..., None], out["heading"].T[..., None]
-    by = [x0 - x, x - x1, y0 - y, y - y1, np.abs(off(angle - (right + left) / 2)) - (left - right) / 2]
+    by = [
+        x0 - x,
+        x - x1,
+        y0 - y,
+        y - y1,
+        np.abs(off(angle - (right + left) / 2)) - (left - right) / 2,
+    ]
     return np.nan_to_num(np.max(by, axis=0), nan=-1.0)

@@ -10,7 +10,7 @@ from slamlab.exercises.tasks.ex10.boxes import around, boxes, wrapped
 ROWS = 24
 QUARTER = np.pi / 2
 TOLERANCE = 1e-8
-"""Rounding alone: 1e-15, and what careful people add outwards; a thousand drives tried miss by 1e-7."""
+"""Rounding alone, and what careful people add outwards; a thousand drives tried miss by 1e-7."""
 
 
 def inputs(rng):

@@ -15,7 +15,7 @@ TRIED = 1500
 
 
 def inputs(rng):
-    """Boxes that the outer circle cuts, the inner one, both, neither, and that hold no place at all."""
+    """Boxes that the outer circle cuts, the inner one, both or neither; some too far or near."""
     given = _drawn(rng, TRIED)
     kinds = [*_kinds(given).values()]
     return _rows(given, np.concatenate([np.flatnonzero(kind)[:EACH] for kind in kinds]))
@@ -78,7 +78,7 @@ def _round_the_robot(rng):
 
 
 def _no_hole(rng):
-    """Ranges smaller than their bound, so that no place is too near; every other box is hardly one."""
+    """Ranges smaller than their bound: no place is too near; every other box is hardly one."""
     given = _drawn(rng, 12, of_robot=(0.01, 0.03))
     given["bound"] = rng.uniform(0.3, 0.6, 12)
     given["r"] = np.where(np.arange(12) % 4 < 2, 0.0, given["bound"] * rng.uniform(0.1, 0.3, 12))
@@ -122,7 +122,10 @@ def cut(given, inner=True):
         lows = np.maximum(pieces[:, 0], given["box"][:, k])
         highs = np.minimum(pieces[:, 1], given["box"][:, k + 1])
         some = lows <= highs
-        sides += [np.where(some, lows, np.inf).min(axis=0), np.where(some, highs, -np.inf).max(axis=0)]
+        sides += [
+            np.where(some, lows, np.inf).min(axis=0),
+            np.where(some, highs, -np.inf).max(axis=0),
+        ]
     found = np.column_stack(sides)
     return np.where(np.isfinite(found).all(axis=1, keepdims=True), found, np.nan)
 
