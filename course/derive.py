@@ -1,5 +1,6 @@
 """Derive (generate) notebooks from a source, without outputs: nothing is run or written here."""
 
+import re
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -17,7 +18,9 @@ from course.exercise import (
 from course.lint import lint
 from course.source import ROOT, Cell, CourseError, Source, read
 from slamlab.exercises import catalogue
+from slamlab.exercises.report import points
 
+_TASK_HEADING = re.compile(r"^## .*\S", re.MULTILINE)
 FOLDERS = {"lesson": ("notebooks",), "exercise": ("exercises", "solutions")}
 
 
@@ -62,7 +65,7 @@ def derive(path, root=ROOT):
         raise CourseError(problems)
     if exercise:
         last = Cell("code", VALIDATE, "validate", source.cells[-1].line, {})
-        source = replace(source, cells=[*source.cells, last])
+        source = replace(source, cells=[*_with_points(source.cells, exercise), last])
     return [
         Derived(
             source,
@@ -79,6 +82,21 @@ def _exercise(number):
         return catalogue.exercise(number)
     except KeyError:
         return None
+
+
+def _with_points(cells, exercise):
+    """The cells with what a task is worth in the heading above its check."""
+    found, headed = list(cells), None
+    for k, cell in enumerate(cells):
+        if cell.type == "markdown" and _TASK_HEADING.search(cell.text):
+            headed = k
+        elif cell.check and headed is not None:
+            worth = f" · {points(exercise.task(cell.check).points)}"
+            *_, heading = _TASK_HEADING.finditer(found[headed].text)
+            text = found[headed].text
+            text = text[: heading.end()] + worth + text[heading.end() :]
+            found[headed], headed = replace(found[headed], text=text), None
+    return found
 
 
 def _notebook(source, exercise, stubs):

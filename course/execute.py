@@ -82,6 +82,7 @@ def execute(derived, folder):
         "PYTHONHASHSEED": "0",
         "JUPYTER_PREFER_ENV_PATH": "1",
     }
+    env["NO_COLOR"] = "1"  # what is stored is plain text
     env |= dict.fromkeys(THREAD_VARIABLES, "1")  # measured times are those of one core
     if "SLAMLAB_DATA" in env:  # the kernel stands in another folder
         env["SLAMLAB_DATA"] = str(Path(env["SLAMLAB_DATA"]).resolve())

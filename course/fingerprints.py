@@ -27,7 +27,7 @@ from slamlab.exercises.task import OPEN_SEED
 FOLDER = ROOT / "slamlab" / "data" / "fingerprints"
 OTHER_KERNEL = {"OPENBLAS_CORETYPE": "Nehalem", "NPY_DISABLE_CPU_FEATURES": "AVX2 FMA3 AVX512F"}
 MUTANT_SECONDS = 2.0
-"""Time limit of one mutant, which may never end [s]."""
+"""Time limit of one mutant, which may never end [s of CPU]."""
 
 
 def compiled(exercise_id) -> dict[str, np.ndarray]:
@@ -66,7 +66,7 @@ def digest(exercise_id) -> str:
 def prints_of(one: Programs, source, sets, seconds=60.0):
     """The fingerprints of one program, part by part; None where it cannot be judged in time."""
     try:
-        with time_limit(seconds), np.errstate(all="ignore"):
+        with time_limit(seconds, cpu=True), np.errstate(all="ignore"):
             found = fingerprints.of_answers(one.task, sets, one.answers(source, sets))
     except (StudentError, TimeLimitExceeded, Exception):  # a mutant may do anything
         return None

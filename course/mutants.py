@@ -47,7 +47,7 @@ def survives(one: Programs, source, seeds=SEEDS) -> bool:
     """Whether a program keeps full marks, with the open seed and some others."""
     for seed in [OPEN_SEED, *(b"mutants %d" % k for k in range(1, seeds))]:
         try:
-            with time_limit(MUTANT_SECONDS):
+            with time_limit(MUTANT_SECONDS, cpu=True):
                 if not one.verdict(source, seed).full:
                     return False
         except (TimeLimitExceeded, Exception):
@@ -71,7 +71,7 @@ def difference(one: Programs, source, way, draws) -> str | None:
     for k in range(draws):
         sets = one.task.draw(b"draw %d" % k)
         try:
-            with time_limit(max(MUTANT_SECONDS, one.task.drive.seconds)):
+            with time_limit(max(MUTANT_SECONDS, one.task.drive.seconds), cpu=True):
                 pair = [one.answers(text, sets) for text in (source, way)]
         except (StudentError, TimeLimitExceeded, Exception) as error:
             return f"draw {k}: {type(error).__name__} {error}"

@@ -120,7 +120,7 @@ def _check(task_id, namespace):
 
 def _run(task, namespace, tell):
     from slamlab.checks import time_limit
-    from slamlab.exercises.run import run
+    from slamlab.exercises.run_task import run, run_and_tell
     from slamlab.exercises.task import OPEN_SEED
 
     if not time_limit.can_limit_time():
@@ -128,7 +128,10 @@ def _run(task, namespace, tell):
     with time_limit.capture_output() as printed:
         try:
             with time_limit.time_limit(task.drive.seconds):
-                verdict = run(task, namespace, task.draw(OPEN_SEED), tell)
+                if tell:
+                    verdict = run_and_tell(task, namespace)
+                else:
+                    verdict = run(task, namespace, task.draw(OPEN_SEED))
             if verdict.kind == "missing":
                 verdict = task.failed("missing", f"{verdict.problem} yet: run the cell above")
         except time_limit.TimeLimitExceeded:

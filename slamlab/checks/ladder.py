@@ -26,7 +26,11 @@ def next_rung(task, namespace) -> str:
     try:
         answers = run_sets(task.drive, namespace, sets)
     except StudentError as error:
-        return f"{error.message}: begin with {task.laws[0].asks or task.laws[0].says}"
+        first = task.laws[0]
+        begin = (
+            f"A question to begin with: {first.asks}" if first.asks else f"It asks: {first.says}"
+        )
+        return f"{error.message}\n{begin}"
     case = cases.smallest(
         task, sets, answers, lambda inputs: run_sets(task.drive, namespace, {MAIN: inputs})[MAIN]
     )
@@ -34,9 +38,10 @@ def next_rung(task, namespace) -> str:
         return f"{task.id} breaks no law: there is nothing to hint at"
     rung = _climbed.get((task.id, case.law.name), 0)
     _climbed[task.id, case.law.name] = rung + 1
-    asks = case.law.asks or f"{case.law.says}: at which line does your answer leave this law?"
+    asks = case.law.asks or f"Where does your answer leave this law: {case.law.says}?"
     if rung == 0:
-        return f"A question: {asks}\nCalled again, hint shows a step on the way."
+        more = "\nCalled again, hint shows a step on the way." if case.law.step else ""
+        return f"A question: {asks}{more}"
     return _step(task, case, asks)
 
 

@@ -16,12 +16,13 @@ def can_limit_time():
 
 
 @contextlib.contextmanager
-def time_limit(seconds):
+def time_limit(seconds, cpu=False):
     """Raise :class:`TimeLimitExceeded` in the block after so many seconds, where that can be done.
 
     Parameters
     ----------
     seconds : float [s]
+    cpu : bool, of CPU time, which does not depend on what else the machine does
     """
     if not can_limit_time():
         yield
@@ -30,14 +31,16 @@ def time_limit(seconds):
     def strike(_signal, _frame):
         raise TimeLimitExceeded
 
-    before = signal.signal(signal.SIGALRM, strike)
+    names = ("ITIMER_PROF", "SIGPROF") if cpu else ("ITIMER_REAL", "SIGALRM")
+    timer, number = (getattr(signal, name) for name in names)
+    before = signal.signal(number, strike)
     # it strikes again, in case a bare except swallowed the first
-    signal.setitimer(signal.ITIMER_REAL, seconds, 0.5)
+    signal.setitimer(timer, seconds, 0.5)
     try:
         yield
     finally:
-        signal.setitimer(signal.ITIMER_REAL, 0)
-        signal.signal(signal.SIGALRM, before)
+        signal.setitimer(timer, 0)
+        signal.signal(number, before)
 
 
 class CapturedOutput(io.TextIOBase):

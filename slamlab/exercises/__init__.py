@@ -3,7 +3,7 @@
 Read in this order:
 
 - ``law``: Law, Diagnosis; ``task``: Task, Probe, their judging; ``outputs``: what may be judged
-- ``run``: a task run and told; ``verdict``: what was found; ``report``: how it is said
+- ``run_task``: a task run and told; ``verdict``: what was found; ``report``: how it is said
 - ``cases``: the smallest input on which a law fails; ``case_text``: how it is shown
 - ``fingerprints``: mistakes recognised by what they compute; ``families``: those without a name
 - ``exercise``: Exercise, the tasks of one notebook; ``catalogue``: all exercises by number

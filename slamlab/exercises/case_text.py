@@ -1,5 +1,6 @@
 """Put a failing case into words: what was called, what came back, what the law wants."""
 
+import re
 import textwrap
 
 import numpy as np
@@ -29,28 +30,45 @@ def format_case(task, case: Case) -> str | None:
         return None
     function = task.drive.functions[0]
     begin = f"For instance, with {case.probe}:" if case.probe else "For instance:"
-    told = _named(case.inputs, case.one)
-    lines = [begin, f"{function} is given" if case.one else "given are", told]
     if isinstance(case.outputs, StudentError):
-        return _joined([*lines, f"and fails: {case.outputs.message}"])
+        why = re.split(r", at `| \(line", case.outputs.message)[0]  # the rest was told before
+        fails = textwrap.fill(f"and fails: {why}", WIDTH, subsequent_indent="      ")
+        return _joined([begin, f"{function} is given", _named(case.inputs, True), fails])
     if case.law.name == "unchanged":
         names = list(case.inputs)
         which = [int(k) for k in case.outputs[CHANGED]]
         changed = " and ".join(names[k] if k < len(names) else f"argument {k}" for k in which)
         return _joined([f"{function} changes {changed}: work on a copy, such as {changed}.copy()"])
-    want = case.law.want(case.inputs) if case.law.want else None
-    shown = {n: a for n, a in case.outputs.items() if n != CHANGED and (not want or n in want)}
-    lines += ["it returns", _named(shown, case.one)]
+    got = {name: array for name, array in case.outputs.items() if name != CHANGED}
+    want = case.law.want(case.inputs) if case.law.want else {}
+    lines = _reason(case.law, case.inputs, got)
+    if not case.one:  # a whole set: too much to read
+        taken = f"Taken together, with {case.probe}:" if case.probe else "Taken together:"
+        return _joined([taken, *lines]) if lines else None
+    got = {name: got[name] for name in want or got}
+    told = [f"{function} is given", _named(case.inputs, True), "it returns", _named(got, True)]
     if want:
-        lines += ["and should return", _named(want, case.one)]
-    elif case.law.why:
-        lines += [case.law.why(case.inputs, case.outputs)]
-    return _joined(lines)
+        told += ["and should return", _named(want, True), *_worst(got, want)]
+    return _joined([begin, *told, *lines])
+
+
+def _worst(got, want):
+    """Where the first large array that differs differs most."""
+    for name, right in want.items():
+        off = np.abs(got[name] - right)[0]
+        if off.size > MOST and off.max() > 0:
+            at = np.unravel_index(np.argmax(off), off.shape)
+            index = ", ".join(map(str, at))
+            pair = got[name][0][at], right[0][at]
+            yield "most of all {}[{}]: {:.4g} instead of {:.4g}".format(name, index, *pair)
+            return
 
 
 def format_numbers(name, array) -> str:
     """Format a name and its numbers, short and rounded: "P = [[0.1, 0], [0, 0.2]]"."""
     array = np.asarray(array)
+    if array.dtype.kind == "f":  # neither -0 nor rounding's dust
+        array = np.where(np.abs(array) > 1e-12 * np.abs(array).max(initial=0), array, 0.0)
     text = np.array2string(
         array,
         precision=4,
@@ -64,6 +82,13 @@ def format_numbers(name, array) -> str:
     label = "" if name == "result" else f"{name} = "
     size = f"   {array.shape}" if array.size > MOST else ""
     return f"{label}{text}{size}".replace("\n", "\n" + " " * len(label))
+
+
+def _reason(law, inputs, outputs):
+    try:
+        return [law.why(inputs, outputs)] if law.why else []
+    except Exception:  # what came back may be such that no sentence can be made of it
+        return []
 
 
 def _named(arrays, one):

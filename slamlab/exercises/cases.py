@@ -105,7 +105,7 @@ def _shrunk(task, case, run):
     """A case with fewer or rounder numbers on which the law fails as well."""
     if isinstance(case.outputs, StudentError):  # which of the rows it was is not known
         tried = ((row, _tried(task, run, row)) for row in _rows(case.inputs)[:MOST_RUNS])
-        failing = (pair for pair in tried if isinstance(pair[1], StudentError))
+        failing = (pair for pair in tried if _same_failure(pair[1], case.outputs))
         row, outputs = next(failing, (None, None))
         return case if row is None else Case(case.law, case.probe, row, outputs, True)
     if not task.rounds or not case.one:
@@ -121,6 +121,13 @@ def _shrunk(task, case, run):
                 case = Case(case.law, case.probe, inputs, outputs, True)
                 break
     return case
+
+
+def _same_failure(found, error):
+    """Whether one row fails as all rows did, and not just because it is one."""
+    if not isinstance(found, StudentError) or found.kind != error.kind:
+        return False
+    return found.kind == "raised" or found.message == error.message
 
 
 def _tried(task, run, inputs):

@@ -41,6 +41,8 @@ def format_verdict(task: Task, verdict: Verdict) -> str:
     if verdict.problem:
         lines.append(f"  {verdict.problem}")
     lines += [f"  {format_law(law)}" for law in verdict.laws]
+    problems = dict.fromkeys(p for law in verdict.laws for p in law.where.values() if p)
+    lines += [f"  {problem}" for problem in problems]
     # JupyterLab breaks longer lines in the middle of a word
     lines = [textwrap.fill(line, WIDTH, subsequent_indent="    ") for line in lines]
     if verdict.case:
@@ -59,7 +61,7 @@ def format_law(law) -> str:
 
 
 def coloured(text, wanted=None) -> str:
-    """Colour the marks ✓ and ✗ of a text where they are shown in colours, by ANSI's codes.
+    """Colour the marks ✓ and ✗ of a text by ANSI's codes, where these are shown in colours.
 
     Parameters
     ----------
@@ -67,7 +69,7 @@ def coloured(text, wanted=None) -> str:
     wanted : bool or None; None: in a notebook and on a terminal, but where NO_COLOR is set
     """
     if wanted is None:
-        wanted = "NO_COLOR" not in os.environ and (_in_notebook() or sys.stdout.isatty())
+        wanted = not os.environ.get("NO_COLOR") and (_in_notebook() or sys.stdout.isatty())
     for mark, colour in _COLOURS.items() if wanted else ():
         text = text.replace(mark, f"{colour}{mark}{_PLAIN}")
     return text
@@ -75,19 +77,11 @@ def coloured(text, wanted=None) -> str:
 
 def _broken(law):
     """Which inputs broke a law, in words."""
-    probes = [name for name in law.where if name != MAIN]
-    parts = []
-    if MAIN in law.where and law.tried - len(probes) > 1:
-        parts.append(f"broken by {law.failed} of {law.tried} inputs")
-    if probes and MAIN in law.where:
-        parts.append(f"such as {probes[0]}")
-    elif probes:
-        also = f" and {len(probes) - 1} more" if len(probes) > 1 else ""
-        parts.append(f"broken with {probes[0]}{also}")
-    why = next((problem for problem in law.where.values() if problem), None)
-    if why:
-        parts.append(why)
-    return f": {', '.join(parts)}" if parts else ""
+    if MAIN in law.where:
+        return f": broken by {law.failed} of {law.tried} inputs" if law.tried > 1 else ""
+    probes = list(law.where)
+    also = f" and {len(probes) - 1} more" if len(probes) > 1 else ""
+    return f": broken with {probes[0]}{also}" if probes else ""
 
 
 def _in_notebook():

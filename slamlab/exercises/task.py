@@ -151,7 +151,7 @@ class Task:
             matching = (d for d in self.diagnoses if _safely(d.matches, sets[MAIN], found[MAIN]))
             wrong = any(result.failed for result in results)
             mistake = next(matching, IDLE if idle else None) if wrong else None
-        if not any(result.points for result in results[:-1]):
+        if not any(result.points for result in results[:-1]) and not results[-1].failed:
             results = results[:-1]  # to leave the arguments alone is worth nothing by itself
         earned = sum(result.points for result in results)
         named = (mistake.name, mistake.hint) if mistake else (None, None)
@@ -173,7 +173,7 @@ class Task:
     def broken(self, law, inputs, outputs, idle=False):
         """(n,) bool, which inputs of a set broke a law; one entry where it is judged as a whole."""
         if isinstance(outputs, StudentError):
-            return np.array([law is not UNCHANGED])
+            return np.array([law is not UNCHANGED])  # a call that fails has changed nothing by that
         if idle and law is not UNCHANGED:
             return np.array([True])
         holds = _safely(law.holds, inputs, outputs)

@@ -13,7 +13,7 @@ from pathlib import Path
 
 from slamlab import __version__
 from slamlab.exercises.drives import StudentError
-from slamlab.exercises.run import recognised
+from slamlab.exercises.run_task import recognised
 from slamlab.grading import similarity, submissions
 from slamlab.grading.gradebook_rows import attempt_key
 from slamlab.grading.records import Record

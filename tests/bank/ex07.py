@@ -302,7 +302,7 @@ IN_UPDATES = [
         both="update(P_first, H_1)",
     ),
     _updates("noise twice", WHEN_FULL, S="H @ P @ H.T + 2 * R", P="P - K @ H @ P"),
-    _updates("the prior", WHEN_FULL, P="P"),
+    _updates("the prior", UPDATES_ALL, "idle", P="P"),
     _updates("one only", UPDATES_ALL, result="P_both", **SHAPE),
     _updates("blocks", UPDATES_ALL, result="P_first[:3, :3], P_both[:3, :3]", **SHAPE),
     _updates("NaN", UPDATES_ALL, result="P_first, P_both * np.nan", **SHAPE),

@@ -16,7 +16,7 @@ import numpy as np
 import tests.bank
 from slamlab.exercises import catalogue
 from slamlab.exercises.exercise import Exercise
-from slamlab.exercises.run import run
+from slamlab.exercises.run_task import run
 from tests.bank import Right, Wrong
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -71,6 +71,21 @@ w.pack = lambda head, arrays=None: packed(head | {'points': 99, 'full': True}, a
 import slamlab.grading.worker as w
 w._drive = lambda *a: ({'full': True, 'points': 99}, {})
 """,
+    "the sets of inputs": """
+import slamlab.exercises.drives.input_sets as i
+names = [f'{k}/{name}' for k in (0, 1, '', '0/0') for name in ('result', 'sums', '', '0/x')]
+i.joined = lambda sets: {name: np.full(20, 3.0) for name in names}
+""",
+    "the probes that failed": """
+import slamlab.grading.worker as w
+drive = w._drive
+w._drive = lambda *a: ({'failed': {'': None, 'full': ['full', 99], 'x': {}}}, drive(*a)[1])
+""",
+    "the arguments": """
+import slamlab.exercises.drives as d
+d.Watched = lambda function: function
+double.changed = turn.changed = total.changed = ()
+""",
     "frames of the caller": """
 import sys
 frame = sys._getframe()
@@ -105,7 +120,8 @@ for fd in range(3, 40):
 import os, struct, json
 def double(a):
     for turn in range(2, 30):
-        head = json.dumps({'head': {'turn': turn}, 'arrays': [['result', 'f8', [20]]]}).encode()
+        arrays = [['0/result', 'f8', [20]]]
+        head = json.dumps({'head': {'turn': turn}, 'arrays': arrays}).encode()
         frame = struct.pack('<II', len(head), 160) + head + np.full(20, 3.0).tobytes()
         for fd in range(3, 40):
             try: os.write(fd, frame)
@@ -161,7 +177,7 @@ import json, os, struct, threading, time
 def shout():
     for _ in range(200):
         for turn in range(2, 12):
-            head = {'head': {'turn': turn, 'full': True}, 'arrays': [['result', 'f8', [20]]]}
+            head = {'head': {'turn': turn, 'full': True}, 'arrays': [['0/result', 'f8', [20]]]}
             head = json.dumps(head).encode()
             frame = struct.pack('<II', len(head), 160) + head + np.full(20, 3.0).tobytes()
             for fd in range(3, 10):

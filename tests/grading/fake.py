@@ -9,7 +9,8 @@ from tests.grading.fake_drives import DRIVES
 
 
 def _numbers(rng):
-    return {"a": rng.uniform(1, 2, 20)}
+    # a column, of which each call gets the number: twice a column would be an argument scaled
+    return {"a": rng.uniform(1, 2, (20, 1))}
 
 
 def _vectors(rng):
@@ -40,14 +41,14 @@ EXERCISE = Exercise(
                     "twice",
                     2,
                     "is twice as large",
-                    lambda i, o: np.isclose(o["result"], 2 * i["a"]),
+                    lambda i, o: np.isclose(o["result"], 2 * i["a"][:, 0]),
                 ),
             ),
             diagnoses=(
                 Diagnosis(
                     "square",
                     "you squared: <b>2a</b> is not a²",
-                    lambda i, o: np.allclose(o["result"], i["a"] ** 2),
+                    lambda i, o: np.allclose(o["result"], i["a"][:, 0] ** 2),
                 ),
             ),
         ),

@@ -108,7 +108,7 @@ def test_nothing_is_leaked(graded):
 
 def test_spies_and_vandals_are_graded_like_anybody(graded):
     assert {name: r.score for name, r in of(graded, "spies").items() if r.score != 0} == {}
-    lost = {name: r.score for name, r in of(graded, "harms").items() if r.score != 6.5}
+    lost = {name: r.score for name, r in of(graded, "harms").items() if r.score != 8}
     # whose process is gone in the middle of a cell has lost no more than that cell
     assert lost == {}
 
@@ -133,7 +133,7 @@ def test_no_process_and_no_file_is_left(graded):
 def test_the_honest_get_full_marks_whatever_their_files_are_called(graded):
     for name in ("honest", *ODD_NAMES):
         (score,) = {r.score for n, r in graded["records"].items() if same(n, name)}
-        assert score == 6.5, name
+        assert score == 8, name
 
 
 def same(name, wanted):
@@ -145,7 +145,7 @@ def test_the_damaged_are_graded_or_listed_with_their_reason(graded):
     assert len(damaged) == len(attacks.DAMAGED)
     for name, record in damaged.items():
         assert record.graded or record.reason, name
-    full = {name.removeprefix("damaged ") for name, r in damaged.items() if r.score == 6.5}
+    full = {name.removeprefix("damaged ") for name, r in damaged.items() if r.score == 8}
     assert full == attacks.GRADED
 
 

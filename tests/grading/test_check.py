@@ -26,14 +26,14 @@ def double(body):
 
 def test_a_right_function_earns_its_points_and_the_laws_are_said():
     said, values = checked("")
-    assert "✓ 99-double · Double a number: 3 of 3 points" in said
+    assert "✓ 99-double · Double a number: 3.5 of 3.5 points" in said
     assert "✓ is twice as large (2 points)" in said
     assert values == [None]
 
 
 def test_a_wrong_one_is_told_which_law_broke_how_often_and_the_hint_for_its_mistake():
     said, _ = checked(double("return a * a"))
-    assert "1 of 3 points" in said
+    assert "1.5 of 3.5 points" in said
     assert "✗ is twice as large: broken by 20 of 20 inputs (0 of 2 points)" in said
     assert "Hint: you squared" in said
 
@@ -48,7 +48,7 @@ def test_a_wrong_one_is_told_which_law_broke_how_often_and_the_hint_for_its_mist
         (double("raise KeyboardInterrupt"), "stopped before it was done"),
         (double("raise type('Odd', (BaseException,), {})"), "Odd: no message"),
         (double("raise type('Odd', (Exception,), {'__str__': None})"), "Odd: no message"),
-        (double("pass"), "double returned nothing: is there a return at its end?"),
+        (double("pass"), "double returned None: does every way"),
         (double("return str(a)"), "double returned str, which is no array of real numbers"),
         (double("return 2j * a"), "double returned complex numbers"),
         (double("return [[1], [1, 2]]"), "double returned list, which is no array"),
@@ -62,7 +62,7 @@ def test_a_wrong_one_is_told_which_law_broke_how_often_and_the_hint_for_its_mist
 )  # fmt: skip
 def test_what_cannot_be_judged_is_explained_in_a_line(code, said):
     printed, _ = checked(code)
-    assert "0 of 3 points" in printed
+    assert "0 of 3.5 points" in printed
     assert said in printed
     assert "Traceback" not in printed
 
@@ -76,20 +76,26 @@ def test_a_loop_without_end_is_stopped_even_where_it_swallows_exceptions():
         assert "still running after 3 s" in printed
 
 
+def test_what_was_judged_in_time_keeps_its_points_however_long_it_takes_to_explain():
+    printed, _ = checked(double("import time; time.sleep(0.14); return a * a"))
+    assert "1.5 of 3.5 points" in printed
+    assert "Hint: you squared" in printed
+
+
 def test_where_no_time_limit_can_be_set_it_says_so():
     said = []
     thread = threading.Thread(target=lambda: said.append(checked("")[0]))
     thread.start()
     thread.join()
     assert said[0].startswith("no time limit can be set here")
-    assert "3 of 3 points" in said[0]
+    assert "3.5 of 3.5 points" in said[0]
 
 
 def test_a_task_that_needs_another_waits_for_it():
     printed, _ = checked(double("return a"), "99-total")
     assert "needs 99-double, which must be solved first" in printed
-    assert "0 of 1.5 points" in printed
-    assert "1.5 of 1.5 points" in checked("", "99-total")[0]
+    assert "0 of 2 points" in printed
+    assert "2 of 2 points" in checked("", "99-total")[0]
 
 
 @pytest.mark.parametrize("id", ["99-nope", "98-double", "", 7, None, "../99"])
@@ -110,14 +116,14 @@ def test_under_nbgrader_the_points_are_the_value_of_the_cell(monkeypatch):
     monkeypatch.setenv("NBGRADER_EXECUTION", "autograde")
     wrong = double("return a * a")
     _, values = checked(wrong, "99-double", "99-total", "99-turn", "99-nope")
-    assert values == [1.0, 0.0, 2.0, 0.0]
+    assert values == [1.5, 0.0, 2.5, 0.0]
     assert all(type(value) is float for value in values)
 
 
 def test_nothing_reaches_standard_error_which_nbgrader_takes_for_a_failure(monkeypatch, capsys):
     monkeypatch.setenv("NBGRADER_EXECUTION", "autograde")
     _, values = checked("import sys" + double("print('careful', file=sys.stderr); return 2 * a"))
-    assert values == [3.0]
+    assert values == [3.5]
     assert capsys.readouterr().err == ""
 
 

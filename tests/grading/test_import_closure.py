@@ -1,17 +1,29 @@
 """A worker holds what its exercise allows, and neither its answers nor the judge."""
 
+import pkgutil
+
 import pytest
 
+from slamlab import exercises
 from slamlab.exercises import catalogue
 from slamlab.grading import staging
 from slamlab.grading.import_closure import closure
 
 JUDGE = (
+    "slamlab.exercises.case_text",
+    "slamlab.exercises.cases",
+    "slamlab.exercises.catalogue",
     "slamlab.exercises.exercise",
+    "slamlab.exercises.families",
+    "slamlab.exercises.fingerprints",
+    "slamlab.exercises.law",
+    "slamlab.exercises.outputs",
+    "slamlab.exercises.report",
+    "slamlab.exercises.run_task",
     "slamlab.exercises.task",
     "slamlab.exercises.tasks",
     "slamlab.exercises.verdict",
-    "slamlab.exercises.catalogue",
+    "slamlab.checks.ladder",
     "slamlab.grading.judge",
     "slamlab.grading.worker_client",
     "slamlab.grading.records",
@@ -69,6 +81,17 @@ def test_a_worker_holds_no_answer_and_nothing_of_the_judge(id):
     held = staging.worker_modules(exercise)
     assert [name for name in held if within(name, (*exercise.answers, *JUDGE))] == []
     assert {"slamlab.checks", exercise.drives, *exercise.allows} <= set(held)
+    assert {name.partition(".")[0] for name in held} == {"slamlab"}
+    assert {file.suffix for file in held.values()} == {".py"}
+
+
+def test_the_judges_modules_of_the_exercises_are_all_held_back():
+    """Whatever is added beside the tasks is the judge's, but for the drives."""
+    rooms = {
+        f"slamlab.exercises.{found.name}" for found in pkgutil.iter_modules(exercises.__path__)
+    }
+    assert rooms - {"slamlab.exercises.drives"} <= set(JUDGE)
+    assert closure(JUDGE)
 
 
 @pytest.mark.parametrize("id", EXERCISES)

@@ -19,7 +19,7 @@ def turn(v, angle):
 def total(a):
     return a.sum()
 """
-FULL = [3, 2, 1.5]
+FULL = [3.5, 2.5, 2]
 
 
 def judged(*cells, exercise=fake.EXERCISE, by=None):
@@ -43,14 +43,14 @@ def test_the_solution_earns_everything_and_an_empty_notebook_nothing():
 
 def test_a_missing_function_loses_its_task_and_those_that_need_it_and_is_named():
     result = judged(fake.SOLUTION, "del double")["verdicts"]
-    assert [verdict.points for verdict in result] == [0, 2, 0]
+    assert [verdict.points for verdict in result] == [0, 2.5, 0]
     assert result[0].problem == "double is not defined"
     assert result[2].problem == "needs 99-double, which must be solved first"
 
 
 def test_the_mistake_is_recognised():
     result = judged(changed("double", "return args[0] ** 2"))["verdicts"]
-    assert (result[0].points, result[0].diagnosis) == (1, "square")
+    assert (result[0].points, result[0].diagnosis) == (1.5, "square")
 
 
 def test_the_same_seed_gives_the_same_verdicts_and_secrets_differ():
@@ -86,7 +86,7 @@ def test_the_same_seed_gives_the_same_verdicts_and_secrets_differ():
 )  # fmt: skip
 def test_what_one_function_does_loses_that_task_only(body, kind, said):
     result = judged(changed("turn", body))["verdicts"]
-    assert [verdict.points for verdict in result] == [3, 0, 1.5]
+    assert [verdict.points for verdict in result] == [3.5, 0, 2]
     assert kind in (None, result[1].kind)
     assert said in result[1].problem
     assert len(result[1].problem) <= 500
@@ -227,8 +227,8 @@ def test_a_function_under_a_timing_magic_counts():
 )  # fmt: skip
 def test_wrong_functions_earn_no_more_whatever_else_a_submission_does(attack, monkeypatch):
     monkeypatch.setattr(worker_client, "CELL_TIMEOUT", 3.0)
-    # "double" keeps the sign, which is worth a point
-    assert sum(scores(fake.SOLUTION + WRONG + attack)) <= 1
+    # "double" keeps the sign, which is worth a point, and its argument, which is worth a half
+    assert sum(scores(fake.SOLUTION + WRONG + attack)) <= 1.5
 
 
 @pytest.mark.parametrize(

@@ -111,7 +111,7 @@ def test_moodle_and_canvas_get_the_columns_they_take_in(tmp_path):
     canvas = read(tmp_path / "canvas.csv")
     assert canvas[0][:2] == ["Student", "ID"]
     assert canvas[0][5:] == [fake.EXERCISE.title]
-    assert canvas[1] == ["Points Possible", "", "", "", "", "6.5"]
+    assert canvas[1] == ["Points Possible", "", "", "", "", "8"]
     assert ["Ana Kos", "123", "", "", "", "4"] in canvas
 
 
@@ -184,17 +184,17 @@ def test_points_are_set_by_hand_from_the_command_line_and_outlive_grading_again(
 ):
     words = ["grade", "adjust", "anna.ipynb", "99-turn", "1", "--reason", "as agreed"]
     assert main([*words, "--out", str(results)]) == 0
-    assert score(results) == "5.5"
+    assert score(results) == "6.5"
     again = ["grade", str(tmp_path / "class"), "--out", str(results), "--regrade"]
     assert main([*again, "--isolation", workers().level]) == 0
-    assert score(results) == "5.5"
+    assert score(results) == "6.5"
 
 
 @pytest.mark.parametrize(
     ("words", "said"),
     [
         (["adjust", "ben.ipynb", "99-turn", "1", "--reason", "x"], "no submission 'ben.ipynb'"),
-        (["adjust", "anna.ipynb", "99-turn", "3", "--reason", "x"], "has 0 to 2 points, not 3"),
+        (["adjust", "anna.ipynb", "99-turn", "3", "--reason", "x"], "has 0 to 2.5 points, not 3"),
         (["adjust", "anna.ipynb", "99-none", "1", "--reason", "x"], "no task '99-none'"),
         (["adjust", "anna.ipynb", "04-h-robot", "1", "--reason", "x"], "is of exercise 99"),
         (["merge", "nowhere"], "there is no gradebook nowhere"),
@@ -212,7 +212,7 @@ def test_gradebooks_of_shards_are_merged_without_doubling(results, tmp_path, cap
         assert main(["grade", "merge", str(results), str(results), "--out", str(merged)]) == 0
     with Gradebook(f"sqlite:///{merged / 'grades.db'}") as book:
         assert len(book.attempts()) == len(book.overrides()) == 1
-    assert score(merged) == "5.5"
+    assert score(merged) == "6.5"
 
 
 def test_nbgraders_gradebook_is_filled(results, tmp_path, capsys):
@@ -227,7 +227,7 @@ def test_nbgraders_gradebook_is_filled(results, tmp_path, capsys):
     assert main(words) == main(words) == 0
     with Theirs(url) as theirs:
         submission = theirs.find_submission(fake.EXERCISE.notebook, "anna")
-        assert (submission.score, submission.max_score) == (6.5, 6.5)
+        assert (submission.score, submission.max_score) == (8, 8)
         assert not submission.needs_manual_grade
         assert theirs.find_submission(fake.EXERCISE.notebook, "ben").score == 1.5
 

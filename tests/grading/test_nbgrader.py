@@ -73,7 +73,7 @@ def test_nbgrader_scores_each_task_as_the_judge_does(course, student):
         theirs = {grade.name: grade.score for grade in grades}
         assert not submission.needs_manual_grade
     assert theirs == ours
-    assert sum(ours.values()) == {"solved": 16, "untouched": 0, "forgot": 13}[student]
+    assert sum(ours.values()) == {"solved": 18.5, "untouched": 0, "forgot": 15}[student]
 
 
 def test_released_from_the_solution_the_functions_keep_their_heads(tmp_path):

@@ -10,7 +10,7 @@ from course import mutants
 from course.programs import programs
 from slamlab.exercises import catalogue, fingerprints
 from slamlab.exercises.drives import StudentError
-from slamlab.exercises.run import recognised
+from slamlab.exercises.run_task import recognised
 from slamlab.exercises.task import OPEN_SEED
 
 SEEDS = int(os.environ.get("SLAMLAB_BANK_SEEDS", "5"))  # make soak: many more

@@ -29,8 +29,8 @@ def said(capsys, **names):
 def test_the_file_is_judged_and_not_what_the_kernel_holds(file, capsys):
     text = said(capsys, double=None)
     assert text.startswith("99 fake.ipynb as saved at ")
-    assert "✓ 99-turn · Turn a vector: 2 of 2 points" in text
-    assert text.endswith("6.5 of 6.5 points\n")
+    assert "✓ 99-turn · Turn a vector: 2.5 of 2.5 points" in text
+    assert text.endswith("8 of 8 points\n")
 
 
 def test_a_cell_that_runs_only_in_a_stale_order_is_told(file, capsys):
@@ -41,9 +41,9 @@ def test_a_cell_that_runs_only_in_a_stale_order_is_told(file, capsys):
 def test_the_file_may_be_named_from_elsewhere_or_by_another_program(file, monkeypatch, capsys):
     monkeypatch.chdir(file.parent)
     monkeypatch.setenv("JPY_SESSION_NAME", f"some/folder/{file.name}")
-    assert "6.5 of 6.5 points" in said(capsys)
+    assert "8 of 8 points" in said(capsys)
     monkeypatch.delenv("JPY_SESSION_NAME")
-    assert "6.5 of 6.5 points" in said(capsys, __vsc_ipynb_file__=str(file))
+    assert "8 of 8 points" in said(capsys, __vsc_ipynb_file__=str(file))
 
 
 @pytest.mark.parametrize("name", [None, "", "renamed.ipynb", "/nowhere/at all.ipynb", "console-1"])

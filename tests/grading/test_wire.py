@@ -100,7 +100,7 @@ def test_a_stream_that_ends_before_a_frame_is_told_from_one_that_ends_within():
         frame({"head": {}, "arrays": [["x" * 65, "f8", [1]]]}, b"12345678"),
         frame({"head": {}, "arrays": [[1, "f8", [1]]]}, b"12345678"),
         frame({"head": {}, "arrays": [["x", "b1", [1]]] * 2}, b"12"),
-        frame({"head": {}, "arrays": [[str(n), "b1", [0]] for n in range(65)]}),
+        frame({"head": {}, "arrays": [[str(n), "b1", [0]] for n in range(513)]}),
         struct.pack("<II", wire_protocol.MAX_HEADER + 1, 0),
         struct.pack("<II", 2, wire_protocol.MAX_PAYLOAD + 1),
         struct.pack("<II", 2**32 - 1, 2**32 - 1),

@@ -7,9 +7,10 @@ import nbformat
 import pytest
 
 from course import build as tool
+from course import derive, source
 from course.exercise import STUB, SolutionError, solution_regions, strip_solutions
 from course.source import CourseError
-from slamlab.exercises import catalogue
+from slamlab.exercises import catalogue, report
 
 HEAD = """\
 # %% [markdown] slideshow={"slide_type": "slide"}
@@ -126,6 +127,38 @@ def test_a_check_cannot_be_edited_away_and_a_solution_cannot_be_deleted(exercise
         if mark:
             assert cell.metadata.deletable is False
             assert cell.metadata.get("editable", True) is not mark.grade
+
+
+@pytest.mark.parametrize("id", catalogue.EXERCISES)
+def test_the_heading_of_a_task_says_what_it_is_worth_and_its_source_does_not(id):
+    task_of = {task.id: task for task in catalogue.exercise(id).tasks}
+    (path,) = (tool.ROOT / "course" / "exercises").glob(f"{id}_*.py")
+    assert not re.search(r"^# ## .* · [\d.]+ points?$", path.read_text("utf-8"), re.MULTILINE)
+    for notebook in (derived.notebook for derived in tool.derive(path)):
+        headings, said = [], {}
+        for cell in notebook.cells:
+            if cell.cell_type == "markdown":
+                headings += re.findall(r"^## .*", cell.source, re.MULTILINE)
+            elif cell.id in task_of:
+                said[cell.id] = headings[-1]
+        for task, heading in said.items():
+            assert heading.endswith(f" · {report.points(task_of[task].points)}")
+        assert said.keys() == task_of.keys()
+        assert sum(bool(re.search(r" · [\d.]+ points?$", heading)) for heading in headings) == len(said)
+
+
+def test_of_several_headings_in_a_cell_the_last_bears_the_points_and_ids_stay():
+    task = catalogue.exercise("04").tasks[0]
+    text = "## Before\ntext\n## 1 · Task \nmore\n### Below"
+    cells = [
+        source.Cell("markdown", text, "a", 1, {}),
+        source.Cell("code", f'check("{task.id}")', "b", 9, {}),
+        source.Cell("markdown", "## After", "c", 12, {}),
+    ]
+    first, *others = derive._with_points(cells, catalogue.exercise("04"))
+    worth = report.points(task.points)
+    assert first.text == text.replace("Task ", f"Task · {worth} ")
+    assert (first.id, others) == ("a", cells[1:])
 
 
 def test_an_exercise_breaks_the_standards_without_its_checks(root):

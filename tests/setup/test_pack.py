@@ -1,13 +1,24 @@
-"""What students get holds the course and none of its solutions."""
+"""What students get, and what a worker holds, is the course and none of its solutions."""
 
+import io
 import json
 import subprocess
 import sys
 import zipfile
+from functools import cache
+from pathlib import Path
 
+import numpy as np
 import pytest
+from flit_core import wheel
 
 from course import pack
+from course.programs import programs
+from slamlab.exercises import catalogue
+from slamlab.grading import staging
+from tests.notebooks.test_derived import telling, tokens
+
+OURS = {"solutions", "course", "tests", "benchmarks"}
 
 
 @pytest.fixture(scope="module")
@@ -17,35 +28,112 @@ def packed(tmp_path_factory):
     return target
 
 
+@pytest.fixture(scope="module", params=["pack", "wheel", "worker"])
+def shipped(request, tmp_path_factory):
+    """Name to content of every file that goes out: the students' zip, the wheel, the workers'."""
+    folder = tmp_path_factory.mktemp(request.param)
+    if request.param == "worker":
+        for id in catalogue.EXERCISES:
+            (folder / id).mkdir()
+            staging.copy_modules(folder / id, catalogue.exercise(id))
+        files = [path for path in folder.rglob("*") if path.is_file()]
+        return {path.relative_to(folder): path.read_bytes() for path in files}
+    if request.param == "wheel":
+        target = wheel.make_wheel_in(pack.ROOT / "pyproject.toml", folder).file
+    else:
+        target = request.getfixturevalue("packed")
+    with zipfile.ZipFile(target) as opened:
+        return {Path(name): opened.read(name) for name in opened.namelist()}
+
+
+@cache
+def all_programs():
+    """Every right way and every slip of every task, as source."""
+    return {
+        source.strip()
+        for id in catalogue.EXERCISES
+        for one in programs(id)
+        for source in [*one.ways.values(), *(one.source(p) for s in one.slips for p in s.programs)]
+    }
+
+
+@cache
+def solutions():
+    """The code cells of the solved notebooks that are not handed out, as they are and unmarked."""
+    found = set()
+    for path in (pack.ROOT / "solutions").glob("*.ipynb"):
+        handed_out = cells((pack.ROOT / "exercises" / path.name).read_bytes())
+        for source in cells(path.read_bytes()):
+            if source not in handed_out:
+                lines = [line for line in source.splitlines() if "### " not in line]
+                found |= {source, "\n".join(lines)}
+    return found
+
+
+def cells(notebook):
+    """The sources of the cells of a notebook's file."""
+    return ["".join(cell["source"]) for cell in json.loads(notebook)["cells"]]
+
+
 def test_the_same_project_gives_the_same_file(packed, tmp_path):
     pack.pack(tmp_path / "again.zip")
     assert (tmp_path / "again.zip").read_bytes() == packed.read_bytes()
 
 
-def test_it_holds_every_lesson_and_exercise_and_no_solution(packed):
+def test_it_holds_every_lesson_and_exercise(packed):
     names = zipfile.ZipFile(packed).namelist()
     for folder in ("notebooks", "exercises"):
         ours = {f"{pack.TOP}/{folder}/{p.name}" for p in (pack.ROOT / folder).glob("*.ipynb")}
         assert ours
         assert ours <= set(names)
-    parts = {part for name in names for part in name.split("/")[1:2]}
-    assert parts.isdisjoint({"solutions", "course", "tests", "benchmarks"})
 
 
-def test_no_file_of_it_holds_the_text_of_a_solution(packed):
-    solutions = []
-    for path in (pack.ROOT / "solutions").glob("*.ipynb"):
-        handed_out = (pack.ROOT / "exercises" / path.name).read_text("utf-8")
-        for cell in json.loads(path.read_text("utf-8"))["cells"]:
-            source = "".join(cell["source"])
-            if cell["cell_type"] == "code" and json.dumps(source)[1:-1] not in handed_out:
-                solutions.append(source)
-    with zipfile.ZipFile(packed) as opened:
-        texts = [opened.read(n) for n in opened.namelist() if n.endswith((".py", ".ipynb"))]
-    assert solutions
-    for source in solutions:
-        assert not any(json.dumps(source)[1:-1].encode() in text for text in texts)
-    assert not any(b"BEGIN SOLUTION" in text for text in texts)
+def test_no_folder_of_ours_goes_out(shipped):
+    assert len(shipped) > 20
+    assert {part for path in shipped for part in path.parts[:2]}.isdisjoint(OURS)
+    ours = {path.name for path in (pack.ROOT / "course").glob("*.py")} - {"__init__.py"}
+    stray = [path for path in shipped if path.name in ours and "exercises" not in path.parts]
+    assert stray == []
+
+
+def test_nothing_that_goes_out_imports_the_course_or_needs_it(shipped):
+    texts = {path: data for path, data in shipped.items() if path.suffix in (".py", ".ipynb")}
+    for word in (b"import course", b"from course"):
+        assert [path for path, text in texts.items() if word in text] == []
+
+
+def test_no_file_that_goes_out_holds_the_text_of_a_solution(shipped):
+    assert len(solutions()) > 2 * len(catalogue.EXERCISES)
+    for path, data in shipped.items():
+        text = data.decode("utf-8", "replace")
+        text = "\n".join(cells(data)) if path.suffix == ".ipynb" else text
+        assert b"BEGIN SOLUTION" not in data, path
+        assert [source for source in solutions() | all_programs() if source in text] == [], path
+
+
+def test_a_solution_that_went_out_would_be_found():
+    (path,) = (pack.ROOT / "solutions").glob("06_*.ipynb")
+    out = "\n".join(cells(path.read_bytes()))
+    assert sum(source in out for source in solutions()) >= 4
+
+
+def test_fingerprints_that_go_out_hold_numbers_and_hints_and_no_line_of_a_program(shipped):
+    lines = {line for source in all_programs() for line in source.splitlines() if telling(line)}
+    told = {"".join(tokens(line)) for line in lines}
+    for path, data in shipped.items():
+        if path.suffix != ".npz":
+            continue
+        with np.load(io.BytesIO(data), allow_pickle=False) as stored:
+            arrays = dict(stored)
+        for key, array in arrays.items():
+            assert array.dtype.kind in "fiU", (path, key)
+            is_text = key == "digest" or key.rpartition("/")[2] in ("names", "hints", "parts")
+            assert is_text == (array.dtype.kind == "U"), (path, key)
+            for text in array.ravel().tolist() if is_text else ():
+                said = "".join(tokens(text))
+                assert "BEGIN" not in text
+                assert "def " not in text
+                assert [line for line in told if line in said] == [], (path, text)
 
 
 def test_its_package_runs_where_it_is_unpacked(packed, tmp_path):

@@ -105,6 +105,11 @@ SLIPS = (
         (S, "S = R"),
     ),
     Slip(
+        "R-twice",
+        "S holds R twice: the sight is made once, and errs once.",
+        (S, "S = H @ P @ H.T + 2 * R"),
+    ),
+    Slip(
         "R-by-its-diagonal",
         "Only the variances of R were used. What range and bearing share in their errors stands beside "
         "the diagonal.",

@@ -1,0 +1,85 @@
+"""Run a task: a student's functions on its inputs, judged, and what is wrong told."""
+
+from dataclasses import replace
+
+from slamlab.exercises import case_text, cases, fingerprints
+from slamlab.exercises.drives import StudentError
+from slamlab.exercises.drives.input_sets import MAIN, run_sets
+from slamlab.exercises.task import IDLE, OPEN_SEED, Task
+from slamlab.exercises.verdict import Verdict
+
+
+def run(task: Task, namespace, sets) -> Verdict:
+    """Call a task's functions and judge their outputs in one process, as the grader's worker does.
+
+    Parameters
+    ----------
+    task : Task
+    namespace : the student's names
+    sets : what ``task.draw`` made
+
+    Returns
+    -------
+    Verdict
+    """
+    try:
+        return task.judge(sets, run_sets(task.drive, namespace, sets))
+    except StudentError as error:
+        return task.failed(error.kind, error.message)
+
+
+def run_and_tell(task: Task, namespace) -> Verdict:
+    """As :func:`run` on the open inputs, with the mistake and the smallest failing case told.
+
+    Parameters
+    ----------
+    task : Task
+    namespace : the student's names
+
+    Returns
+    -------
+    Verdict
+    """
+    sets = task.draw(OPEN_SEED)
+
+    def run_main(inputs):
+        return run_sets(task.drive, namespace, {MAIN: inputs})[MAIN]
+
+    try:
+        answers = run_sets(task.drive, namespace, sets)
+        verdict = task.judge(sets, answers)
+    except StudentError as error:
+        verdict, answers = task.failed(error.kind, error.message), {MAIN: error}
+    if verdict.full or verdict.kind not in (None, "raised", "malformed"):
+        return verdict
+    verdict = recognised(task, verdict, lambda *_: answers)
+    tried = {name: sets[name] for name in answers}
+    try:
+        case = cases.smallest(task, tried, answers, run_main)
+    except KeyboardInterrupt:  # the time limit, perhaps: what was judged stays judged
+        return verdict
+    return replace(verdict, case=case_text.format_case(task, case)) if case else verdict
+
+
+def recognised(task: Task, verdict: Verdict, run) -> Verdict:
+    """A verdict with the mistake that its fingerprint tells.
+
+    Parameters
+    ----------
+    task : Task
+    verdict : Verdict, not full
+    run : (task, sets) -> answers, asked for the open inputs; raises StudentError
+
+    Returns
+    -------
+    Verdict
+    """
+    unknown = task.id not in fingerprints.tables(task.id[:2])
+    if unknown or verdict.problem or verdict.diagnosis == IDLE.name:
+        return verdict
+    sets = task.draw(OPEN_SEED)
+    try:
+        mistake = fingerprints.recognise(task, sets, run(task, sets))
+    except StudentError:
+        return verdict
+    return replace(verdict, diagnosis=mistake.name, hint=mistake.hint) if mistake else verdict

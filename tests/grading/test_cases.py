@@ -1,0 +1,247 @@
+"""The case shown fails the law, is the smallest there is, and is seen by the student only."""
+
+import dataclasses
+import json
+import re
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from slamlab.exercises import case_text, cases
+from slamlab.exercises.drives.input_sets import MAIN, run_sets
+from slamlab.exercises.law import Law, equals
+from slamlab.exercises.run_task import run_and_tell
+from slamlab.exercises.task import OPEN_SEED, UNCHANGED, Probe
+from slamlab.grading import feedback, gradebook_rows, judge
+from slamlab.grading.marks import mark
+from slamlab.grading.submissions import Submission
+from tests.grading import fake
+from tests.grading.conftest import notebook, workers
+
+
+def want(inputs):
+    (x, y), angle = inputs["v"].T, inputs["angle"]
+    c, s = np.cos(angle), np.sin(angle)
+    return {"result": np.stack([c * x - s * y, s * x + c * y], axis=1)}
+
+
+def two_vectors(rng):
+    return {"v": rng.uniform(1, 2, (2, 2)), "angle": np.zeros(2)}
+
+
+TURN = dataclasses.replace(
+    fake.EXERCISE.task("99-turn"),
+    laws=(equals("turned", 2, "turns left", want),),
+    probes=(Probe("no angle", two_vectors),),
+)
+SETS = TURN.draw(OPEN_SEED)
+
+
+def turn(v, angle):
+    return want({"v": v[None], "angle": np.array([angle])})["result"][0]
+
+
+def answered(function, task=TURN):
+    """What a function answers, and how it is run again."""
+
+    def run(inputs):
+        return run_sets(task.drive, {"turn": function}, {MAIN: inputs})[MAIN]
+
+    return run_sets(task.drive, {"turn": function}, task.draw(OPEN_SEED)), run
+
+
+def told(function, task=TURN):
+    return run_and_tell(task, {"turn": function}).case
+
+
+WRONG = {
+    "right": lambda v, angle: turn(v, -angle),
+    "degrees": lambda v, angle: turn(v, np.degrees(angle)),
+    "too long": lambda v, angle: turn(v, angle) * 1.01,
+    "mirrored": lambda v, angle: turn(v, angle)[::-1],
+}
+
+
+@given(
+    st.sampled_from(sorted(WRONG)),
+    st.floats(0, 2),
+    st.sampled_from(["angle", "x", "y"]),
+    st.booleans(),
+)
+@settings(max_examples=60, deadline=None)
+def test_the_case_fails_the_law_and_is_no_larger_than_any_that_was_tried(which, bound, of, below):
+    def somewhere_wrong(v, angle):
+        value = {"angle": angle, "x": v[0], "y": v[1]}[of]
+        return (WRONG[which] if (value < bound) == below else turn)(v, angle)
+
+    answers, run = answered(somewhere_wrong)
+    tried = cases.smallest(TURN, SETS, answers)
+    shown = cases.smallest(TURN, SETS, answers, run)
+    failing = [
+        {name: array[k : k + 1] for name, array in inputs.items()}
+        for set_, inputs in SETS.items()
+        for k in np.flatnonzero(TURN.broken(TURN.laws[0], inputs, answers[set_]))
+    ]
+    if not failing:
+        assert tried is shown is None
+        return
+    sizes = [cases._size(inputs) for inputs in failing]
+    assert cases._size(shown.inputs) <= cases._size(tried.inputs) == min(sizes)
+    v, angle = shown.inputs["v"][0], shown.inputs["angle"][0]
+    np.testing.assert_array_equal(shown.outputs["result"], [somewhere_wrong(v, angle)])
+    assert not np.allclose(shown.outputs["result"], [turn(v, angle)])
+    for name, array in tried.inputs.items():  # rounder, but the same place
+        assert np.abs(shown.inputs[name] - array).max() <= 0.5 * np.abs(array).max()
+
+
+def test_a_mistake_made_everywhere_is_shown_at_round_numbers():
+    answers, run = answered(WRONG["right"])
+    case = cases.smallest(TURN, SETS, answers, run)
+    assert set(np.concatenate([*case.inputs["v"], case.inputs["angle"]])) <= {0.4, 1, 2}
+    assert cases._size(case.inputs) < cases._size(cases.smallest(TURN, SETS, answers).inputs)
+
+
+def test_it_says_what_was_given_returned_and_wanted():
+    case = told(lambda v, angle: 2 * v)
+    lines = [line.strip() for line in case.splitlines()]
+    assert lines[0] == "For instance, with no angle:"
+    assert lines[1] == "turn is given"
+    v = np.array(json.loads(lines[2].removeprefix("v = ")))
+    assert lines[3] == "angle = 0"
+    assert lines[4] == "it returns"
+    np.testing.assert_allclose(json.loads(lines[5]), 2 * v)
+    assert lines[6] == "and should return"
+    np.testing.assert_allclose(json.loads(lines[7]), v)
+
+
+def test_where_no_law_knows_the_answer_it_says_why_this_one_cannot_be():
+    law = Law(
+        "turned",
+        2,
+        "turns left",
+        lambda i, o: np.isclose(np.hypot(*o["result"].T), np.hypot(*i["v"].T)),
+        why=lambda i, o: f"A turn keeps lengths, and {np.hypot(*o['result'][0]):.3g} is another.",
+    )
+    task = dataclasses.replace(TURN, laws=(law,))
+    case = told(WRONG["too long"], task)
+    assert re.search(r"A turn keeps lengths, and \d\.\d+ is another\.", case)
+    assert "should return" not in case
+
+
+def test_a_reason_that_cannot_be_given_for_odd_numbers_is_left_out():
+    law = Law("turned", 2, "turns left", lambda i, o: o["result"][:, 0] > 9, why=lambda i, o: 1 / 0)
+    assert "it returns" in told(turn, dataclasses.replace(TURN, laws=(law,)))
+
+
+def test_of_an_exception_the_row_is_shown_that_met_it():
+    def fails(v, angle):
+        if 0.5 < angle < 0.8:
+            raise ValueError("such an angle")
+        return turn(v, angle)
+
+    verdict = run_and_tell(TURN, {"turn": fails})
+    angle = float(re.search(r"angle = (\S+)", verdict.case)[1])
+    assert 0.5 < angle < 0.8
+    assert "and fails: ValueError: such an angle" in verdict.case
+    assert verdict.kind == "raised"
+
+
+def test_of_an_exception_on_a_probe_the_probe_is_shown():
+    def fails(v, angle):
+        return turn(v, angle) / (1 if angle else [][0])
+
+    case = told(fails)
+    assert case.startswith("    For instance, with no angle:")
+    assert "angle = 0" in case
+    assert "and fails: IndexError" in case
+
+
+def test_a_row_that_fails_only_because_it_is_one_is_not_taken_for_the_cause():
+    total = fake.EXERCISE.task("99-total")  # its answer has 20 entries, whatever it is given
+
+    def fails(a):
+        return 1 // int(a[0] < 1.9)
+
+    verdict = run_and_tell(total, {"total": fails, "double": abs})
+    assert verdict.kind == "raised"
+    assert json.loads(re.search(r"a = (\[.*?\])", verdict.case)[1])[0] >= 1.9
+    verdict = run_and_tell(total, {"total": lambda a: np.inf if a[0] > 1.9 else 1, "double": abs})
+    assert (verdict.kind, verdict.case) == ("malformed", None)
+
+
+def test_what_is_changed_in_place_is_named():
+    def changes(v, angle):
+        v *= 1.0 + angle
+        return turn(v / (1 + angle), angle)
+
+    case = told(changes)
+    assert case == "    turn changes v: work on a copy, such as v.copy()"
+
+
+def test_laws_that_hold_have_no_case_and_the_first_that_fails_is_shown():
+    answers, run = answered(turn)
+    assert cases.smallest(TURN, SETS, answers, run) is None
+    assert told(turn) is None
+    task = dataclasses.replace(TURN, laws=(*TURN.laws, Law("never", 1, "", lambda i, o: False)))
+    assert cases.smallest(task, SETS, answers).law.name == "never"
+    answers, _ = answered(WRONG["right"], task)
+    assert cases.smallest(task, SETS, answers).law.name == "turned"
+    assert task.all_laws[-1] is UNCHANGED
+
+
+def test_numbers_that_must_not_be_rounded_are_not():
+    task = dataclasses.replace(TURN, rounds=False)
+    answers, run = answered(WRONG["right"], task)
+    case = cases.smallest(task, SETS, answers, run)
+    assert any(np.array_equal(case.inputs["v"][0], row) for row in SETS[MAIN]["v"])
+
+
+def test_a_covariance_stays_one_when_it_is_rounded():
+    rng = np.random.default_rng(3)
+    for _ in range(100):
+        root = rng.normal(size=(3, 3))
+        P = root @ root.T * rng.uniform(1e-4, 10)
+        for digits in cases.DIGITS:
+            rounded = cases._rounded(P[None], digits)
+            assert rounded is None or np.linalg.eigvalsh(rounded[0]).min() > 0
+
+
+@pytest.mark.parametrize(
+    "array",
+    [np.zeros((0, 2)), np.arange(3), np.array([True]), np.zeros(3), np.eye(70), np.array(1e-300)],
+)
+def test_any_array_can_be_told(array):
+    text = case_text.format_numbers("x", array)
+    assert text.startswith("x = ")
+    assert all(len(line) <= case_text.WIDTH + 10 for line in text.splitlines())
+
+
+NUMBER = re.compile(r"\d\.\d{2,}")
+LEAKY = {
+    "wrong": "return 2 * v",
+    "raised": "raise ValueError(f'{v} {angle}')",
+    "raised on a probe": "return np.array([1, 2]) * [v[0]][int(angle == 0)]",
+    "changed": "v *= 2; return v",
+    "malformed": "return [*v, angle]",
+}
+
+
+@pytest.mark.parametrize("body", LEAKY.values(), ids=LEAKY)
+def test_under_the_grader_nothing_of_a_case_or_a_value_is_said(body, tmp_path, monkeypatch):
+    exercise = dataclasses.replace(fake.EXERCISE, tasks=(TURN,))
+    monkeypatch.setattr(fake, "EXERCISE", exercise)
+    file = tmp_path / "anna.ipynb"
+    file.write_text(notebook("import numpy as np", f"def turn(v, angle):\n    {body}"))
+    record = judge.grade_submission(Submission(file.name, "anna", file), b"s" * 16, workers())
+    (verdict,) = record.verdicts
+    assert verdict.points == 0
+    assert verdict.case is None
+    row = gradebook_rows.attempt_row(record)["record"]
+    said = json.dumps(row["verdicts"]) + json.dumps(row["cells"])
+    page = feedback.feedback_page(mark(record)).partition("</style>")[2]
+    for text in (said, page, record.note):
+        assert "instance" not in text
+        assert "should return" not in text
+        assert NUMBER.findall(text) == []

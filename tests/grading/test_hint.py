@@ -1,0 +1,129 @@
+"""Hints lead on by one rung a call: a question, then a step; and they end at any function."""
+
+import dataclasses
+import re
+
+import numpy as np
+import pytest
+
+from slamlab.checks import hint, ladder
+from slamlab.exercises.law import equals
+from tests.grading import fake
+from tests.grading.test_cases import TURN, turn, want
+from tests.grading.test_judge import judged
+
+SINE = re.compile(r"sine = (\S+)")
+
+
+@pytest.fixture(autouse=True)
+def _a_task_with_a_question_and_a_step(monkeypatch):
+    law = equals(
+        "turned",
+        2,
+        "turns left",
+        want,
+        asks="Where does the point (1, 0) go?",
+        step=lambda i: {"sine": np.sin(i["angle"]), "corner": np.eye(2)[None]},
+    )
+    other = equals("again", 1, "turns left", want)
+    task = dataclasses.replace(
+        TURN, laws=(law, other), drive=dataclasses.replace(TURN.drive, seconds=0.2)
+    )
+    monkeypatch.setattr(fake, "EXERCISE", dataclasses.replace(fake.EXERCISE, tasks=(task,)))
+    monkeypatch.setattr(ladder, "_climbed", {})
+
+
+@pytest.fixture
+def said(capsys):
+    """What a hint prints with some function defined."""
+
+    def said(function=None, id="99-turn"):
+        names = {"hint": hint} | ({"turn": function} if function else {})
+        assert eval(f"hint({id!r})", names) is None
+        return capsys.readouterr().out
+
+    return said
+
+
+def right_turn(v, angle):
+    return turn(v, -angle)
+
+
+def test_a_question_comes_first_and_then_a_step_at_the_case_that_is_shown(said):
+    first, second, third = (said(right_turn) for _ in range(3))
+    assert first.startswith("A question: Where does the point (1, 0) go?\n")
+    assert "hint shows a step" in first
+    assert "and should return" not in first
+    assert "On the way a right solution finds" in second
+    angle = float(re.search(r"angle = (\S+)", second)[1])
+    assert float(SINE.search(second)[1]) == pytest.approx(np.sin(angle), abs=1e-4)
+    assert "corner = [[1, 0],\n" in second
+    assert third == second
+
+
+def test_each_law_has_a_ladder_of_its_own(said, monkeypatch):
+    said(right_turn)
+    task = fake.EXERCISE.tasks[0]
+    exercise = dataclasses.replace(
+        fake.EXERCISE, tasks=(dataclasses.replace(task, laws=task.laws[1:]),)
+    )
+    monkeypatch.setattr(fake, "EXERCISE", exercise)
+    first, second = said(right_turn), said(right_turn)
+    assert first == "A question: Where does your answer leave this law: turns left?\n"
+    assert "it returns" in second
+    assert "On the way" not in second
+
+
+def test_of_a_right_answer_there_is_nothing_to_hint_at(said):
+    assert said(turn) == "99-turn breaks no law: there is nothing to hint at\n"
+
+
+@pytest.mark.parametrize(
+    ("function", "begins"),
+    [
+        (None, "turn is not defined"),
+        (lambda v, angle: (_ for _ in ()).throw(NotImplementedError), "not attempted yet"),
+        (lambda v, angle: 1 / 0, "ZeroDivisionError: division by zero"),
+    ],
+)
+def test_what_cannot_be_judged_yet_is_led_to_its_first_question(said, function, begins):
+    text = said(function)
+    assert text.startswith(begins)
+    assert text.endswith("A question to begin with: Where does the point (1, 0) go?\n")
+
+
+@pytest.mark.parametrize("id", ["99-nope", "98-double", "", 7, None])
+def test_a_task_there_is_not_gets_one_clear_line(said, id):
+    assert re.fullmatch(r"✗ no .*\n", said(id=id))
+
+
+def test_under_nbgrader_and_in_a_worker_nothing_is_given_away(said, monkeypatch):
+    cells = fake.SOLUTION, "from slamlab.checks import hint\nhint('99-turn')"
+    assert judged(*cells, exercise=fake.EXERCISE)["cells"] == {}
+    monkeypatch.setenv("NBGRADER_EXECUTION", "autograde")
+    assert said(right_turn) == ""
+
+
+def test_a_function_that_hangs_ends(said):
+    def hangs(v, angle):
+        while True:
+            pass
+
+    assert said(hangs).startswith("still running after 0.6 s")
+
+
+def test_what_a_function_prints_does_not_hide_the_hint(said):
+    def talks(v, angle):
+        print("here")
+        return right_turn(v, angle)
+
+    assert said(talks).startswith("A question")
+
+
+def test_an_argument_that_was_changed_is_asked_for(said):
+    def changes(v, angle):
+        v += 1.0
+        return turn(v - 1, angle)
+
+    assert "Which line writes into an array" in said(changes)
+    assert "turn changes v: work on a copy" in said(changes)
