@@ -279,7 +279,7 @@ check("10-ring")
 def _():
     rng, robot, box = np.random.default_rng(4), [-0.3, 0.3, -0.2, 0.2], [-2.6, 2.8, 0.6, 1.6]
     kept = ring(np.array(robot), np.array(box), 2.0, 0.1)
-    stands, place = (rng.uniform(b[::2], b[1::2], (3000, 2)) for b in (robot, box))
+    stands, place = (rng.uniform(b[::2], b[1::2], (20_000, 2)) for b in (robot, box))
     agree = place[np.abs(np.hypot(*(place - stands).T) - 2.0) <= 0.1]
     fig, ax = views.boxes.scene("Your ring", (-3.2, 3.4, -1.2, 3.4))
     views.draw(ax, Points("samples", agree), color=views.COLOURS["scan"])
@@ -429,12 +429,12 @@ def _():
     z += rng.uniform(-1, 1, (3, 2)) * bounds
     robot, heading = np.array([-0.4, 0.5, -0.7, 0.3]), np.array([-0.3, 0.9])
     yours = narrow(robot.copy(), heading.copy(), objects.copy(), z.copy(), bounds.copy())
-    poses = rng.uniform(*np.reshape([*robot, *heading], (3, 2)).T, (100_000, 3))
+    poses = rng.uniform(*np.reshape([*robot, *heading], (3, 2)).T, (300_000, 3))
     for (x, y), seen in zip(objects, z, strict=True):
         dx, dy = x - poses[:, 0], y - poses[:, 1]
         off = np.hypot(dx, dy) - seen[0], wrap(np.arctan2(dy, dx) - poses[:, 2] - seen[1])
         poses = poses[(np.abs(off) <= bounds[:, None]).all(axis=0)]
-    fig, ax = views.boxes.scene("Yours, and one round", (-0.7, 1.1, -0.9, 0.6))
+    fig, ax = views.boxes.scene("Yours, and one round", (-0.7, 1.6, -0.9, 0.6))
     views.draw(ax, Points("agree with all", poses[:, :2]), color=views.COLOURS["scan"])
     for name, box, colour in (("before", robot, "guide"), ("yours", yours[0], "corrected")):
         views.draw(ax, Boxes(name, [box]), color=views.COLOURS[colour], linewidth=2.5)

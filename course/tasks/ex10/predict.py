@@ -256,3 +256,7 @@ STUMBLES = (
         "not attempted", "def predict(box, heading, way, direction):\n    raise NotImplementedError"
     ),
 )
+
+EQUIVALENT = {
+    "1e-09": "a billionth of a metre is rounding, whichever way",
+}
