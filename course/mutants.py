@@ -14,7 +14,7 @@ import numpy as np
 
 from course.fingerprints import MUTANT_SECONDS
 from course.mutation import Mutant, mutants
-from course.programs import Programs, programs
+from course.programs import SOLUTION, Programs, programs
 from slamlab.checks.time_limit import TimeLimitExceeded, time_limit
 from slamlab.exercises import catalogue
 from slamlab.exercises.drives import StudentError
@@ -84,13 +84,13 @@ def difference(one: Programs, source, way, draws) -> str | None:
 
 
 def survivors(one: Programs, draws, sample=None, rng=None):
-    """The mutants of all right ways of a task that keep full marks.
+    """The mutants of all right ways of a task, or a sample of its solution's, that keep full marks.
 
     Parameters
     ----------
     one : Programs
     draws : int, on which survivors are compared with their way
-    sample : int or None, so many mutants of each way only
+    sample : int or None, so many mutants of the solution only
     rng : numpy.random.Generator or None, which ones
 
     Returns
@@ -99,7 +99,7 @@ def survivors(one: Programs, draws, sample=None, rng=None):
     """
     found, tried = [], 0
     reasons = getattr(one.module, "EQUIVALENT", {})
-    for way, source in one.ways.items():
+    for way, source in one.ways.items() if sample is None else [(SOLUTION, one.ways[SOLUTION])]:
         made = mutants(source)
         if sample is not None and len(made) > sample:
             made = [made[k] for k in sorted(rng.choice(len(made), sample, replace=False))]

@@ -113,13 +113,18 @@ views.explore(
 # ## How an exercise works
 #
 # At the end of each lesson you find its exercise. You fill in functions; below each stands a cell
-# such as `check("01-next-pose")`. It tries your function on random inputs and judges it by
-# **laws**: a robot must move as far as its step is long, a derivative must be what finite
-# differences say. So any right solution passes, however it is written. Where a classic mistake is
-# recognised, you are told which one: degrees for radians, a turn the wrong way, a transposed
-# matrix.
+# such as `check("01-next-pose")`. It tries your function on random inputs, and on inputs at the edge
+# of what the text promises, and judges it by **laws**: a robot must move as far as its step is long,
+# a derivative must be what finite differences say. So any right solution passes, however it is
+# written.
 #
-# Check as often as you like. Your points are those of a fresh run on other random inputs; nothing
+# Where a law is broken you see the smallest input that breaks it, with what your function returned
+# and what the law wants. Where a classic mistake is recognised, you are told which one: degrees for
+# radians, a turn the wrong way, a transposed matrix. `hint("01-next-pose")` in a cell of your own asks
+# a question that leads on; called again, it shows a step on the way. One law holds everywhere: a
+# function leaves the arrays it is given as they are.
+#
+# Check, and ask for hints, as often as you like; nobody counts. Your points are those of a fresh run on other random inputs; nothing
 # else is hidden. `slamlab check NOTEBOOK` in a terminal does the same for a whole notebook.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
@@ -269,8 +274,8 @@ for theta in (25, 115):
 #
 # - **A function:** Shift+Tab behind its name, or `help(name)`. Every one says its equation, the shape and
 #   the unit of each argument.
-# - **A check that fails:** read its first ✗ line; it says which law broke and on how many inputs, and
-#   the hint below it names the mistake where it is a known one.
+# - **A check that fails:** read its first ✗ line, which says what law broke, then the case below it:
+#   try your function on that input by hand. `hint("…")` with the task's name leads on.
 # - **A cell that fails:** the last line of the message says what went wrong; *Kernel → Restart Kernel
 #   and Run All Cells* mends what came from cells run out of order.
 # - **Everything else:** the `README.md` of the project, and who gave you the course.

@@ -13,8 +13,8 @@ from slamlab.exercises.drives import StudentError
 from slamlab.exercises.run_task import recognised
 from slamlab.exercises.task import OPEN_SEED
 
-SEEDS = int(os.environ.get("SLAMLAB_BANK_SEEDS", "5"))  # make soak: many more
-SAMPLE = 8  # mutants of each way, in make test
+SEEDS = int(os.environ.get("SLAMLAB_BANK_SEEDS", "2"))  # make soak: many more
+SAMPLE = 12  # mutants of each solution, in make test
 PROGRAMS = {one.task.id: one for id in catalogue.EXERCISES for one in programs(id)}
 WAYS = [(id, name) for id, one in PROGRAMS.items() for name in one.ways]
 SLIPS = [
