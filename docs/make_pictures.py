@@ -77,7 +77,7 @@ def check():
     NotebookClient(notebook, kernel_name="python3").execute()
     del notebook.cells[0]
     page, _ = HTMLExporter(mathjax_url="", require_js_url="").from_notebook_node(notebook)
-    return photograph(page, (1000, 330))
+    return photograph(page, (1000, 465))
 
 
 def photograph(page, size):

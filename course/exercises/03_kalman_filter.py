@@ -1,19 +1,21 @@
 # %% [markdown]
 # # Exercise 03 · The Kalman filter
 #
-# **You will be able to** write a Kalman filter from its parts, and say of each part what it
-# promises.
+# **You will be able to** derive the best gain, write the filter that it makes, find F, Q and H of a
+# system that nobody has modelled for you, and repair a filter whose measurements are not what was
+# promised.
 #
-# **45 minutes. Before:** lesson [03 · The Kalman filter](../notebooks/03_kalman_filter.ipynb).
+# **60 minutes. Before:** lesson [03 · The Kalman filter](../notebooks/03_kalman_filter.ipynb).
 #
 # Replace each `raise NotImplementedError(...)` by your code, run the cell, then run the check below
-# it, as often as you like. A check draws random beliefs and matrices, tells you which law is
-# broken, and what the mistake is where it knows it. It never looks at your formulas: it moves
-# samples, and solves least squares problems.
+# it, as often as you like. A check draws random inputs, tells you which law is broken, and what the
+# mistake is where it knows it. It never looks at your formulas: it moves samples and solves least
+# squares problems. When you are stuck, `hint("03-gain")` asks a question that leads on.
 #
-# A belief is a state `x` (n,) and the covariance `P` (n, n) of its error. All sizes are general:
-# three states and two measured numbers in the checks, the cart's two states and one range in the
-# pictures.
+# A belief is a state `x` (n,) and the covariance `P` (n, n) of its error. In tasks 1 to 3 all sizes
+# are general: there may be one state or many, and one measured number or more of them than there are
+# states. P, Q and R are symmetric and positive definite. A function may not change its arguments:
+# whoever called it still needs them.
 
 # %%
 import numpy as np
@@ -23,8 +25,26 @@ from slamlab.checks import attempt, check
 from slamlab.layers import Ellipses
 
 # %% [markdown]
-# The cart of the pictures: position [m] and speed [m/s], steps of half a second, no motor. It
-# slips, and a range finder with σ = 0.3 m sees its position.
+# Two pieces of the filter are ready, for they follow from the lesson's recipe in two lines each.
+# The **prediction**: a step moves the truth to $F x + q$, and q has the covariance Q. The
+# **innovation**: a measurement is $z = H x + r$ of the true x, and r has the covariance R; v is what
+# is new in z, and S is the covariance of v.
+
+
+# %% name="ready"
+def predict(x, P, F, Q):
+    """The belief after a step: x (n,), P (n, n)."""
+    return F @ x, F @ P @ F.T + Q
+
+
+def innovation(x, P, z, H, R):
+    """What is new in a measurement, v (m,), and its covariance, S (m, m)."""
+    return z - H @ x, H @ P @ H.T + R
+
+
+# %% [markdown]
+# In the pictures a cart rolls along a corridor. Its state is position [m] and speed [m/s], a step
+# takes half a second, and a range finder with σ = 0.3 m sees its position.
 
 # %% name="cart"
 CART = {
@@ -36,102 +56,17 @@ CART = {
 START = {"x": np.array([2.0, 0.5]), "P": np.diag([0.4, 0.3]) ** 2}
 
 # %% [markdown]
-# ## 1 · Prediction
+# ## 1 · The gain
 #
-# A step moves the truth to F x + q; q has mean zero and the covariance Q, and knows nothing of the
-# errors so far. What does the belief become?
-#
-# **Predict first.** Position and speed of the start are unrelated. After one step, are they still?
-#
-# **Your task.** The belief after the step.
-
-
-# %% name="predict"
-def predict(x, P, F, Q):
-    """The belief after a step.
-
-    x : (n,) state;  P : (n, n) covariance of its error
-    F : (n, n) how the state moves;  Q : (n, n) covariance of the slip;  returns x (n,), P (n, n)
-    """
-    ### BEGIN SOLUTION
-    return F @ x, F @ P @ F.T + Q
-    ### END SOLUTION
-
-
-# %%
-check("03-predict")
-
-# %% [markdown]
-# Your P as an ellipse, over 500 carts that rolled for two seconds. 95 of 100 should be inside.
-
-
-# %% name="rolling-carts"
-@attempt
-def _():
-    rng = np.random.default_rng(3)
-    x, P = START["x"], START["P"]
-    carts = rng.multivariate_normal(x, P, 500)
-    for _ in range(4):
-        carts = carts @ CART["F"].T + rng.multivariate_normal([0, 0], CART["Q"], 500)
-        x, P = predict(x, P, CART["F"], CART["Q"])
-    fig, ax = views.cloud(carts, {"your P, 95 %": P}, "after two seconds")
-    ax.plot(*x, "x", color=views.COLOURS["truth"], markersize=10, label="your x")
-    ax.set(xlabel="position [m]", ylabel="speed [m/s]")
-    ax.legend()
-    views.show(fig, alt="500 carts after two seconds and the ellipse of your P.")
-
-
-# %% [markdown]
-# ## 2 · The innovation
-#
-# A measurement is z = H x + r of the true x; the noise r has the covariance R. The innovation v is
-# what is *new* in z. S is its covariance: how large innovations are, if the belief is right.
-#
-# **Predict first.** The cart's position is known to 0.4 m, the range finder errs by 0.3 m. Which σ
-# has the innovation: 0.3, 0.4, 0.5 or 0.7 m?
-#
-# **Your task.** v and S.
-
-
-# %% name="innovation"
-def innovation(x, P, z, H, R):
-    """What is new in a measurement, and the covariance of that.
-
-    x : (n,), P : (n, n) belief;  z : (m,) measurement;  H : (m, n) what is measured of the state
-    R : (m, m) covariance of the measurement's noise;  returns v (m,), S (m, m)
-    """
-    ### BEGIN SOLUTION
-    return z - H @ x, H @ P @ H.T + R
-    ### END SOLUTION
-
-
-# %%
-check("03-innovation")
-
-# %% [markdown]
-# How surprised should the cart be? The innovation in units of its σ; above 3, something is wrong
-# with the belief, or with the measurement.
-
-
-# %% name="surprise"
-@attempt
-def _():
-    for measured in (2.1, 2.6, 5.0):
-        v, S = innovation(START["x"], START["P"], np.array([measured]), CART["H"], CART["R"])
-        print(f"measured {measured} m: v = {v[0]:+.2f} m, that is {v[0] / np.sqrt(S[0, 0]):+.1f} σ")
-
-
-# %% [markdown]
-# ## 3 · The gain
-#
-# Correct the estimate by K v. A small K ignores what was measured, a large one copies its noise.
-# The best K leaves the least mean square error, summed over all states.
+# The estimate is corrected by $K v$. A small K ignores what was measured, a large one copies its
+# noise. The best K leaves the least mean square error, summed over all states; since every other gain
+# adds a square to it, that one is best for each of the states, too.
 #
 # **Predict first.** The belief says that who is farther is also faster. The range comes out longer
-# than expected. Should the *speed* be corrected? What if P is diagonal?
+# than expected. Should the *speed* be corrected? And what if P is diagonal?
 #
-# **Your task.** The best K. The check changes each entry of your K a little, both ways, and looks
-# whether samples come out better.
+# **Your task.** The best K, (n, m). H may be any matrix; a sensor may even see nothing of the state,
+# and then H is zero.
 
 
 # %% name="gain"
@@ -172,12 +107,13 @@ def _():
 
 
 # %% [markdown]
-# ## 4 · The update
+# ## 2 · The update
 #
 # **Predict first.** Does P after the update depend on what was measured?
 #
-# **Your task.** The belief after a measurement. Use your `innovation` and `gain`, or write it anew.
-# For P take the form you like: with the best gain all of the lesson's forms are equal.
+# **Your task.** The belief after a measurement, x (n,) and P (n, n). Use your `gain` and the ready
+# `innovation`, or write it anew. For P take the form you like: with the best gain all of the lesson's
+# forms are equal. Every measurement is to be taken in, however far off it is.
 
 
 # %% name="update"
@@ -221,15 +157,18 @@ def _():
 # believed, so it is probably faster, too.
 
 # %% [markdown]
-# ## 5 · The whole filter
+# ## 3 · The whole filter
 #
-# **Your task.** Run it, with your `predict` and `update` (the check asks for these two first). The
-# start is the belief *before* the first step; each row of `zs` is measured after one more step.
-# Return all beliefs, one after each measurement, the start left out.
+# **Predict first.** The cart rolls for an hour and measures its position every half second. Does its
+# P shrink to zero?
 #
-# The check lets your filter follow 60 drives and asks two things: does it know, at each step, as
-# much as a least squares solution that keeps *everything*? And are the errors as large as P says
-# (NEES)?
+# **Your task.** Run the filter, with the ready `predict` and your `update`, which the check asks for
+# first. The start is the belief *before* the first step; each row of `zs` is measured after one more
+# step, and there is at least one row. Return all beliefs, one after each measurement; the start is
+# left out.
+#
+# The check takes all measurements up to each step *at once*, as the patient one does at the end of
+# the lesson. Your filter has to know as much at each step, although it looks at each of them once.
 
 
 # %% name="kalman-filter"
@@ -277,6 +216,182 @@ def _():
 
 
 # %% [markdown]
+# ## 4 · A system that is no cart
+#
+# The filter does not know what its states are. Here they are two voltages: that of a capacitor,
+# $V_C$, and that of the source that charges it through a resistor, $V_S$. The state is
+# $x = (V_C, V_S)$ in volts. What happens in a step of dt seconds is this:
+#
+# 1. The source wanders. At the *beginning* of the step it jumps by an unknown voltage w, whose mean
+#    is zero and whose variance is $\sigma^2\,dt$. Afterwards it keeps its voltage to the end of the
+#    step.
+# 2. The capacitor follows the source. Of the difference between the two voltages, the share
+#    $e^{-dt/\tau}$ is left at the end of the step, with $\tau$ = ohms · farads.
+#
+# Then two meters are read, each with a noise of its own: a voltmeter shows $V_C$, and an ammeter the
+# current through the resistor, in amperes, which is positive while the capacitor is charged.
+#
+# **Predict first.** One jump w makes both voltages wrong. Are the errors that a step adds to them
+# related? If you know that the source is higher than believed, what do you know of the capacitor?
+#
+# **Your task.** Derive F, Q and H, each (2, 2), in the lesson's way: write the error, multiply it by
+# its transpose, take the expected value. Resistance and capacitance are positive; a step may be
+# short or long or take no time at all, and sigma may be zero.
+
+
+# %% name="capacitor"
+def capacitor(dt, ohms, farads, sigma):
+    """The system for a step of dt seconds.
+
+    dt : time [s];  ohms : resistance [Ω];  farads : capacitance [F]
+    sigma : by how much the source wanders in a second [V], one standard deviation
+    returns F (2, 2), Q (2, 2), H (2, 2)
+    """
+    ### BEGIN SOLUTION
+    left = np.exp(-dt / (ohms * farads))
+    F = np.array([[left, 1 - left], [0, 1]])
+    jump = np.array([1 - left, 1])  # what one volt of w makes of both voltages
+    Q = sigma**2 * dt * np.outer(jump, jump)
+    H = np.array([[1, 0], [-1 / ohms, 1 / ohms]])
+    return F, Q, H
+    ### END SOLUTION
+
+
+# %%
+check("03-capacitor")
+
+# %% [markdown]
+# Your matrices in your filter. Nobody measures the source, and both meters are bad: the voltmeter has
+# σ = 0.3 V, the ammeter σ = 0.3 A. **Before you run it:** the capacitor lags behind the source. Will
+# the estimate of the source lag, too?
+
+
+# %% name="source"
+@attempt
+def _():
+    rng, dt, steps = np.random.default_rng(12), 0.5, 80
+    F, Q, H = (np.asarray(M, dtype=float) for M in capacitor(dt, 1.0, 4.0, 0.5))
+    R, volts, source, states, zs = 0.3**2 * np.eye(2), 0.0, 5.0, [], []
+    for _ in range(steps):
+        source += rng.normal(0, 0.5 * np.sqrt(dt))
+        volts = source + (volts - source) * np.exp(-dt / 4)
+        states.append([volts, source])
+        zs.append(np.array([volts, source - volts]) + rng.normal(0, 0.3, 2))
+    xs, Ps = kalman_filter(np.array([0.0, 5.0]), np.eye(2), np.array(zs), F, Q, H, R)
+    seconds, two_sigma = dt * np.arange(1, steps + 1), 2 * np.sqrt(Ps[:, 1, 1])
+    true_volts, true_source = np.array(states).T
+    shown = {"your source": xs[:, 1], "true source": true_source, "true capacitor": true_volts}
+    fig, ax = views.curves(seconds, shown, "time [s]", "voltage [V]")
+    blue = views.COLOURS["corrected"]
+    ax.fill_between(seconds, xs[:, 1] - two_sigma, xs[:, 1] + two_sigma, color=blue, alpha=0.2)
+    views.show(
+        fig, alt="The estimated source follows the true one; the capacitor lags behind both."
+    )
+
+
+# %% [markdown]
+# The estimate does not lag: the filter knows from F *why* the capacitor is behind, and from the
+# current by how much.
+
+# %% [markdown]
+# ## 5 · Make it better: ghosts
+#
+# The cart again, before a wall. People walk through its corridor. One reading in four is a *ghost*:
+# it has nothing to do with the cart, and says anything between 0 m and 10 m, each as likely as the
+# other. Three in four are measurements as before, with the covariance R. No reading tells which it
+# is. Besides, the cart has sensors of its own, which tell in each step what was added to its state:
+# the truth becomes $F x + u + q$.
+#
+# **Predict first.** What does one ghost that is 4 m off do to the lesson's filter? What does it do to
+# the *P* of that filter?
+
+# %% name="ghosts"
+GHOSTS = 0.25  # the share of ghosts among the readings
+REACH = 10.0  # a ghost says anything between 0 and this [m]
+
+
+def ghost_drive(rng, steps=50):
+    """One drive to and fro: the true states, and the arguments of wary_filter."""
+    F, H = CART["F"], CART["H"]
+    P, Q, R = np.diag([0.3, 0.2]) ** 2, np.diag([0.03, 0.08]) ** 2, np.array([[0.1**2]])
+    place = 5 + 2.5 * np.sin(0.5 * np.arange(steps + 1) * 2 * np.pi / 15)
+    way = np.stack([place, np.gradient(place, 0.5)], axis=1)
+    x = rng.multivariate_normal(way[0], P)
+    us = way[1:] - way[:-1] @ F.T + rng.multivariate_normal([0, 0], Q, steps)
+    zs = way[1:, :1] + rng.normal(0, 0.1, (steps, 1))
+    ghosts = rng.random((steps, 1)) < GHOSTS
+    zs[ghosts] = rng.uniform(0, REACH, ghosts.sum())
+    return way[1:], (x, P, us, zs, F, Q, H, R)
+
+
+# %% [markdown]
+# **Your task.** A filter that lives with ghosts. Any method goes, and there are many: refuse what
+# does not fit, trust it less, weigh the two cases by how likely they are, follow both, look again at
+# what you refused. `zs` has one number in each row. `GHOSTS` and `REACH` hold in all drives.
+#
+# The check lets your filter follow 40 drives of 50 steps and looks at three things: how far off it is
+# on a typical drive, compared with the lesson's filter; how far off it is compared with a filter that
+# is *told* which readings are ghosts; and whether its P is honest, which is the hardest of the
+# three. The first steps of a drive do not count, and neither does the worst tenth of the drives for
+# its P.
+
+
+# %% name="wary-filter"
+def wary_filter(x, P, us, zs, F, Q, H, R):
+    """The beliefs of a drive among ghosts.
+
+    x : (2,), P : (2, 2) belief before the first step;  us : (steps, 2) what each step adds, as told
+    zs : (steps, 1) readings;  F, Q : (2, 2);  H : (1, 2);  R : (1, 1)
+    returns xs (steps, 2), Ps (steps, 2, 2) : the belief after each reading
+    """
+    ### BEGIN SOLUTION
+    xs, Ps = [], []
+    for u, z in zip(us, zs, strict=True):
+        x, P = predict(x, P, F, Q)
+        x = x + u
+        v, S = (array.item() for array in innovation(x, P, z, H, R))
+        K = P @ H[0] / S
+        # how likely such a reading is: as a measurement, and as a ghost
+        real = (1 - GHOSTS) * np.exp(-(v**2) / S / 2) / np.sqrt(2 * np.pi * S)
+        share = real / (real + GHOSTS / REACH)
+        # the mean of both cases, and their covariance: how far they are apart is doubt as well
+        x = x + share * v * K
+        apart = share * (1 - share) * v**2
+        P = P + (apart - share * S) * np.outer(K, K)
+        xs.append(x)
+        Ps.append(P)
+    return np.array(xs), np.array(Ps)
+    ### END SOLUTION
+
+
+# %%
+check("03-ghosts")
+
+# %% [markdown]
+# One drive: what was read, what you believe, and where the cart was. **Before you run it:** where
+# should the band be widest?
+
+
+# %% name="among-ghosts"
+@attempt
+def _():
+    way, told = ghost_drive(np.random.default_rng(8))
+    xs, Ps = wary_filter(*told)
+    seconds, two_sigma = 0.5 * np.arange(1, 51), 2 * np.sqrt(Ps[:, 0, 0])
+    shown = {"your position": xs[:, 0], "true position": way[:, 0]}
+    fig, ax = views.curves(seconds, shown, "time [s]", "position [m]", size=(7, 3.4))
+    blue = views.COLOURS["corrected"]
+    ax.fill_between(seconds, xs[:, 0] - two_sigma, xs[:, 0] + two_sigma, color=blue, alpha=0.2)
+    ax.plot(seconds, told[3], ".", color=views.COLOURS["scan"], label="read")
+    ax.set_ylim(-0.5, 13)
+    ax.legend(loc="upper center", ncol=3)
+    views.show(fig, alt="Your position follows the true one; ghosts lie scattered around.")
+
+
+# %% [markdown]
+# **See:** the line should pass by the dots that lie far off, and the band should widen where readings
+# had to be left out, or may have been either.
+#
 # ## Done?
 #
 # Save the notebook. The cell below then says what the grader will say about it;

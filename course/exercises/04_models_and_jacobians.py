@@ -1,17 +1,20 @@
 # %% [markdown]
 # # 04 · Models and Jacobians: exercise
 #
-# **You will be able to** write the Jacobians of EKF-SLAM as functions, test them without knowing
-# the answer, and use them to say how uncertain a new landmark is, and with whom it shares its
-# error.
+# **You will be able to** write the Jacobians of EKF-SLAM as functions, derive that of a sensor
+# which is in no book, say how uncertain a new landmark is and with whom it shares its error, and do
+# better than a Jacobian where it fails.
 #
-# **45 minutes. Before:** lesson 04.
+# **60 minutes. Before:** lesson 04.
 #
 # Replace each `raise NotImplementedError(...)` by your code, run the cell, then run the check below
-# it, as often as you like. A check tries random inputs and tells you which law is broken.
+# it, as often as you like. A check tries random inputs and others that are as special as the text
+# allows. Where a law is broken it shows a small input that breaks it, and `hint("04-camera")` in a
+# cell of your own leads on.
 #
 # Metres and radians throughout. `x` is a pose `[x, y, θ]`, `p` a landmark, `u = [d, Δθ]` a drive,
-# `z = [r, β]` a range and a bearing, counter-clockwise from the robot's heading.
+# `z = [r, β]` a range and a bearing, counter-clockwise from the robot's heading. Angles may be any
+# number, beyond π as well. Functions must leave their arguments as they are.
 
 # %%
 import numpy as np
@@ -31,7 +34,8 @@ from slamlab.models import f_odometry, g, h
 # It steps 1 cm to its left. Does the range change? Does the bearing grow or shrink? Which entry of
 # H says so, and what must its sign be?
 #
-# **Your task.** The (2, 3) matrix of derivatives of `h` by the robot's x, y, θ.
+# **Your task.** The (2, 3) matrix of derivatives of `h` by the robot's x, y, θ. The landmark may
+# lie in any direction, behind the robot too, but never at the robot itself.
 
 
 # %%
@@ -67,79 +71,6 @@ def _():
 
 
 # %% [markdown]
-# ## H: what a step of the landmark does
-#
-# The filter's state holds landmarks too, so H has columns for them.
-#
-# **Predict first.** Robot and landmark both step 1 cm to the north. What changes in `h`? What does
-# that say about the columns you are about to write and those you have?
-#
-# **Your task.** The (2, 2) matrix of derivatives of `h` by the landmark's x, y.
-
-
-# %%
-def H_landmark(x, p):
-    """∂h/∂p: how range and bearing change with the landmark p.
-
-    x : (3,) pose [m, m, rad];  p : (2,) landmark [m];  returns (2, 2)
-    """
-    ### BEGIN SOLUTION
-    dx, dy = p[0] - x[0], p[1] - x[1]
-    q = dx**2 + dy**2
-    r = np.sqrt(q)
-    return np.array([[dx / r, dy / r], [-dy / q, dx / q]])
-    ### END SOLUTION
-
-
-# %%
-check("04-h-landmark")
-
-# %% [markdown]
-# ## A: what becomes of an error while driving
-#
-# `f_odometry(x, u)` drives a distance `d` along the heading it has, then turns by `Δθ`:
-#
-# $$x' = x + d\cos\theta, \qquad y' = y + d\sin\theta, \qquad \theta' = \theta + \Delta\theta$$
-#
-# **Predict first.** Two robots start at the same place, one with its heading 0.1 rad off. They
-# drive 3 m. How far apart do they end? And if they drive 6 m?
-#
-# **Your task.** The (3, 3) matrix of derivatives of the new pose by the old one.
-
-
-# %%
-def A_odometry(x, u):
-    """∂f/∂x: how the new pose changes with the old one.
-
-    x : (3,) pose [m, m, rad];  u : (2,) distance d [m], turn Δθ [rad];  returns (3, 3)
-    """
-    ### BEGIN SOLUTION
-    d, theta = u[0], x[2]
-    return np.array([[1, 0, -d * np.sin(theta)], [0, 1, d * np.cos(theta)], [0, 0, 1]])
-    ### END SOLUTION
-
-
-# %%
-check("04-a-odometry")
-
-# %% [markdown]
-# The same, as a picture: 500 robots that are unsure where they stand drive the same 3 m. Your
-# A P Aᵀ is the ellipse; 95 of 100 robots should end inside.
-
-
-# %%
-@attempt
-def _():
-    rng = np.random.default_rng(4)
-    x, u, P = np.array([0, 0, 0.5]), np.array([3.0, 0.4]), np.diag([0.1, 0.1, 0.08]) ** 2
-    A = A_odometry(x, u)
-    ends = np.array([f_odometry(start, u) for start in rng.multivariate_normal(x, P, 500)])
-    way = layers.Poses("the way, as believed", [x, f_odometry(x, u)])
-    fig, _ = views.cloud(ends, {"your A P Aᵀ, 95 %": A @ P @ A.T}, layers=[way])
-    views.show(fig, alt="The end points of 500 robots and the ellipse of your A P Aᵀ.")
-
-
-# %% [markdown]
 # ## J_xr and J_z: where a new landmark comes from
 #
 # A landmark seen for the first time is put where the robot believes to see it, at `g(x, z)`:
@@ -150,7 +81,7 @@ def _():
 # it sees at 1 m? At 8 m? Does it matter whether the landmark is ahead or to the side?
 #
 # **Your task.** The derivatives of `g` by the pose, `J_xr` (2, 3), and by the measurement, `J_z`
-# (2, 2).
+# (2, 2), for any range `r` > 0.
 
 
 # %%
@@ -190,9 +121,10 @@ check("04-jxr-jz")
 # **Predict first.** If the robot truly stands 10 cm farther east than it believes, where is the
 # landmark truly? Can `P_rn` be zero?
 #
-# **Your task.** Both, with your `J_xr` and `J_z`. The check draws poses and measurements, places
-# the landmarks with `g`, and compares the covariances of what comes out with yours: no formula is
-# consulted.
+# **Your task.** Both, to first order, with your `J_xr` and `J_z`. `P` and `R` may be full matrices:
+# errors of x, y and θ may go together, and so may those of range and bearing. The heading is known
+# to 0.05 rad or better. The check takes the slopes of `g` itself and carries `P` and `R` through
+# them.
 
 
 # %%
@@ -230,6 +162,189 @@ def _():
     line = layers.Poses("the line of sight", [x, [*g(x, z), x[2] + z[1]]])
     fig, _ = views.cloud(placed, {"your P_nn, 95 %": P_nn}, layers=[line])
     views.show(fig, alt="500 places where the landmark may be and the ellipse of your P_nn.")
+
+
+# %% [markdown]
+# ## A camera beside the robot's centre
+#
+# A camera measures no range. It tells at which column of its image a landmark appears, and it
+# seldom sits where the robot's centre is: ours is mounted `mount = [a, b]`, a metres ahead of the
+# centre and b metres to the left of it (either may be negative), and it looks along the robot's
+# heading. In the camera's own frame, with X ahead and Y to the left, a landmark appears at the column
+#
+# $$u = -F\,\frac{Y}{X}$$
+#
+# counted from the middle of the image to the right, in pixels; F, the focal length, is in pixels,
+# too. No book prints the Jacobian of *this* camera on *this* robot. You do not need a book.
+#
+# **Predict first.** The robot turns to the left by a little. For a camera at the robot's centre, does
+# a far landmark's column depend on how far it is? And for a camera 30 cm ahead of the centre: what
+# does it do besides turning?
+#
+# **Your task.** First write X and Y in x, y, θ, p_x, p_y, a, b. Then differentiate the quotient. Return
+# `u` and its derivatives `H` by x, y, θ, p_x, p_y, in this order. The landmark is always in front
+# of the camera (X ≥ 0.5 m).
+
+
+# %%
+def camera(x, p, mount, F):
+    """Column at which the camera sees a landmark, and how it changes with pose and landmark.
+
+    x : (3,) pose [m, m, rad];  p : (2,) landmark [m];  mount : (2,) ahead, left [m]
+    F : float, focal length [pixels]
+    returns u (a number) [pixels] and H (5,), its derivatives by x, y, θ, p_x, p_y
+    """
+    ### BEGIN SOLUTION
+    dx, dy = p[0] - x[0], p[1] - x[1]
+    c, s = np.cos(x[2]), np.sin(x[2])
+    ahead, left = c * dx + s * dy, c * dy - s * dx  # the landmark in the robot's frame
+    X, Y = ahead - mount[0], left - mount[1]
+    X_by = np.array([-c, -s, left, c, s])
+    Y_by = np.array([s, -c, -ahead, -s, c])
+    return -F * Y / X, -F * (Y_by * X - Y * X_by) / X**2
+    ### END SOLUTION
+
+
+# %%
+check("04-camera")
+
+# %% [markdown]
+# Does the mount matter? A robot turns on the spot, the landmark is 2 m ahead. The slope of the solid
+# curve at 0 is the third entry of your H; the dashed one is the same camera at the centre.
+
+
+# %%
+@attempt
+def _():
+    p, F = np.array([2.0, 0.6]), 500.0
+    turns = np.linspace(-0.3, 0.3, 61)
+    columns = {
+        name: [camera(np.array([0, 0, turn]), p, mount, F)[0] for turn in turns]
+        for name, mount in [
+            ("30 cm ahead of the centre", np.array([0.3, 0.0])),
+            ("at the centre", np.zeros(2)),
+        ]
+    }
+    fig, _ = views.curves(turns, columns, "turn of the robot [rad]", "column u [pixels]")
+    views.show(
+        fig, alt="Columns of a landmark for two mounts while the robot turns: one is steeper."
+    )
+
+
+# %% [markdown]
+# ## Make it better: a drive with an unsure heading
+#
+# A robot was carried to another room. It believes its heading to ±0.3 rad at best and ±0.8 rad at
+# worst, and it drives a few metres. The linearised step says where it may be now: at
+# $f(\hat x, u)$, with $A P A^\top + W C W^\top$, where `C` (2, 2) is the covariance of the drive's
+# own noise. Here it is, ready made, and what 500 robots say to it:
+
+
+# %%
+def linearised(x, P, u, C):
+    """Mean and covariance of the pose after a drive, linearised."""
+    (d, turn), c, s = u, np.cos(x[2]), np.sin(x[2])
+    A = np.array([[1, 0, -d * s], [0, 1, d * c], [0, 0, 1]])
+    W = np.array([[c, 0], [s, 0], [0, 1]])
+    return np.array([x[0] + d * c, x[1] + d * s, x[2] + turn]), A @ P @ A.T + W @ C @ W.T
+
+
+START, BELIEVED = np.zeros(3), np.diag([0.1, 0.1, 0.5]) ** 2
+DRIVE, WHEELS = np.array([4.0, 0.2]), np.diag([0.1, 0.05]) ** 2
+
+
+def show_drive(method, name):
+    """Show the ends of 500 robots and the ellipse of a method about its mean."""
+    rng = np.random.default_rng(4)
+    starts = rng.multivariate_normal(START, BELIEVED, 500)
+    drives = rng.multivariate_normal(DRIVE, WHEELS, 500)
+    ends = np.array([f_odometry(*pair) for pair in zip(starts, drives, strict=True)])
+    mean, covariance = method(START, BELIEVED, DRIVE, WHEELS)
+    ellipse = layers.Ellipses(name, np.array([mean[:2]]), np.array([covariance[:2, :2]]))
+    fig, _ = views.cloud(ends, {}, layers=[ellipse])
+    views.show(
+        fig, alt=f"The ends of 500 robots bend like a banana; over them the ellipse: {name}."
+    )
+
+
+attempt(lambda: show_drive(linearised, "linearised, 95 %"))
+
+# %% [markdown]
+# **See:** the ellipse lies in front of most robots, is too long and far too thin.
+#
+# **Predict first.** A belief has one mean and one covariance, so the banana itself cannot be told. Which
+# ellipse would you draw? Is its middle nearer to the start than the linearised one, or farther away?
+#
+# **Your task.** Any method goes: return the `mean` (3,) and the `covariance` (3, 3) of the pose after
+# the drive. `P` and `C` may be full matrices and are positive definite; pose and drive err
+# independently, both as Gaussians. The heading's σ is 0.8 rad at most (and may be tiny), the distance
+# 6 m at most, and it may be zero or negative; the wheels err by 0.6 m and 0.3 rad at most. Whether you
+# wrap the mean's angle is up to you; but mind that `f_odometry` wraps the headings it returns, and
+# think of what the average of 179° and −179° is.
+#
+# You are scored by *surprise*. If the robot ends at $e$, a belief $N(m, S)$ is surprised by
+#
+# $$\tfrac12 (e-m)^\top S^{-1} (e-m) + \tfrac12 \ln\det (2\pi S)$$
+#
+# nats: much when the end is many standard deviations off (the first term is half the NEES), and also
+# when the ellipse was drawn large to be on the safe side (the second term). On average over all ends,
+# the Gaussian with their true mean and covariance is surprised least. The check knows these exactly
+# and counts how many nats you lose against them in twenty drives and in some special ones. There are
+# four steps:
+#
+# | step | what you lose | for comparison |
+# |---|---|---|
+# | 1 | at most 1 nat in half of the drives | linearised: 11 |
+# | 2 | at most 0.1 nat in half of the drives | |
+# | 3 | at most 0.01 nat in half of the drives | |
+# | 4 | at most 0.01 nat in *every* drive | |
+#
+# One nat lost means that the true ends seem e ≈ 2.7 times less likely than they should.
+
+
+# %%
+def unsure_drive(x, P, u, C):
+    """Mean and covariance of the pose after a drive, by any method that beats the linearised one.
+
+    x : (3,) pose;  P : (3, 3) its covariance;  u : (2,) distance d [m], turn Δθ [rad]
+    C : (2, 2) covariance of u;  returns mean (3,) and covariance (3, 3)
+    """
+    ### BEGIN SOLUTION
+    # Only the heading bends. Given the heading, x, y, d and Δθ are Gaussian and enter straight: so
+    # average over a fan of headings, from −6σ to 6σ, each with the weight that the belief gives it.
+    t = np.linspace(-6, 6, 25)
+    weights = np.exp(-(t**2) / 2)
+    weights = weights / weights.sum()
+    sigma = np.sqrt(P[2, 2])
+    lean = P[:2, 2] / sigma  # where x and y are on average, per σ of the heading
+    ahead = np.column_stack([np.cos(x[2] + sigma * t), np.sin(x[2] + sigma * t)])
+    places = x[:2] + np.outer(t, lean) + u[0] * ahead
+    ends = np.column_stack([places, x[2] + u[1] + sigma * t])
+    mean = weights @ ends
+    off = ends - mean
+    covariance = off.T @ (weights[:, None] * off)  # of the averages; now what scatters about them
+    covariance[:2, :2] += P[:2, :2] - np.outer(lean, lean)
+    covariance[:2, :2] += C[0, 0] * ahead.T @ (weights[:, None] * ahead)
+    together = C[0, 1] * weights @ ahead
+    covariance[:2, 2] += together
+    covariance[2, :2] += together
+    covariance[2, 2] += C[1, 1]
+    return mean, covariance
+    ### END SOLUTION
+
+
+# %%
+check("04-unsure-drive")
+
+# %% [markdown]
+# Your ellipse over the same 500 robots. It is wide where the linearised one was thin: this is what
+# an honest filter must admit.
+
+
+# %%
+@attempt
+def _():
+    show_drive(unsure_drive, "yours, 95 %")
 
 
 # %% [markdown]

@@ -52,10 +52,9 @@ def predict(x, P, u, C):
 
 def H_full(x, j):
     """∂h/∂x of landmark j over the whole state: (2, n)."""
-    at = 3 + 2 * j
+    its = slice(2 * j + 3, 2 * j + 5)
     H = np.zeros((2, len(x)))
-    H[:, :3] = H_robot(x[:3], x[at : at + 2])
-    H[:, at : at + 2] = H_landmark(x[:3], x[at : at + 2])
+    H[:, :3], H[:, its] = H_robot(x[:3], x[its]), H_landmark(x[:3], x[its])
     return H
 
 

@@ -1034,6 +1034,6 @@ Markdown(table(errata))
 # **Next:** lesson 05 puts H and A to work in two easy halves: where am I in a known map, and where
 # are the landmarks if I know where I am?
 #
-# **Exercise:** [write H, A, J_xr, J_z and a new landmark's
-# covariance](../exercises/04_models_and_jacobians.ipynb), and have them judged by the models, not
-# by a stored answer.
+# **Exercise:** [write H, J_xr, J_z and a new landmark's covariance, derive the Jacobian of a
+# camera that is in no book, and beat the linearised step where it
+# fails](../exercises/04_models_and_jacobians.ipynb). The models judge them, not a stored answer.

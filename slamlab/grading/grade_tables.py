@@ -35,7 +35,7 @@ def write_tables(out, marks, default=None):
 def _grades(marks, exercises):
     """One row a submission: its mark, then points per task, then per law."""
     tasks = [task for exercise in exercises for task in exercise.tasks]
-    laws = [(task.id, law.name) for task in tasks for law in task.laws]
+    laws = [(task.id, law.name) for task in tasks for law in task.all_laws]
     yield [*COLUMNS, *(task.id for task in tasks), *(f"{task}: {law}" for task, law in laws)]
     for mark in marks:
         record = mark.record

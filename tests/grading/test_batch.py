@@ -75,20 +75,21 @@ def test_a_class_is_graded_and_everyone_is_listed(class_folder, tmp_path, capsys
     rows = table(out)
     scores = {name: (row["score"], row["max_score"]) for name, row in rows.items()}
     assert scores == {
-        "full.ipynb": ("6.5", "6.5"),
-        "as it was.ipynb": ("0", "6.5"),
-        "missing/99_fake/99_fake.ipynb": ("2", "6.5"),
-        "'=1+1.ipynb": ("4.5", "6.5"),
+        "full.ipynb": ("8", "8"),
+        "as it was.ipynb": ("0", "8"),
+        "missing/99_fake/99_fake.ipynb": ("2.5", "8"),
+        "'=1+1.ipynb": ("5.5", "8"),
         "silent.ipynb": ("", ""),
         "empty.ipynb": ("", ""),
         "cut.ipynb": ("", ""),
-        "none.ipynb": ("0", "6.5"),
+        "none.ipynb": ("0", "8"),
         "nobody": ("", ""),
     }
     first = (out / "grades.csv").read_text("utf-8").splitlines()[0]
     assert first == (
         "submission,student,exercise,score,max_score,late,handed_in,note,99-double,99-turn,"
-        "99-total,99-double: sign,99-double: twice,99-turn: turned,99-total: sum"
+        "99-total,99-double: sign,99-double: twice,99-double: unchanged,99-turn: turned,"
+        "99-turn: unchanged,99-total: sum,99-total: unchanged"
     )
     assert rows["full.ipynb"]["note"] == ""
     assert "99-double: not attempted yet" in rows["as it was.ipynb"]["note"]
@@ -111,13 +112,13 @@ def test_a_record_holds_what_defends_a_grade(class_folder, tmp_path):
     command("grade", class_folder, "--out", out, "--secret", secret, "--exercise", "99")
     found = book(out)
     full, silent = found["full.ipynb"], found["silent.ipynb"]
-    assert (full.graded, full.score, full.exercise, full.student) == (True, 6.5, "99", "full")
+    assert (full.graded, full.score, full.exercise, full.student) == (True, 8, "99", "full")
     assert len(full.sha256) == 64
     assert full.seed == judge.seed_for(b"0123456789abcdef", "99", full.sha256).hex()
     assert set(full.versions) == {"slamlab", "python", "numpy", "sympy"}
     assert full.isolation == workers().level
     assert [verdict.task for verdict in full.verdicts] == ["99-double", "99-turn", "99-total"]
-    assert [law.points for law in full.verdicts[0].laws] == [1, 2]
+    assert [law.points for law in full.verdicts[0].laws] == [1, 2, 0.5]
     assert set(full.seconds) == {"wall", "judge_cpu", "worker_cpu"}
     assert silent.graded
     assert not found["cut.ipynb"].graded
@@ -152,7 +153,7 @@ def test_what_could_not_be_read_stands_once_and_is_graded_when_it_is_mended(tmp_
         assert not book(out)["anna.ipynb"].graded
     (folder / "anna.ipynb").write_text(notebook(fake.SOLUTION))
     command("grade", folder, "--out", out)
-    assert book(out)["anna.ipynb"].score == 6.5
+    assert book(out)["anna.ipynb"].score == 8
     with Gradebook(f"sqlite:///{out / 'grades.db'}") as opened:
         assert len(opened.attempts()) == 2
 
@@ -193,8 +194,8 @@ def test_wrong_use_is_told_in_one_line(arguments, said, tmp_path, monkeypatch, c
 def test_a_notebook_is_checked_from_the_command_line(class_folder, capsys):
     assert command("check", class_folder / "full.ipynb") == 0
     said = capsys.readouterr().out
-    assert "✓ 99-turn · Turn a vector: 2 of 2 points" in said
-    assert said.endswith("6.5 of 6.5 points\n")
+    assert "✓ 99-turn · Turn a vector: 2.5 of 2.5 points" in said
+    assert said.endswith("8 of 8 points\n")
     assert command("check", class_folder / "missing" / "99_fake" / "99_fake.ipynb") == 1
     assert "double is not defined" in capsys.readouterr().out
 
@@ -203,7 +204,7 @@ def test_a_notebook_is_checked_from_the_command_line(class_folder, capsys):
 def test_checking_a_notebook_with_a_task_that_is_not_passed_ends_with_1(name, class_folder, capsys):
     assert command("check", class_folder / name) == 1
     said = capsys.readouterr()
-    assert "of 6.5 points\n" in said.out
+    assert "of 8 points\n" in said.out
     assert not said.err
 
 

@@ -131,8 +131,16 @@ def test_where_no_law_knows_the_answer_it_says_why_this_one_cannot_be():
 
 
 def test_a_reason_that_cannot_be_given_for_odd_numbers_is_left_out():
-    law = Law("turned", 2, "turns left", lambda i, o: o["result"][:, 0] > 9, why=lambda i, o: 1 / 0)
+    law = Law("turned", 2, "turns left", lambda i, o: i["angle"] < 0, why=lambda i, o: 1 / 0)
     assert "it returns" in told(turn, dataclasses.replace(TURN, laws=(law,)))
+
+
+def test_of_a_law_on_all_inputs_together_only_the_reason_is_told():
+    law = Law("turned", 2, "turns left", lambda i, o: False)
+    assert told(turn, dataclasses.replace(TURN, laws=(law,))) is None
+    law = dataclasses.replace(law, why=lambda i, o: f"{len(o['result'])} vectors.")
+    probe = "    Taken together, with no angle:\n    2 vectors."
+    assert told(turn, dataclasses.replace(TURN, laws=(law,))) == probe
 
 
 def test_of_an_exception_the_row_is_shown_that_met_it():

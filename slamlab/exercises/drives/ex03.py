@@ -1,16 +1,17 @@
-"""Drives of exercise 03: one call per belief; a whole filter once per drive of the cart."""
+"""Drives of exercise 03: one call per belief, per drive of a cart, per circuit."""
 
 import numpy as np
 
 from slamlab.exercises.drives import Drive, StudentError, numbers, rows
 
 
-def pairs(**like):
-    """A drive that keeps the two results of each call apart.
+def several(*names, shape=None):
+    """A drive that keeps the several results of each call apart.
 
     Parameters
     ----------
-    like : the result's name to that of the argument whose shape it has
+    names : of the results, in the order in which they are returned
+    shape : (arguments of the call) -> result's name to its shape; None: not looked at
 
     Returns
     -------
@@ -19,58 +20,20 @@ def pairs(**like):
 
     def run(functions, inputs):
         (function, call), *_ = functions.items()
-        shapes = [inputs[name].shape[1:] for name in like.values()]
-        found = {name: [] for name in like}
+        found = {name: [] for name in names}
         for row in rows(inputs):
-            result = _pair(call(*row), function, like)
-            for name, part, shape in zip(like, result, shapes, strict=True):
-                what = f"{function}'s {name}"
-                found[name].append(_shaped(numbers(part, what), what, shape))
-        return {name: np.array(parts) for name, parts in found.items()}
+            wanted = shape(dict(zip(inputs, row, strict=True))) if shape else {}
+            result = call(*row)
+            if not isinstance(result, tuple | list) or len(result) != len(names):
+                raise StudentError(
+                    "malformed", f"{function} must end with: return {', '.join(names)}"
+                )
+            for name, part in zip(names, result, strict=True):
+                array = numbers(_list(part), f"{function}'s {name}")
+                found[name].append(_shaped(array, f"{function}'s {name}", wanted.get(name)))
+        return {name: _stacked(parts, f"{function}'s {name}") for name, parts in found.items()}
 
     return run
-
-
-def filtered(functions, inputs):
-    """Run the filter on every drive of the cart: the same start and matrices, other measurements.
-
-    Parameters
-    ----------
-    functions : "kalman_filter"
-    inputs : x (n,), P, F, Q (n, n), H (m, n), R (m, m), z (drives, steps, m)
-
-    Returns
-    -------
-    {"x": (drives, steps, n), "P": (drives, steps, n, n)}
-
-    Raises
-    ------
-    StudentError : "malformed" when there is not one belief per measurement
-    """
-    call, steps = functions["kalman_filter"], inputs["z"].shape[1]
-    beliefs = {"x": [], "P": []}
-    for z in inputs["z"]:
-        start = [inputs[name].copy() for name in ("x", "P")]
-        matrices = [inputs[name].copy() for name in ("F", "Q", "H", "R")]
-        result = _pair(call(*start, z.copy(), *matrices), "kalman_filter", ("xs", "Ps"))
-        for (name, found), part in zip(beliefs.items(), result, strict=True):
-            array = numbers(_list(part), f"kalman_filter's {name}s")
-            if len(np.atleast_1d(array)) != steps:
-                raise StudentError(
-                    "malformed",
-                    f"kalman_filter's {name}s has {len(np.atleast_1d(array))} entries for {steps} "
-                    "measurements: one after each of them, the start left out",
-                )
-            for entry in array:
-                _shaped(entry, f"an entry of kalman_filter's {name}s", inputs[name].shape)
-            found.append(array)
-    return {name: np.array(found) for name, found in beliefs.items()}
-
-
-def _pair(result, function, names):
-    if not isinstance(result, tuple | list) or len(result) != 2:
-        raise StudentError("malformed", f"{function} must end with: return {', '.join(names)}")
-    return result
 
 
 def _list(part):
@@ -80,15 +43,39 @@ def _list(part):
 
 def _shaped(array, what, shape):
     """The array, when it has the shape expected: that of one call, as the student sees it."""
-    if np.shape(array) != shape:
-        raise StudentError("malformed", f"{what} has shape {np.shape(array)}, expected {shape}")
-    return array
+    if shape is None or array.shape == shape:
+        return array
+    if array.ndim and len(array) != shape[0] and array.shape[1:] == shape[1:]:
+        raise StudentError(
+            "malformed", f"{what} has {len(array)} entries, and {shape[0]} were expected"
+        )
+    raise StudentError("malformed", f"{what} has shape {array.shape}, expected {shape}")
+
+
+def _stacked(arrays, what):
+    shapes = sorted({array.shape for array in arrays})
+    if len(shapes) > 1:
+        raise StudentError("malformed", f"{what} has shape {shapes[0]}, and then {shapes[1]}")
+    return np.array(arrays)
+
+
+def _belief(given):
+    return {"x": given["x"].shape, "P": given["P"].shape}
+
+
+def _beliefs(given):
+    steps = len(given["zs"])
+    return {"xs": (steps, *given["x"].shape), "Ps": (steps, *given["P"].shape)}
+
+
+def _matrices(given):
+    return dict.fromkeys(("F", "Q", "H"), (2, 2))
 
 
 DRIVES = {
-    "03-predict": Drive(("predict",), pairs(x="x", P="P")),
-    "03-innovation": Drive(("innovation",), pairs(v="z", S="R")),
     "03-gain": Drive(("gain",)),
-    "03-update": Drive(("update",), pairs(x="x", P="P")),
-    "03-filter": Drive(("kalman_filter",), filtered),
+    "03-update": Drive(("update",), several("x", "P", shape=_belief)),
+    "03-filter": Drive(("kalman_filter",), several("xs", "Ps", shape=_beliefs)),
+    "03-capacitor": Drive(("capacitor",), several("F", "Q", "H", shape=_matrices)),
+    "03-ghosts": Drive(("wary_filter",), several("xs", "Ps", shape=_beliefs)),
 }

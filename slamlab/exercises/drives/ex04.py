@@ -1,4 +1,4 @@
-"""Drives of exercise 04: one call per input; what the calls return is stacked."""
+"""Drives of exercise 04: one call per input; what the calls return is kept apart and stacked."""
 
 import numpy as np
 
@@ -27,34 +27,36 @@ def both_jacobians(functions, inputs):
     }
 
 
-def both_covariances(functions, inputs):
-    """Call new_landmark on every input and keep its two results apart.
+def two_results(function, **shapes):
+    """A run that calls a function on every input and keeps its two results apart.
 
     Parameters
     ----------
-    functions : "new_landmark"
-    inputs : poses x (n, 3), covariances P (n, 3, 3), measurements z (n, 2), covariances R (n, 2, 2)
+    function : str
+    shapes : name of each result to its shape, in the order they are returned
 
     Returns
     -------
-    {"P_nn": (n, 2, 2), "P_rn": (n, 3, 2)}
-
-    Raises
-    ------
-    StudentError : "malformed" when a call does not return two arrays of these shapes
+    (functions, inputs) -> {name: (n, *shape)}; raises StudentError "malformed" where a call
+    does not return two arrays of these shapes
     """
-    pairs = [functions["new_landmark"](*row) for row in rows(inputs)]
-    if any(not isinstance(pair, tuple | list) or len(pair) != 2 for pair in pairs):
-        raise StudentError("malformed", "new_landmark must end with: return P_nn, P_rn")
-    P_nn, P_rn = zip(*pairs, strict=True)
-    return {
-        "P_nn": _stacked(P_nn, "new_landmark's P_nn", (2, 2)),
-        "P_rn": _stacked(P_rn, "new_landmark's P_rn", (3, 2)),
-    }
+
+    def run(functions, inputs):
+        pairs = [functions[function](*row) for row in rows(inputs)]
+        if any(not isinstance(pair, tuple | list) or len(pair) != 2 for pair in pairs):
+            raise StudentError("malformed", f"{function} must end with: return {', '.join(shapes)}")
+        return {
+            name: _stacked([pair[k] for pair in pairs], f"{function}'s {name}", shape)
+            for k, (name, shape) in enumerate(shapes.items())
+        }
+
+    return run
 
 
 def _stacked(results, what, shape):
     arrays = [numbers(result, what) for result in results]
+    if len(shape) < 2:  # one number, or one row: (), (1,) and (1, 1), or (5,) and (1, 5)
+        arrays = [a.reshape(shape) if a.size == np.prod(shape) else a for a in arrays]
     wrong = next((a.shape for a in arrays if a.shape != shape), None)
     if wrong is not None:
         turned = " (transposed?)" if wrong == shape[::-1] else ""
@@ -64,8 +66,12 @@ def _stacked(results, what, shape):
 
 DRIVES = {
     "04-h-robot": Drive(("H_robot",)),
-    "04-h-landmark": Drive(("H_landmark",)),
-    "04-a-odometry": Drive(("A_odometry",)),
     "04-jxr-jz": Drive(("J_xr", "J_z"), run=both_jacobians),
-    "04-new-landmark": Drive(("new_landmark",), run=both_covariances),
+    "04-new-landmark": Drive(
+        ("new_landmark",), run=two_results("new_landmark", P_nn=(2, 2), P_rn=(3, 2))
+    ),
+    "04-camera": Drive(("camera",), run=two_results("camera", u=(), H=(5,))),
+    "04-unsure-drive": Drive(
+        ("unsure_drive",), run=two_results("unsure_drive", mean=(3,), covariance=(3, 3))
+    ),
 }

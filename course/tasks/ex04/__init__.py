@@ -1,0 +1,1 @@
+"""Right ways through exercise 04 and the slips on them."""

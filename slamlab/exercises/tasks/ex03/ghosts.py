@@ -1,0 +1,199 @@
+"""Task 03-ghosts: a filter that lives with readings which are no measurements; any method goes.
+
+All drives share the truth, which is in no array: the errors of what each drive was told have the
+mean 0 over the drives, so that the truth is their middle.
+"""
+
+import numpy as np
+
+from slamlab.exercises.drives.ex03 import DRIVES
+from slamlab.exercises.law import Diagnosis, Law
+from slamlab.exercises.task import Task
+
+DRIVEN, STEPS, SETTLED = 40, 50, 5  # errors of the first steps are those of the start: left out
+T, GHOSTS, REACH = 0.5, 0.25, 10.0
+# Limits; behind each, what was reached with 3000 seeds
+GAIN = 4  # the solution: 7.9 at least; a gate of 3 σ: 7 at least; the lesson's filter: 1
+CLOSE = 1.5  # the solution: 1.28 at most; a gate: 1.1 mostly; Huber's weights: 1.6 mostly
+HONEST = (1.25, 2.4)  # the solution: 1.63 to 2.24; a gate: 2.6 mostly, up to 9
+SHUT = 20  # NEES of a drive that was lost and does not know it: 2 is to be expected
+
+
+def drives(rng):
+    """One way to and fro before a wall, driven many times with its own errors each time."""
+    seconds = T * np.arange(STEPS + 1)
+    swing, start, period = rng.uniform(1.5, 3), rng.uniform(0, 2 * np.pi), rng.uniform(12, 20)
+    place = REACH / 2 + swing * np.sin(2 * np.pi * seconds / period + start)
+    way = np.stack([place, np.gradient(place, T)], axis=1)
+    F, H = np.array([[1, T], [0, 1]]), np.array([[1.0, 0.0]])
+    P, Q, R = np.diag([0.3, 0.2]) ** 2, np.diag([0.03, 0.08]) ** 2, rng.uniform(0.09, 0.11) ** 2
+    zs = way[1:, :1] + np.sqrt(R) * _errors(rng, STEPS, 1)
+    ghosts = rng.random(zs.shape) < GHOSTS
+    told = {
+        "x": way[0] + _errors(rng, 2) @ np.sqrt(P),
+        "P": P,
+        "us": way[1:] - way[:-1] @ F.T + _errors(rng, STEPS, 2) @ np.sqrt(Q),
+        "zs": np.where(ghosts, rng.uniform(0, REACH, zs.shape), zs),
+        "F": F,
+        "Q": Q,
+        "H": H,
+        "R": np.array([[R]]),
+    }
+    same = ("P", "F", "Q", "H", "R")
+    return told | {name: np.tile(told[name], (DRIVEN, 1, 1)) for name in same}
+
+
+def _errors(rng, *shape):
+    """(DRIVEN, ...) errors with variance 1 whose mean over the drives is 0."""
+    errors = rng.standard_normal((DRIVEN, *shape))
+    return (errors - errors.mean(axis=0)) * np.sqrt(DRIVEN / (DRIVEN - 1))
+
+
+def truth(i):
+    """(steps, 2) the true states after each step."""
+    x, way = i["x"].mean(axis=0), []
+    for u in i["us"].mean(axis=0):
+        x = i["F"][0] @ x + u
+        way.append(x)
+    return np.array(way)
+
+
+def ordinary(i, taken):
+    """(drives, steps, 2) the states of an ordinary filter that takes some of the readings in.
+
+    Parameters
+    ----------
+    i : inputs
+    taken : (drives, steps) bool, which
+    """
+    F, Q, R, x, P, xs = i["F"][0], i["Q"][0], i["R"][0, 0, 0], i["x"], i["P"], []
+    for k in range(i["zs"].shape[1]):
+        x, P = x @ F.T + i["us"][:, k], F @ P @ F.T + Q
+        K = P[:, :, 0] / (P[:, :1, 0] + R) * taken[:, k, None]
+        x = x + K * (i["zs"][:, k] - x[:, :1])
+        P = P - K[:, :, None] * P[:, :1, :]
+        xs.append(x)
+    return np.stack(xs, axis=1)
+
+
+def typical(i, xs):
+    """The median of the drives' root mean square errors of the position [m]."""
+    off = (xs - truth(i))[:, SETTLED:, 0]
+    return np.median(np.sqrt(np.mean(off**2, axis=1)))
+
+
+def deceived(i):
+    """What the ordinary filter makes of all readings: its typical error [m]."""
+    return typical(i, ordinary(i, np.ones(i["zs"].shape[:2], dtype=bool)))
+
+
+def told_all(i):
+    """The typical error [m] of a filter that is told which readings are ghosts."""
+    off = (i["zs"] - truth(i)[:, :1])[..., 0]
+    return typical(i, ordinary(i, np.abs(off) < 5 * np.sqrt(i["R"][0, 0, 0])))
+
+
+def nees_of(i, o):
+    """(drives,) the mean NEES of each drive; infinite where a P is none."""
+    off, P = (o["xs"] - truth(i))[:, SETTLED:], o["Ps"][:, SETTLED:]
+    if np.linalg.eigvalsh((P + np.swapaxes(P, 2, 3)) / 2).min() <= 0:
+        return np.full(len(P), np.inf)
+    return np.einsum("rki,rkij,rkj->rk", off, np.linalg.inv(P), off).mean(axis=1)
+
+
+def usual_nees(i, o):
+    """The mean NEES, without the tenth of the drives where it is largest."""
+    nees = np.sort(nees_of(i, o))
+    return nees[: len(nees) * 9 // 10].mean()
+
+
+def _better(i, o):
+    return typical(i, o["xs"]) <= deceived(i) / GAIN
+
+
+def _close(i, o):
+    return typical(i, o["xs"]) <= CLOSE * told_all(i)
+
+
+def _honest(i, o):
+    return _better(i, o) and HONEST[0] <= usual_nees(i, o) <= HONEST[1]
+
+
+def _than(reference, factor, whose):
+    def why(i, o):
+        return (
+            f"the typical drive errs by {typical(i, o['xs']):.3f} m; {whose} by "
+            f"{reference(i):.3f} m, and {factor * reference(i):.3f} m are allowed"
+        )
+
+    return why
+
+
+def _why_dishonest(i, o):
+    if not _better(i, o):
+        return "that is asked only of a filter whose errors are small enough for the first law"
+    return f"its mean NEES is {usual_nees(i, o):.2f}; it may be {HONEST[0]} to {HONEST[1]}"
+
+
+WARY = Task(
+    id="03-ghosts",
+    title="Ghosts before the range finder",
+    drive=DRIVES["03-ghosts"],
+    inputs=drives,
+    shapes=lambda i: {"xs": (*i["zs"].shape[:2], 2), "Ps": (*i["zs"].shape[:2], 2, 2)},
+    laws=(
+        Law(
+            "better",
+            1,
+            "the typical drive errs by at most a quarter of what the lesson's filter errs by",
+            _better,
+            why=_than(deceived, 1 / GAIN, "the lesson's filter"),
+            asks="How would you, looking at the numbers by hand, tell a ghost from a measurement? "
+            "What does S say of an innovation of 4 m?",
+            step=lambda i: {"typical error of the lesson's filter [m]": deceived(i)},
+        ),
+        Law(
+            "close",
+            1.5,
+            f"the typical drive errs by at most {CLOSE:g} times what a filter errs by that is told "
+            "which readings are ghosts",
+            _close,
+            why=_than(told_all, CLOSE, "a filter that is told which readings are ghosts"),
+            asks="How much of an innovation do you take in when it is small, and how much when it "
+            "is very large? Is there anything left of a ghost in your x?",
+            step=lambda i: {"typical error of a filter that is told all [m]": told_all(i)},
+        ),
+        Law(
+            "honest",
+            2,
+            "and its P is honest: NEES is about 2 (the worst tenth of the drives is left out)",
+            _honest,
+            why=_why_dishonest,
+            asks="An innovation of three σ may be a ghost or a measurement, and you cannot know "
+            "which. How sure may you be of your position after it, when you take it in, and when "
+            "you do not?",
+        ),
+    ),
+    diagnoses=(
+        Diagnosis(
+            "shut-out",
+            "Some drives are lost and do not know it: their errors are far larger than P says. Who "
+            "refuses measurements because they do not fit the belief, and stays as sure of it as "
+            "before, refuses the right ones for ever once the belief is wrong.",
+            lambda i, o: _better(i, o) and (nees_of(i, o) > SHUT).mean() > 0.02,
+        ),
+        Diagnosis(
+            "boasts",
+            "The errors are larger than P says. After a reading that may have been a ghost you "
+            "cannot be as sure as after one that certainly was none.",
+            lambda i, o: _better(i, o) and usual_nees(i, o) > HONEST[1],
+        ),
+        Diagnosis(
+            "modest",
+            "The errors are smaller than P says: P keeps more doubt than there is. What does a "
+            "reading that fits well leave of it?",
+            lambda i, o: _better(i, o) and usual_nees(i, o) < HONEST[0],
+        ),
+    ),
+    rounds=False,
+)
