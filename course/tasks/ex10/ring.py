@@ -22,8 +22,6 @@ def ring(robot, box, r, bound):
         kept = [np.clip(side[k], *box[k]) for side in (west, east) if meets(side[k], box[k])]
         found += [min(k[0] for k in kept), max(k[1] for k in kept)]
     return np.array(found)
-
-
 def meets(a, b):
     return a[0] <= b[1] and b[0] <= a[1]
 """,
@@ -32,10 +30,8 @@ def ring(robot, box, r, bound):
     near, far = r - bound, r + bound
     x = box[0] - robot[1], box[1] - robot[0]
     y = box[2] - robot[3], box[3] - robot[2]
-
     def smallest(low, high):
         return 0.0 if low <= 0 <= high else min(abs(low), abs(high))
-
     def allowed(along, across):
         most = far**2 - smallest(*across) ** 2
         least = near**2 - max(across[0] ** 2, across[1] ** 2) if near > 0 else 0
@@ -44,7 +40,6 @@ def ring(robot, box, r, bound):
         a, b = np.sqrt(max(least, 0)), np.sqrt(most)
         pieces = [(max(along[0], s), min(along[1], t)) for s, t in ((-b, -a), (a, b))]
         return [piece for piece in pieces if piece[0] <= piece[1]]
-
     found = []
     for k, along, across in ((0, x, y), (2, y, x)):
         pieces = allowed(along, across)
@@ -290,15 +285,6 @@ def ring(robot, box, r, bound):
         c = r + bound + max(a * robot[0], a * robot[1]) + max(b * robot[2], b * robot[3])
         box = None if box is None else clip(box, (a, b, c))
     return box
-""",
-    "edges towards the object": """
-def ring(robot, box, r, bound):
-    toward = np.arctan2(sum(box[2:]) - sum(robot[2:]), sum(box[:2]) - sum(robot[:2]))
-    return cut(box, edges((r, 0.0), (bound, 0.0), (toward - 0.7, toward + 0.7), robot))
-""",
-    "clip": """
-def ring(robot, box, r, bound):
-    return clip(box, (1.0, 0.0, robot[1] + r + bound))
 """,
 }
 
