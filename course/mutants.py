@@ -14,7 +14,7 @@ import numpy as np
 
 from course.fingerprints import MUTANT_SECONDS
 from course.mutation import Mutant, mutants
-from course.programs import SOLUTION, Programs, programs
+from course.programs import SOLUTION, Programs, namespace, programs
 from slamlab.checks.time_limit import TimeLimitExceeded, time_limit
 from slamlab.exercises import catalogue
 from slamlab.exercises.drives import StudentError
@@ -97,6 +97,7 @@ def survivors(one: Programs, draws, sample=None, rng=None):
     -------
     list of Survivor, int : and how many mutants were tried
     """
+    namespace(one.exercise.id)  # its imports count for no mutant's time limit
     found, tried = [], 0
     reasons = getattr(one.module, "EQUIVALENT", {})
     for way, source in one.ways.items() if sample is None else [(SOLUTION, one.ways[SOLUTION])]:

@@ -1,0 +1,98 @@
+"""The task of exercise 07 about two estimates that share an error: their best combination."""
+
+import numpy as np
+
+from slamlab.exercises.drives.ex07 import DRIVES
+from slamlab.exercises.law import equals
+from slamlab.exercises.task import Probe, Task
+from slamlab.exercises.tasks.ex07.beliefs import EXACT, T, covariances
+
+
+def _drawn(rng, n=10, unit=1.0, shared=True):
+    """Pairs of estimates of a landmark, their errors drawn from the covariance that is told."""
+    joint = covariances(rng, unit * rng.uniform(0.1, 0.4, (n, 4)), surplus=1)
+    if not shared:
+        joint[:, :2, 2:] = joint[:, 2:, :2] = 0
+    errors = (np.linalg.cholesky(joint) @ rng.standard_normal((n, 4, 1)))[:, :, 0]
+    place = unit * rng.uniform(1, 6, (n, 2)) * rng.choice([-1, 1], (n, 2))
+    return _named(place + errors[:, :2], place + errors[:, 2:], joint)
+
+
+def _named(a, b, joint):
+    ours, theirs = slice(0, 2), slice(2, 4)
+    P_a, P_b, P_ab = joint[:, ours, ours], joint[:, theirs, theirs], joint[:, ours, theirs]
+    return {"a": a, "P_a": P_a, "b": b, "P_b": P_b, "P_ab": P_ab}
+
+
+def _nearly_one(rng, n=3):
+    """Errors of which each has hardly a tenth of its own."""
+    common = covariances(rng, rng.uniform(0.2, 0.4, (n, 2)))
+    own = covariances(rng, rng.uniform(0.02, 0.04, (2 * n, 2))).reshape(2, n, 2, 2)
+    return _drawn(rng, n) | {"P_a": common + own[0], "P_b": common + own[1], "P_ab": common}
+
+
+def _worse_copy(rng, n=3):
+    """b is a with noise of its own on top: it can teach nothing that a does not know."""
+    P_a, own = covariances(rng, rng.uniform(0.1, 0.4, (2 * n, 2))).reshape(2, n, 2, 2)
+    a = rng.uniform(-5, 5, (n, 2))
+    return {"a": a, "P_a": P_a, "b": a + 0.3, "P_b": P_a + own, "P_ab": P_a}
+
+
+def _opposed(rng, n=3):
+    """Errors that are opposed: where a errs to the left, b errs to the right."""
+    inputs = _drawn(rng, n)
+    joint = covariances(rng, rng.uniform(0.2, 0.3, (n, 2)))
+    return inputs | {"P_a": joint, "P_b": 1.5 * joint, "P_ab": -0.9 * joint}
+
+
+def _best(inputs):
+    """Least squares of both at once: x = (Jᵀ W J)⁻¹ Jᵀ W (a, b), with J = (I, I)."""
+    P_ab = inputs["P_ab"]
+    joint = np.block([[inputs["P_a"], P_ab], [T(P_ab), inputs["P_b"]]])
+    J = np.vstack([np.eye(2), np.eye(2)])
+    JW = np.linalg.solve(joint, np.broadcast_to(J, (len(P_ab), 4, 2)))
+    P = np.linalg.inv(T(JW) @ J)
+    told = np.concatenate([inputs["a"], inputs["b"]], axis=1)[:, :, None]
+    return {"x": (P @ T(JW) @ told)[:, :, 0], "P": P}
+
+
+def _innovation(inputs):
+    """What b − a is unsure by, and what it shares with the error of a."""
+    S = inputs["P_a"] + inputs["P_b"] - inputs["P_ab"] - T(inputs["P_ab"])
+    return {"S": S, "S_xv": inputs["P_a"] - inputs["P_ab"]}
+
+
+FUSE = Task(
+    id="07-fuse",
+    title="Two estimates that share an error",
+    drive=DRIVES["07-fuse"],
+    inputs=_drawn,
+    shapes={"x": (None, 2), "P": (None, 2, 2)},
+    probes=(
+        Probe("errors that share nothing", lambda rng: _drawn(rng, 3, shared=False)),
+        Probe("errors that share nearly everything", _nearly_one),
+        Probe("b a worse copy of a", _worse_copy),
+        Probe("errors that are opposed", _opposed),
+        Probe("numbers in mm", lambda rng: _drawn(rng, 3, unit=1e3)),
+    ),
+    laws=(
+        equals(
+            "best",
+            2,
+            "x is the best that any weighting of a and b can make: that of least squares",
+            lambda inputs: {"x": _best(inputs)["x"]},
+            tolerance=EXACT,
+            asks="Multiply out E[(ã − b̃)(ã − b̃)ᵀ] and E[ã (ã − b̃)ᵀ]: how often does P_ab stand in each?",
+            step=_innovation,
+        ),
+        equals(
+            "honest",
+            2,
+            "P is the covariance that the error of this x really has",
+            lambda inputs: {"P": _best(inputs)["P"]},
+            tolerance=EXACT,
+            asks="What is left of the error of a when its share in b − a is taken away?",
+            step=_innovation,
+        ),
+    ),
+)
