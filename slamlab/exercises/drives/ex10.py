@@ -1,17 +1,17 @@
-"""Drives of exercise 10: boxes clipped, headings sharpened, rows of sightings taken in."""
+"""Drives of exercise 10: drives and sightings one by one, and None where nothing is left."""
 
 import numpy as np
 
 from slamlab.exercises.drives import Drive, StudentError, numbers, rows
 
 
-def clips(functions, inputs):
-    """Call clip on every box and edge; None is an answer, too.
+def rings(functions, inputs):
+    """Call ring on every pair of boxes; None is an answer, too.
 
     Parameters
     ----------
-    functions : "clip"
-    inputs : boxes box (n, 4), half-planes edge (n, 3)
+    functions : "ring"
+    inputs : boxes robot, box (n, 4), range and bound (n,)
 
     Returns
     -------
@@ -21,51 +21,38 @@ def clips(functions, inputs):
     ------
     StudentError : "malformed" when a result is neither None nor four numbers
     """
-    found = [functions["clip"](*row) for row in rows(inputs)]
+    found = [functions["ring"](*row) for row in rows(inputs)]
     left = np.array([box is not None for box in found], dtype=float)
-    boxes = [np.zeros(4) if box is None else _sized(box, "clip", 4) for box in found]
-    return {"left": left, "box": np.array(boxes)}
+    boxes = [np.zeros(4) if box is None else _sized(box, "ring", 4) for box in found]
+    return {"left": left, "box": np.array(boxes).reshape(-1, 4)}
 
 
 def looks(functions, inputs):
-    """Let each robot look at its objects in turn, what it believes handed on from sight to sight.
+    """Let every robot look round once.
 
     Parameters
     ----------
-    functions : "see"
-    inputs : robot (n, 4), heading (n, 2), objects (n, m, 4), and of s sightings which (n, s),
-        z (n, s, 2); bounds (n, 2)
+    functions : "narrow"
+    inputs : robot (n, 4), heading (n, 2), objects (n, m, 2), z (n, m, 2), bounds (n, 2)
 
     Returns
     -------
-    {"robot": (n, s, 4), "heading": (n, s, 2), "object": (n, s, 4)} after each sighting; "left":
-    (n, s) 1 until see returned None, after which a run is over and all is zero
+    {"robot": (n, 4), "heading": (n, 2)}
 
     Raises
     ------
-    StudentError : "malformed" when a call returns neither None nor a box, a heading and a box
+    StudentError : "malformed" when a call returns no box and heading
     """
-    n, s = inputs["which"].shape
-    found = {"robot": np.zeros((n, s, 4)), "heading": np.zeros((n, s, 2))}
-    found |= {"object": np.zeros((n, s, 4)), "left": np.zeros((n, s))}
-    for run, (robot, heading, objects, which, z, bounds) in enumerate(rows(inputs)):
-        for k, (i, sight) in enumerate(zip(which.astype(int), z, strict=True)):
-            before = robot.copy(), heading.copy(), objects[i].copy()
-            after = functions["see"](*before, sight.copy(), bounds.copy())
-            if after is None:
-                break
-            robot, heading, objects[i] = _believed(after)
-            for name, value in (("robot", robot), ("heading", heading), ("object", objects[i])):
-                found[name][run, k] = value
-            found["left"][run, k] = 1
-    return found
+    found = [_believed(functions["narrow"](*row)) for row in rows(inputs)]
+    return {
+        name: np.array([pair[k] for pair in found]) for k, name in enumerate(("robot", "heading"))
+    }
 
 
 def _believed(result):
-    if not isinstance(result, tuple | list) or len(result) != 3:
-        raise StudentError("malformed", "see must end with: return robot, heading, box")
-    sizes = zip(result, ("robot", "heading", "box"), (4, 2, 4), strict=True)
-    return [_sized(value, f"see's {name}", size) for value, name, size in sizes]
+    if not isinstance(result, tuple | list) or len(result) != 2:
+        raise StudentError("malformed", "narrow must end with: return robot, heading")
+    return _sized(result[0], "narrow's robot", 4), _sized(result[1], "narrow's heading", 2)
 
 
 def _sized(value, what, size):
@@ -78,7 +65,7 @@ def _sized(value, what, size):
 DRIVES = {
     "10-predict": Drive(("predict",)),
     "10-edges": Drive(("edges",)),
-    "10-clip": Drive(("clip",), run=clips),
     "10-heading": Drive(("sharpen",)),
-    "10-see": Drive(("see",), run=looks),
+    "10-ring": Drive(("ring",), run=rings),
+    "10-narrow": Drive(("narrow",), run=looks, seconds=20.0),
 }
