@@ -1095,5 +1095,5 @@ for n, lives in ((1, 3), (2, 3), (3, 3), (5, 3), (3, 1), (3, 40)):
 # **Next:** [lesson 09](09_slam_with_walls.ipynb) puts it together: the whole of Smolec's system,
 # live, through both situations, and its flaws one by one, measured.
 #
-# **Exercise:** [fit a line, find one among outliers, meet in a corner, observe, and
-# pair](../exercises/08_landmarks_from_scans.ipynb).
+# **Exercise:** [fit a line, meet in a corner, pair, find pillars, and take a whole scan
+# apart](../exercises/08_landmarks_from_scans.ipynb).

@@ -1,72 +1,8 @@
-"""Drives of exercise 08: lines and pairs come back as tuples, a wall or none, lists with gaps."""
+"""Drives of exercise 08: pairs come back as tuples, a pillar or none, lists with gaps."""
 
 import numpy as np
 
 from slamlab.exercises.drives import Drive, StudentError, numbers, rows
-
-
-def fitted(functions, inputs):
-    """Call fit_line on every cloud and on the same cloud turned.
-
-    Parameters
-    ----------
-    functions : "fit_line"
-    inputs : points (n, k, 2), turned (n, k, 2)
-
-    Returns
-    -------
-    {"line": (n, 2), "again": (n, 2)}
-
-    Raises
-    ------
-    StudentError : "malformed" when a call does not return two numbers
-    """
-    fit_line = functions["fit_line"]
-    return {
-        output: np.array([_array(fit_line(p.copy()), "fit_line", (2,)) for p in inputs[name]])
-        for output, name in (("line", "points"), ("again", "turned"))
-    }
-
-
-def found(functions, inputs):
-    """Call find_wall on every cloud, each with a generator of its own.
-
-    Parameters
-    ----------
-    functions : "find_wall", and "fit_line", which it calls
-    inputs : points (n, k, 2), band, needed, tries, seed (n,)
-
-    Returns
-    -------
-    {"found": (n,) 0 or 1, "line": (n, 2), "inside": (n, k)}; zeros where there is no wall
-
-    Raises
-    ------
-    StudentError : "malformed" when a call returns neither None nor two numbers and a mask
-    """
-    count, k = inputs["points"].shape[:2]
-    out = {"found": np.zeros(count), "line": np.zeros((count, 2)), "inside": np.zeros((count, k))}
-    for row, (points, band, needed, tries, seed) in enumerate(rows(inputs)):
-        rng = np.random.default_rng(int(seed))
-        wall = functions["find_wall"](points, band, int(needed), int(tries), rng)
-        if wall is None:
-            continue
-        if not isinstance(wall, tuple | list) or len(wall) != 3:
-            raise StudentError("malformed", "find_wall must return rho, alpha, inside, or None")
-        out["found"][row] = 1
-        out["line"][row] = _array(wall[:2], "find_wall's rho, alpha", (2,))
-        out["inside"][row] = _mask(wall[2], k)
-    return out
-
-
-def _mask(inside, k):
-    """Which points were taken, from a mask or from a list of rows."""
-    array = numbers(inside, "find_wall's inside")
-    if array.shape != (k,) or not np.isin(array, [0, 1]).all():
-        raise StudentError(
-            "malformed", f"find_wall's inside is a bool for each point: shape ({k},), True or False"
-        )
-    return array
 
 
 def cornered(functions, inputs):
@@ -85,35 +21,10 @@ def cornered(functions, inputs):
     ------
     StudentError : "malformed" when a call does not return two arrays of these shapes
     """
-    pairs = [_pair(functions["corner"](*row), "corner", "p, P") for row in rows(inputs)]
+    pairs = [_parts(functions["corner"](*row), "corner", "p, P") for row in rows(inputs)]
     return {
         "p": np.array([_array(p, "corner's p", (2,)) for p, _ in pairs]),
         "P": np.array([_array(P, "corner's P", (2, 2)) for _, P in pairs]),
-    }
-
-
-def observed(functions, inputs):
-    """Call h_line and H_lines on every pose and line.
-
-    Parameters
-    ----------
-    functions : "h_line" and "H_lines"
-    inputs : x (n, 3), line (n, 2)
-
-    Returns
-    -------
-    {"z": (n, 2), "H_r": (n, 2, 3), "H_p": (n, 2, 2)}
-
-    Raises
-    ------
-    StudentError : "malformed" when a result is no array of that shape
-    """
-    z = [_array(functions["h_line"](*row), "h_line", (2,)) for row in rows(inputs)]
-    pairs = [_pair(functions["H_lines"](*row), "H_lines", "H_r, H_p") for row in rows(inputs)]
-    return {
-        "z": np.array(z),
-        "H_r": np.array([_array(H_r, "H_lines' H_r", (2, 3)) for H_r, _ in pairs]),
-        "H_p": np.array([_array(H_p, "H_lines' H_p", (2, 2)) for _, H_p in pairs]),
     }
 
 
@@ -133,7 +44,7 @@ def associated(functions, inputs):
     ------
     StudentError : "malformed" when a call does not return m whole numbers below N, or None
     """
-    count, walls = inputs["z"].shape[1], inputs["expected"].shape[1]
+    (n, count), walls = inputs["z"].shape[:2], inputs["expected"].shape[1]
     out = []
     for row in rows(inputs):
         pairs = functions["associate"](*row)
@@ -144,7 +55,7 @@ def associated(functions, inputs):
                 "malformed", f"associate returned {len(pairs)} entries for {count} sightings"
             )
         out.append([-1 if entry is None else _number(entry, walls) for entry in pairs])
-    return {"pairs": np.array(out, dtype=float)}
+    return {"pairs": np.array(out, dtype=float).reshape(n, count)}
 
 
 def _number(entry, walls):
@@ -156,7 +67,82 @@ def _number(entry, walls):
     return float(number)
 
 
-def _pair(value, function, names):
+def pillars(functions, inputs):
+    """Call fit_circle on every arc, and find_pillar on every cloud, each with its own generator.
+
+    Parameters
+    ----------
+    functions : "fit_circle", "find_pillar"
+    inputs : arc (n, j, 2), points (n, k, 2), band, largest, needed, tries, seed (n,)
+
+    Returns
+    -------
+    {"circle": (n, 3), "found": (n,) 0 or 1, "pillar": (n, 3), "inside": (n, k)}; the last two are
+    zeros where there is none
+
+    Raises
+    ------
+    StudentError : "malformed" when a call returns something else
+    """
+    n, k = inputs["points"].shape[:2]
+    circle = [_circle(functions["fit_circle"](arc.copy()), "fit_circle") for arc in inputs["arc"]]
+    out = {"found": np.zeros(n), "pillar": np.zeros((n, 3)), "inside": np.zeros((n, k))}
+    clouds = {name: array for name, array in inputs.items() if name != "arc"}
+    for row, (points, band, largest, needed, tries, seed) in enumerate(rows(clouds)):
+        rng = np.random.default_rng(int(seed))
+        found = functions["find_pillar"](points, band, largest, int(needed), int(tries), rng)
+        if found is None:
+            continue
+        if not isinstance(found, tuple | list) or len(found) != 3:
+            raise StudentError(
+                "malformed", "find_pillar must return centre, radius, inside, or None"
+            )
+        out["found"][row] = 1
+        out["pillar"][row] = _circle(found[:2], "find_pillar")
+        out["inside"][row] = _mask(found[2], k)
+    return {"circle": np.array(circle)} | out
+
+
+def _circle(value, function):
+    centre, radius = _parts(value, function, "centre, radius")
+    centre = _array(centre, f"{function}'s centre", (2,))
+    return np.append(centre, _array(radius, f"{function}'s radius", ()))
+
+
+def _mask(inside, k):
+    array = numbers(inside, "find_pillar's inside")
+    if array.shape != (k,) or not np.isin(array, [0, 1]).all():
+        raise StudentError(
+            "malformed",
+            f"find_pillar's inside is a bool for each point: shape ({k},), True or False",
+        )
+    return array
+
+
+def segmented(functions, inputs):
+    """Call segment on every scan.
+
+    Parameters
+    ----------
+    functions : "segment"
+    inputs : points (n, k, 2), share (n,)
+
+    Returns
+    -------
+    {"labels": (n, k)}
+
+    Raises
+    ------
+    StudentError : "malformed" when a call does not return k whole numbers from −1 on
+    """
+    k = inputs["points"].shape[1]
+    labels = [_array(functions["segment"](*row), "segment", (k,)) for row in rows(inputs)]
+    if any((one != np.floor(one)).any() or (one < -1).any() for one in labels):
+        raise StudentError("malformed", "segment: labels are whole numbers from 0 on, or −1")
+    return {"labels": np.array(labels)}
+
+
+def _parts(value, function, names):
     if not isinstance(value, tuple | list) or len(value) != 2:
         raise StudentError("malformed", f"{function} must end with: return {names}")
     return value
@@ -170,9 +156,9 @@ def _array(value, what, shape):
 
 
 DRIVES = {
-    "08-fit-line": Drive(("fit_line",), run=fitted),
-    "08-ransac": Drive(("find_wall",), run=found),
+    "08-fit-line": Drive(("fit_line",)),
     "08-corner": Drive(("corner",), run=cornered),
-    "08-h-line": Drive(("h_line", "H_lines"), run=observed),
     "08-associate": Drive(("associate",), run=associated),
+    "08-pillar": Drive(("fit_circle", "find_pillar"), run=pillars),
+    "08-segments": Drive(("segment",), run=segmented),
 }

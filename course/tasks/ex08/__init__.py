@@ -1,0 +1,1 @@
+"""Programs of exercise 08: right ways through its tasks, and mistakes."""

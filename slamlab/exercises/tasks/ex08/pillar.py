@@ -1,0 +1,210 @@
+"""Task 08-pillar: a circle by linear least squares, and the one that most readings agree on."""
+
+import numpy as np
+
+from slamlab.exercises.drives.ex08 import DRIVES
+from slamlab.exercises.law import Law, equals
+from slamlab.exercises.task import Probe, Task
+from slamlab.exercises.tasks.ex08.lines import across, direction
+
+BAND, LARGEST, NEEDED = 0.04, 0.5, 16  # [m], [m]
+TRIES = 60
+"""A guess gets the whole pillar with a chance of 0.29 or more where 30 of 42 readings are of it: that
+none of these many does is less likely than 1e-8. Elsewhere the number is chosen alike."""
+CLEAR = 2 * LARGEST + 2 * BAND
+"""No reading of a wall is nearer to the pillar [m]: no circle that may be found has readings of both."""
+NEAR = 0.12, 0.18
+"""So far off the circle are the other readings about a pillar, within and without [m]: no circle that
+has the whole arc within the band has one of these."""
+GUESSES = 300  # of the judge's own, which are always the same
+
+
+def arcs(rng, n, k, noise=0.01, half=1.3, radius=(0.25, 0.45), away=(1.5, 4.0)):
+    """(n, k, 2) readings of pillars on the side that is seen, their centres (n, 2), radii (n,)."""
+    bearing, r = rng.uniform(-np.pi, np.pi, n), rng.uniform(*radius, n)
+    centre = rng.uniform(*away, (n, 1)) * direction(bearing)
+    turn = np.linspace(-half, half, k) + rng.uniform(-0.5, 0.5, (n, k)) * half / k
+    off = r[:, None] + noise * rng.uniform(-1, 1, (n, k))
+    return centre[:, None] - off[..., None] * direction(bearing[:, None] + turn), centre, r
+
+
+def _wall(rng, centre, radius, k):
+    """(k, 2) readings of a wall that passes behind a pillar."""
+    bearing = np.arctan2(centre[1], centre[0]) + rng.uniform(-0.4, 0.4)
+    rho = centre @ direction(bearing) + radius + CLEAR + rng.uniform(0.0, 0.4)
+    normal = direction(bearing)
+    along = centre @ across(normal) + np.linspace(-1.6, 1.6, k) + rng.uniform(-0.05, 0.05, k)
+    return rho * normal + along[:, None] * across(normal) + rng.uniform(-0.01, 0.01, (k, 2))
+
+
+def clouds(rng, kinds, tries=TRIES, arc=7):
+    """Readings with a pillar among them, or none, in no order; and arcs to fit a circle to.
+
+    Parameters
+    ----------
+    rng : numpy.random.Generator
+    kinds : for each cloud how many readings are of the pillar, of a wall, and near the pillar
+    tries, arc : int, guesses, and readings of an arc
+    """
+    points, needed = [], []
+    for on, behind, loose in kinds:
+        pillar, (centre,), (radius,) = arcs(rng, 1, max(on, 1), noise=0.0015)
+        seen = np.arctan2(*-centre[::-1]) + rng.uniform(-0.7, 0.7, loose)
+        off = rng.choice([-1.0, 1.0], (loose, 1)) * rng.uniform(*NEAR, (loose, 1))
+        others = centre + (radius + off) * direction(seen)
+        points.append(
+            rng.permutation(np.vstack([pillar[0, :on], _wall(rng, centre, radius, behind), others]))
+        )
+        needed.append(float(min(NEEDED, max(len(points[-1]), 3))))
+    n = len(kinds)
+    return {
+        "arc": arcs(rng, n, arc)[0],
+        "points": np.array(points),
+        "band": np.full(n, BAND),
+        "largest": np.full(n, LARGEST),
+        "needed": np.array(needed),
+        "tries": np.full(n, float(tries)),
+        "seed": rng.integers(0, 2**31, n).astype(float),
+    }
+
+
+def mixed(rng):
+    """Pillars before walls; and walls and loose readings, but no pillar."""
+    return clouds(rng, [(30, 8, 4)] * 4 + [(0, 32, 10)] * 2)
+
+
+def _few(rng):
+    """One reading, or two, of which no circle can be made."""
+    return clouds(rng, [(2, 0, 0)] * 2)
+
+
+def _on_a_grid(rng):
+    """A pillar, and a wall whose readings lie exactly on one line."""
+    found = clouds(rng, [(30, 0, 0)] * 2, 90)
+    wall = np.column_stack([np.full(20, 6.0), np.arange(-10, 10) * 0.5])
+    found["points"] = np.concatenate([found["points"], np.tile(wall, (2, 1, 1))], axis=1)
+    return found
+
+
+def circles(points):
+    """(n, 3) centres and radii of least squares of 2 c·p + d = |p|², for points (n, k, 2)."""
+    middle = points.mean(axis=1, keepdims=True)  # to solve it there is the same, and rounds less
+    p = points - middle
+    A = np.concatenate([2 * p, np.ones((*p.shape[:2], 1))], axis=-1)
+    c = np.einsum("nik,nk->ni", np.linalg.pinv(A, rcond=1e-9), np.square(p).sum(axis=-1))
+    radius = np.sqrt(np.maximum(c[:, 2] + np.square(c[:, :2]).sum(axis=-1), 0))
+    return np.column_stack([c[:, :2] + middle[:, 0], radius])
+
+
+def _through(three):
+    """Centres (n, 2) and radii (n,) of the circles through three points (n, 3, 2)."""
+    a, b = three[:, 1] - three[:, 0], three[:, 2] - three[:, 0]
+    twice = 2 * (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])  # 0 on one line: then nothing is near
+    aa, bb = (np.square(side).sum(axis=1, keepdims=True) for side in (a, b))
+    with np.errstate(all="ignore"):
+        centre = (across(a) * bb - across(b) * aa) / twice[:, None]
+    return three[:, 0] + centre, np.linalg.norm(centre, axis=1)
+
+
+def most(inputs):
+    """(n, k) bool, the readings on the circle that most agree on; none where too few do."""
+    rng, found = np.random.default_rng(8), []
+    for points, band, largest, needed in zip(
+        *(inputs[name] for name in ("points", "band", "largest", "needed")), strict=True
+    ):
+        inside = np.zeros((1, len(points)), dtype=bool)
+        if len(points) >= 3:
+            three = rng.random((GUESSES, len(points))).argsort(axis=1)[:, :3]
+            centre, radius = _through(points[three])
+            off = np.linalg.norm(points - centre[:, None], axis=-1) - radius[:, None]
+            inside = (np.abs(off) <= band) & (radius <= largest)[:, None]
+        best = inside[inside.sum(axis=1).argmax()]
+        found.append(best & (best.sum() >= needed))
+    return np.array(found)
+
+
+def _found(inputs):
+    inside = most(inputs).astype(float)
+    return {"found": inside.any(axis=1).astype(float), "inside": inside}
+
+
+def _refitted(inputs, outputs):
+    """The circle is that of the points that are said to be inside, whichever these are."""
+    good = []
+    for points, circle, inside in zip(
+        inputs["points"], outputs["pillar"], outputs["inside"].astype(bool), strict=True
+    ):
+        enough = inside.sum() >= 3
+        good.append(enough and np.abs(circles(points[None, inside])[0] - circle).max() < 1e-6)
+    return np.where(most(inputs).any(axis=1), good, outputs["found"] == 0)
+
+
+def _why_not(inputs, outputs):
+    for points, circle, inside in zip(
+        inputs["points"], outputs["pillar"], outputs["inside"].astype(bool), strict=True
+    ):
+        if inside.sum() >= 3:
+            best = circles(points[None, inside])[0]
+            if np.abs(best - circle).max() >= 1e-6:
+                return (
+                    f"centre and radius are {circle.round(3)}, of its own readings {best.round(3)}"
+                )
+    return "there is no circle where there is one, or one where there is none"
+
+
+PILLAR = Task(
+    id="08-pillar",
+    title="A round pillar among other readings",
+    drive=DRIVES["08-pillar"],
+    inputs=mixed,
+    shapes=lambda inputs: {
+        "circle": (len(inputs["arc"]), 3),
+        "found": inputs["points"].shape[:1],
+        "pillar": (len(inputs["points"]), 3),
+        "inside": inputs["points"].shape[:2],
+    },
+    laws=(
+        equals(
+            "circle",
+            1.5,
+            "fit_circle solves 2 c·p + d = |p|² for c and d with the least sum of squares",
+            lambda inputs: {"circle": circles(inputs["arc"])},
+            asks="Which numbers stand before c_x, c_y and d in the equation of one point? What is the "
+            "radius, once c and d are known?",
+        ),
+        equals(
+            "inside",
+            2,
+            "inside are the readings of the pillar, all of them and no others",
+            _found,
+            asks="Which circles must not stand for election at all? And of the others, who wins?",
+        ),
+        Law(
+            "refitted",
+            1,
+            "centre and radius are those of fit_circle on the points inside",
+            _refitted,
+            why=_why_not,
+            asks="Three readings made the guess. How many know now where the pillar is?",
+        ),
+    ),
+    probes=(
+        Probe("three points", lambda rng: clouds(rng, [(3, 0, 0)] * 6, tries=1, arc=3)),
+        Probe("fewer than three points", _few, ("inside", "refitted")),
+        Probe("a wall exactly on one line", _on_a_grid, ("inside", "refitted")),
+        Probe(
+            "more readings of a wall than of the pillar",
+            lambda rng: clouds(rng, [(24, 26, 0)], 230),
+        ),
+        Probe("many readings near the pillar", lambda rng: clouds(rng, [(24, 0, 16)] * 2, 120)),
+        Probe("a hundred readings", lambda rng: clouds(rng, [(75, 21, 4)], 48, arc=100)),
+        Probe(
+            "a pillar whose readings are just as many as needed",
+            lambda rng: clouds(rng, [(16, 2, 2)], 40),
+        ),
+        Probe(
+            "a pillar with one reading less than needed", lambda rng: clouds(rng, [(15, 3, 2)], 40)
+        ),
+    ),
+    rounds=False,
+)
