@@ -996,8 +996,8 @@ views.explore(
 # You have reached the end of the course: from wheels that lie (lesson 01) to a map of a real
 # building that agrees with its walls to centimetres.
 #
-# **Exercise:** [an edge's error, its Jacobians, a step of Gauss and Newton, robust weights and a
-# cell of a map](../exercises/15_closing_the_loop.ipynb).
+# **Exercise:** [an edge's error, its Jacobians, a step of Gauss and Newton, an edge by radio and a
+# map in spite of liars](../exercises/15_closing_the_loop.ipynb).
 #
 # **Next:** your own robot. [Lesson 00](00_start_here.ipynb) says where help is; `slamlab run` takes
 # your own logs, as CARMEN, BreezySLAM or ROS bags.

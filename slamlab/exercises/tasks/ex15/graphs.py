@@ -5,41 +5,49 @@ The law needs no H: it solves the same least squares by an orthogonal decomposit
 
 import numpy as np
 
+from slamlab.exercises.task import Probe
+from slamlab.exercises.tasks.ex15.edges import sized
 from slamlab.geometry import between, compose, wrap
 from slamlab.posegraph.edge_error import error
 from slamlab.posegraph.edge_jacobians import J_i, J_j
 
-GRAPHS, POSES = 3, 5
-PAIRS = np.array([[0, 1], [1, 2], [2, 3], [3, 4], [4, 0], [1, 3]])
+STILL = 1e-6  # [rad]; less of a turn is rounding
+RING = [(0, 1), (1, 2), (2, 3), (3, 4), (4, 0), (1, 3)]
 
 
-def graphs(rng):
-    """Graphs of a chain, a loop and a shortcut; in each a heading crosses π in the first step.
+def graphs(rng, count=3, pairs=RING, noise=1.0, off=1.0):
+    """Graphs over the same pairs of poses; in each a heading crosses π in the first step.
+
+    Parameters
+    ----------
+    rng : numpy.random.Generator
+    count : int
+    pairs : list of (i, j)
+    noise, off : float, sizes of the errors of measurements and of the poses' first guess
 
     Returns
     -------
-    dict of poses (g, n, 3), pairs (g, m, 2), measured (g, m, 3) and information (g, m, 3, 3)
+    dict of poses (count, n, 3), pairs (count, m, 2), measured (count, m, 3) and information
+    (count, m, 3, 3)
     """
-    made = [_one(rng) for _ in range(GRAPHS)]
+    made = [_one(rng, np.array(pairs), noise, off) for _ in range(count)]
     return {name: np.array([graph[name] for graph in made]) for name in made[0]}
 
 
-def _one(rng):
-    steps = np.column_stack([rng.uniform(0.8, 2, POSES - 1), rng.uniform(-0.6, 0.6, POSES - 1)])
-    steps = np.column_stack([steps, rng.choice([-1, 1]) * rng.uniform(0.4, 1.1, POSES - 1)])
+def _one(rng, pairs, noise, off):
+    n, m = pairs.max() + 1, len(pairs)
+    steps = np.column_stack([rng.uniform(0.8, 2, n - 1), rng.uniform(-0.6, 0.6, n - 1)])
+    steps = np.column_stack([steps, rng.choice([-1, 1]) * rng.uniform(0.4, 1.1, n - 1)])
     truth = [np.append(rng.uniform(1, 3, 2), rng.uniform(-2, 2))]
     for step in steps:
         truth.append(compose(truth[-1], step))
     truth = np.array(truth)
-    i, j = PAIRS.T
-    noise = rng.uniform(0.03, 0.15, (len(PAIRS), 3)) * rng.choice([-1, 1], (len(PAIRS), 3))
-    measured = compose(between(truth[i], truth[j]), noise)
-    guess = rng.uniform(0.1, 0.3, truth.shape) * rng.choice([-1, 1], truth.shape)
+    i, j = pairs.T
     graph = {
-        "poses": compose(truth, guess),
-        "pairs": PAIRS,
-        "measured": measured,
-        "information": np.array([_information(rng) for _ in PAIRS]),
+        "poses": compose(truth, off * sized(rng, 0.1, 0.3, truth.shape)),
+        "pairs": pairs,
+        "measured": compose(between(truth[i], truth[j]), noise * sized(rng, 0.03, 0.15, (m, 3))),
+        "information": np.array([_information(rng) for _ in pairs]),
     }
     return graph | {"poses": _across(rng, graph)}
 
@@ -47,7 +55,7 @@ def _one(rng):
 def _information(rng):
     """The inverse of a covariance, no diagonal one [1/m², 1/rad²]."""
     sigma = rng.uniform(0.3, 1.6, 3)
-    mixed = np.eye(3) + rng.uniform(0.2, 0.5, (3, 3)) * rng.choice([-1, 1], (3, 3))
+    mixed = np.eye(3) + sized(rng, 0.2, 0.5, (3, 3))
     return np.linalg.inv(mixed @ np.diag(sigma**2) @ mixed.T)
 
 
@@ -56,6 +64,8 @@ def _across(rng, graph):
     poses = graph["poses"]
     steps = best(**graph)[:, 2]
     k = 1 + int(np.argmax(np.abs(steps[1:])))
+    if np.abs(steps[k]) < STILL:
+        return poses
     edge = np.pi if steps[k] > 0 else -np.pi
     share = rng.uniform(0.3, 0.7)
     turn = np.array([0, 0, wrap(float(edge - share * steps[k] - poses[k, 2]))])
@@ -63,19 +73,7 @@ def _across(rng, graph):
 
 
 def whitened(poses, pairs, measured, information):
-    """J and r of one graph such that the linearised cost is |J δ + r|².
-
-    Parameters
-    ----------
-    poses : (n, 3)
-    pairs : (m, 2) int
-    measured : (m, 3)
-    information : (m, 3, 3)
-
-    Returns
-    -------
-    (3m, 3n), (3m,)
-    """
+    """J (3m, 3n) and r (3m,) of one graph such that the linearised cost is |J δ + r|²."""
     i, j = np.asarray(pairs, dtype=int).T
     at, edge = (poses[i], poses[j], measured), np.arange(len(i))
     U = np.linalg.cholesky(information).swapaxes(1, 2)
@@ -95,3 +93,17 @@ def best(poses, pairs, measured, information):
 def each(function, inputs):
     """A function of one graph, for all of them."""
     return np.array([function(*row) for row in zip(*inputs.values(), strict=True)])
+
+
+BACK = [(1, 0), (2, 1), (3, 2), (3, 0)]
+TWICE = [(0, 1), (0, 1), (1, 2), (2, 1), (0, 2)]
+LONG = [(k, k + 1) for k in range(8)] + [(8, 0), (7, 1), (2, 6), (5, 3)]
+
+PROBES = (
+    Probe("two poses and one edge", lambda rng: graphs(rng, 2, [(0, 1)])),
+    Probe("edges that point back", lambda rng: graphs(rng, 2, BACK)),
+    Probe("several edges between the same poses", lambda rng: graphs(rng, 2, TWICE)),
+    Probe("nine poses, edges in any order", lambda rng: graphs(rng, 1, rng.permutation(LONG))),
+    Probe("a chain without a loop", lambda rng: graphs(rng, 1, RING[:4])),
+    Probe("poses that are best already", lambda rng: graphs(rng, 1, noise=0.0, off=0.0)),
+)
