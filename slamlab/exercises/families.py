@@ -1,13 +1,16 @@
 """Families of small mistakes that need no name of their own, with what is said of each."""
 
 FAMILIES = {
-    "sign": "A sign is turned: with one + for a −, or one − for a +, a right solution gives exactly "
+    "sign": "A sign is turned: with one + for a −, or one − for a +, a right solution gives "
+    "exactly "
     "your numbers.",
-    "factor": "A number is off: with one constant larger or smaller, a right solution gives exactly "
+    "factor": "A number is off: with one constant larger or smaller, a right solution gives "
+    "exactly "
     "your numbers.",
     "square": "A square or a root is missing or too many: variances are σ², and C, R and P hold "
     "variances.",
-    "transpose": "One matrix is transposed, or lacks its transpose: A P Aᵀ and Aᵀ P A have the same "
+    "transpose": "One matrix is transposed, or lacks its transpose: A P Aᵀ and Aᵀ P A have the "
+    "same "
     "shape only where A is square.",
     "order": "Two things stand in the wrong order: two factors of a product, the two sides of a "
     "difference, or the arguments of a function.",

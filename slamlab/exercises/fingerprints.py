@@ -33,7 +33,8 @@ class Table:
     parts : names of the parts
     prints : (n, parts, SIZE), NaN where a program has no such part
     labels : (n,) int
-    names : name of each label: ``RIGHT``, then slips in the order of their precedence, then families
+    names : name of each label: ``RIGHT``, then slips in the order of their precedence, then
+    families
     hints : the hint of each label, empty for ``RIGHT``
     slips : int, labels from 1 to this one are slips
     """
@@ -105,8 +106,8 @@ def recognise(task, sets, answers) -> Diagnosis | None:
     """Name the mistake that explains an answer, if exactly one does.
 
     One program that computes all of it explains it best; else one that computes all that is wrong.
-    Where none does there are several mistakes, and the first part that one explains is told. Slips go
-    before families; two families explain nothing.
+    Where none does there are several mistakes, and the first part that one explains is told.
+    Slips go before families; two families explain nothing.
 
     Parameters
     ----------

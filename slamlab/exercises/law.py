@@ -1,4 +1,5 @@
-"""Law and diagnosis: a property that every correct solution has, and a classic mistake with its hint."""
+"""Law and diagnosis: a property that every correct solution has, and a classic mistake with its
+hint."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -8,7 +9,8 @@ import numpy as np
 from slamlab.exercises.drives import Arrays
 
 TOLERANCE = 1e-5
-"""Share of the largest number wanted: differences of a model err by 1e-6, wrong forms by far more."""
+"""Share of the largest number wanted: differences of a model err by 1e-6, wrong forms by far
+more."""
 ROUNDING = 1e-9
 """What numbers of order 1 may be off by rounding alone."""
 
@@ -43,7 +45,8 @@ class Law:
 
 @dataclass(frozen=True)
 class Diagnosis:
-    """A diagnosis: a mistake that is told by a property of random or tolerated outputs, and its hint.
+    """A diagnosis: a mistake that is told by a property of random or tolerated outputs, and its
+    hint.
 
     Parameters
     ----------

@@ -1,4 +1,5 @@
-"""Outputs of a student's functions, measured before they are judged: shapes, numbers, degeneracy."""
+"""Outputs of a student's functions, measured before they are judged: shapes, numbers,
+degeneracy."""
 
 import numpy as np
 
@@ -82,9 +83,7 @@ def _malformed(function, shapes, inputs, outputs):
             if got[:1] != (count,):
                 return f"{what} answered {got[0] if got else 0} of {count} calls"
             got = got[1:]
-        if len(got) != len(want) or any(
-            w not in (None, g) for g, w in zip(got, want, strict=True)
-        ):
+        if len(got) != len(want) or any(w not in (None, g) for g, w in zip(got, want, strict=True)):
             turned = " (transposed?)" if got == want[::-1] else ""
             return f"{what} returned shape {got}, expected {_shape(want)}{turned}"
         longest = max((g for g, w in zip(got, want, strict=True) if w is None), default=0)

@@ -1,6 +1,7 @@
 """Task: random inputs and probes, a student's functions, and the laws their outputs are judged by.
 
-This is the autograder's side, the judge's. It never sees student code, only the arrays that came out of it.
+This is the autograder's side, the judge's. It never sees student code, only the arrays that came
+out of it.
 """
 
 import hashlib
@@ -24,13 +25,15 @@ UNCHANGED = Law(
     0.5,
     "the arguments are after the call what they were before it",
     lambda inputs, outputs: outputs[CHANGED].size == 0,
-    asks="Which line writes into an array that was given to the function? Where could it take a copy?",
+    asks="Which line writes into an array that was given to the function? Where could it take a "
+    "copy?",
 )
 """The law of every task: what is changed in place spoils what the caller does next."""
 
 IDLE = Diagnosis(
     "idle",
-    "Whatever it is given, the answer is the same or is one of the arguments: compute it from them.",
+    "Whatever it is given, the answer is the same or is one of the arguments: compute it from "
+    "them.",
     lambda inputs, outputs: True,
 )
 """Diagnosis of a degenerate answer: it may obey a law by chance, but earns nothing."""

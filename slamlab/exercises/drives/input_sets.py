@@ -1,4 +1,5 @@
-"""Sets of inputs of one task: the random ones and the probes, run one by one, sent in one message."""
+"""Sets of inputs of one task: the random ones and the probes, run one by one, sent in one
+message."""
 
 import numpy as np
 

@@ -6,7 +6,16 @@ from slamlab.exercises.drives.ex01 import DRIVES
 from slamlab.exercises.law import Diagnosis, Law
 from slamlab.exercises.task import Task
 from slamlab.exercises.tasks import ex01_inputs as make
-from slamlab.exercises.tasks.ex01_laws import DEGREES, SWAPPED, all_distances, on_one_line, place_of, same_direction, small, towards
+from slamlab.exercises.tasks.ex01_laws import (
+    DEGREES,
+    SWAPPED,
+    all_distances,
+    on_one_line,
+    place_of,
+    same_direction,
+    small,
+    towards,
+)
 
 
 def _placed(position):

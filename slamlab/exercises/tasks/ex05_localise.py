@@ -3,12 +3,22 @@
 import numpy as np
 
 from slamlab import models
+from slamlab.evaluation import nees
 from slamlab.exercises.drives.ex05 import DRIVES
 from slamlab.exercises.law import Diagnosis, Law
 from slamlab.exercises.task import Task
-from slamlab.exercises.tasks.ex05_batch import SHARE, deviations, each, gain, innovation, off_pose, same_covariance, sandwich, times
+from slamlab.exercises.tasks.ex05_batch import (
+    SHARE,
+    deviations,
+    each,
+    gain,
+    innovation,
+    off_pose,
+    same_covariance,
+    sandwich,
+    times,
+)
 from slamlab.exercises.tasks.ex05_runs import RUNS, STEPS, errors, runs
-from slamlab.evaluation import nees
 from slamlab.models import jacobians
 
 NEES = 3.0

@@ -8,7 +8,15 @@ from slamlab.exercises.law import Law
 from slamlab.exercises.task import Task
 from slamlab.exercises.tasks.ex04_laws import differences
 from slamlab.exercises.tasks.ex05_batch import deviations, each, same_covariance
-from slamlab.exercises.tasks.ex05_map_mistakes import all_updated, by_each, each_landmark, little_filter, made_by, pose_of_start, raw_R
+from slamlab.exercises.tasks.ex05_map_mistakes import (
+    all_updated,
+    by_each,
+    each_landmark,
+    little_filter,
+    made_by,
+    pose_of_start,
+    raw_R,
+)
 from slamlab.geometry import wrap
 
 MAPS = 3

@@ -3,7 +3,16 @@
 import numpy as np
 
 from slamlab.exercises.law import Diagnosis
-from slamlab.exercises.tasks.ex05_batch import deviations, gain, innovation, same_covariance, same_mean, sandwich, times, turned
+from slamlab.exercises.tasks.ex05_batch import (
+    deviations,
+    gain,
+    innovation,
+    same_covariance,
+    same_mean,
+    sandwich,
+    times,
+    turned,
+)
 
 
 def mean_of(state, name, hint, *wrong, rows=np.s_[:]):

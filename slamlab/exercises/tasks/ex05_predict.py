@@ -7,7 +7,15 @@ from slamlab.exercises.drives.ex05 import DRIVES
 from slamlab.exercises.law import Diagnosis, Law
 from slamlab.exercises.task import Task
 from slamlab.exercises.tasks.ex04_laws import NARROW, SAMPLE_TOLERANCE, WHITE
-from slamlab.exercises.tasks.ex05_batch import covariances, each, off_pose, same_covariance, sandwich, turned, variances
+from slamlab.exercises.tasks.ex05_batch import (
+    covariances,
+    each,
+    off_pose,
+    same_covariance,
+    sandwich,
+    turned,
+    variances,
+)
 from slamlab.geometry import wrap
 from slamlab.models import jacobians
 

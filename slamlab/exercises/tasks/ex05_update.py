@@ -7,7 +7,20 @@ from slamlab.exercises.drives.ex05 import DRIVES
 from slamlab.exercises.law import Law
 from slamlab.exercises.task import Task
 from slamlab.exercises.tasks.ex04_laws import by_landmark, by_robot
-from slamlab.exercises.tasks.ex05_batch import covariances, deviations, each, gain, innovation, placed, same_covariance, same_mean, sandwich, times, turned, variances
+from slamlab.exercises.tasks.ex05_batch import (
+    covariances,
+    deviations,
+    each,
+    gain,
+    innovation,
+    placed,
+    same_covariance,
+    same_mean,
+    sandwich,
+    times,
+    turned,
+    variances,
+)
 from slamlab.exercises.tasks.ex05_mistakes import covariance_of, diagnoses, mean_of
 from slamlab.geometry import wrap
 from slamlab.models import jacobians

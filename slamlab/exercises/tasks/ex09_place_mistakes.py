@@ -4,7 +4,14 @@ import numpy as np
 
 from slamlab.exercises.law import Diagnosis
 from slamlab.exercises.tasks.ex06.beliefs import T, sigmas
-from slamlab.exercises.tasks.ex09_place_sights import DEGREES, PARTS, ROWS, same_line, same_part, truth
+from slamlab.exercises.tasks.ex09_place_sights import (
+    DEGREES,
+    PARTS,
+    ROWS,
+    same_line,
+    same_part,
+    truth,
+)
 
 
 def _elsewhere(*formulas):

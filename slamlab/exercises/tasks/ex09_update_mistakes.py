@@ -4,7 +4,15 @@ import numpy as np
 
 from slamlab.exercises.law import Diagnosis
 from slamlab.exercises.tasks.ex06.beliefs import T, same_block
-from slamlab.exercises.tasks.ex09_update_sights import DEGREES, ROWS, N, innovation, pairs_of, same_state, slopes
+from slamlab.exercises.tasks.ex09_update_sights import (
+    DEGREES,
+    ROWS,
+    N,
+    innovation,
+    pairs_of,
+    same_state,
+    slopes,
+)
 from slamlab.geometry import wrap
 
 

@@ -5,7 +5,17 @@ import numpy as np
 from slamlab.exercises.drives.ex13 import DRIVES, ROUNDS
 from slamlab.exercises.law import Diagnosis, Law
 from slamlab.exercises.task import Task
-from slamlab.exercises.tasks.ex13_clouds import carried, either_sign, good_guess, is_best, landed, motion, nearest, outline, paired
+from slamlab.exercises.tasks.ex13_clouds import (
+    carried,
+    either_sign,
+    good_guess,
+    is_best,
+    landed,
+    motion,
+    nearest,
+    outline,
+    paired,
+)
 from slamlab.exercises.tasks.ex13_fit import fit
 
 SHARED = 36

@@ -7,7 +7,16 @@ from slamlab.exercises.law import Diagnosis, Law
 from slamlab.exercises.task import Task
 from slamlab.exercises.tasks.ex13_clouds import is_best, nudged
 from slamlab.exercises.tasks.ex13_fit import fit
-from slamlab.exercises.tasks.ex13_icp import SHAPES, SHARED, WRONG_SIDE, first_pairs, lands, one_pair, scene, stacked
+from slamlab.exercises.tasks.ex13_icp import (
+    SHAPES,
+    SHARED,
+    WRONG_SIDE,
+    first_pairs,
+    lands,
+    one_pair,
+    scene,
+    stacked,
+)
 
 CLUTTER = 14
 ROUNDINGS = (0, -1, 1)

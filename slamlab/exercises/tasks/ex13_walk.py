@@ -5,7 +5,14 @@ import numpy as np
 from slamlab.exercises.drives.ex13 import DRIVES, ROUNDS
 from slamlab.exercises.law import Diagnosis, Law
 from slamlab.exercises.task import Task
-from slamlab.exercises.tasks.ex13_clouds import carried, either_sign, good_guess, landed, motion, outline
+from slamlab.exercises.tasks.ex13_clouds import (
+    carried,
+    either_sign,
+    good_guess,
+    landed,
+    motion,
+    outline,
+)
 from slamlab.exercises.tasks.ex13_icp import stacked
 from slamlab.geometry import matrix
 from slamlab.scanmatching import point_to_point

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from slamlab.exercises.tasks.ex06.runs import least_squares, truth
 from slamlab.evaluation import band, nees
+from slamlab.exercises.tasks.ex06.runs import least_squares, truth
 from slamlab.filters.landmark_models import LINES
 from slamlab.geometry import wrap
 
@@ -73,7 +73,8 @@ class Ends:
         return holds
 
     def ratios(self, inputs, outputs):
-        """Least and largest variance of the mean P, in units of least squares', of all directions."""
+        """Least and largest variance of the mean P, in units of least squares', of all
+        directions."""
         P = self.of(inputs, outputs)[1]
         root = np.linalg.inv(np.linalg.cholesky(least_squares(inputs, self.kind)))
         ratios = np.linalg.eigvalsh(root @ P.mean(axis=0) @ root.T)
@@ -92,6 +93,7 @@ class Ends:
             return "the map does not hold each landmark once"
         least, largest = self.ratios(inputs, outputs)
         return (
-            f"in some direction P's variance is {least:.2g} times that of least squares, in another "
+            f"in some direction P's variance is {least:.2g} times that of least squares, in "
+            f"another "
             f"{largest:.2g} times"
         )

@@ -1,6 +1,7 @@
 """Task 06-false-sights: one sight in ten is false; a filter that believes all of them is lost.
 
-The truth is in no array: errors have the mean 0 over all runs, false sights too, which come in pairs.
+The truth is in no array: errors have the mean 0 over all runs, false sights too, which come in
+pairs.
 """
 
 import numpy as np
@@ -10,7 +11,7 @@ from slamlab.exercises.drives.ex06 import DRIVES
 from slamlab.exercises.law import Law
 from slamlab.exercises.task import Task
 from slamlab.exercises.tasks.ex06.beliefs import either_sign
-from slamlab.exercises.tasks.ex06.ends import MAP, Ends, whole
+from slamlab.exercises.tasks.ex06.ends import Ends, whole
 from slamlab.exercises.tasks.ex06.runs import EYES, RUNS, START, driven, measured
 from slamlab.filters.landmark_models import POINTS
 from slamlab.geometry import wrap
@@ -52,7 +53,8 @@ def error(inputs, outputs):
 
 
 def doubt(inputs, outputs):
-    """Mean NEES of the pose at the end, over all runs: 3 for a filter that errs as much as P says."""
+    """Mean NEES of the pose at the end, over all runs: 3 for a filter that errs as much as P
+    says."""
     x, P = ENDS.of(inputs, outputs)
     return nees(ENDS.errors(inputs, x)[:, :3], P[:, :3, :3]).mean()
 
@@ -69,8 +71,10 @@ def _step(name, points, says, error_below, doubt_below=np.inf):
         if not whole(inputs, outputs):
             return "the map does not hold each landmark once"
         found = error(inputs, outputs), doubt(inputs, outputs)
-        return "the robot's place errs by {:.2f} m (rms), the mean NEES of its pose is {:.3g}".format(
-            *found
+        return (
+            "the robot's place errs by {:.2f} m (rms), the mean NEES of its pose is {:.3g}".format(
+                *found
+            )
         )
 
     return Law(name, points, says, holds, why=why, asks=ASKS)
@@ -78,7 +82,8 @@ def _step(name, points, says, error_below, doubt_below=np.inf):
 
 ASKS = "How long is the innovation of a true sight, measured by what S expects? And of a false one?"
 
-# over 150 seeds a gate errs by 0.14–0.33 m with a NEES of 1.8–5.6; believing every sight by 0.41–0.99 m
+# over 150 seeds a gate errs by 0.14–0.33 m with a NEES of 1.8–5.6; believing every sight by
+# 0.41–0.99 m
 # with 47 at least; never updating by 0.54–1.19 m
 FALSE_SIGHTS = Task(
     id="06-false-sights",
@@ -88,7 +93,9 @@ FALSE_SIGHTS = Task(
     shapes={"x": (RUNS, None), "P": (RUNS, None, None), "ids": (RUNS, None)},
     rounds=False,
     laws=(
-        _step("better", 1, "over all runs, the robot's place errs by less than 55 cm at the end", 0.55),
+        _step(
+            "better", 1, "over all runs, the robot's place errs by less than 55 cm at the end", 0.55
+        ),
         _step("good", 1, "it errs by less than 45 cm", 0.45),
         _step("careful", 1, "and the mean NEES of its pose is below 15", 0.45, 15),
         _step("honest", 1, "which is below 8, where 3 is right", 0.45, 8),

@@ -12,7 +12,9 @@ from slamlab.geometry import wrap
 def twins(rng, rows=8, landmarks=4, later=False):
     """Beliefs in which landmarks i and j stand near each other; i may stand after j."""
     x, P = beliefs(rng, rows, landmarks)
-    pairs = [(i, j) for i in range(landmarks) for j in range(landmarks) if (i > j) == later and i != j]
+    pairs = [
+        (i, j) for i in range(landmarks) for j in range(landmarks) if (i > j) == later and i != j
+    ]
     i, j = np.array([pairs[k % len(pairs)] for k in range(rows)]).T
     for k in range(rows):
         apart = rng.uniform(0.05, 0.15, 2) * rng.choice([-1, 1], 2)
@@ -50,7 +52,10 @@ def _on_the_way(inputs):
     for k in rows:
         for landmark, sign in ((inputs["i"][k], 1), (inputs["j"][k], -1)):
             D[k, :, 3 + 2 * landmark : 5 + 2 * landmark] = sign * np.eye(2)
-    return {"p_i - p_j": (D @ inputs["x"][..., None])[..., 0], "its covariance": D @ inputs["P"] @ T(D)}
+    return {
+        "p_i - p_j": (D @ inputs["x"][..., None])[..., 0],
+        "its covariance": D @ inputs["P"] @ T(D),
+    }
 
 
 def _parts(inputs, outputs):

@@ -3,7 +3,8 @@
 import numpy as np
 
 EXACT = 1e-7
-"""Share of the largest number wanted: rounding is some 1e-12 of it here, mistakes are far larger."""
+"""Share of the largest number wanted: rounding is some 1e-12 of it here, mistakes are far
+larger."""
 
 
 def T(M):

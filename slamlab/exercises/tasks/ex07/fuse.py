@@ -82,7 +82,8 @@ FUSE = Task(
             "x is the best that any weighting of a and b can make: that of least squares",
             lambda inputs: {"x": _best(inputs)["x"]},
             tolerance=EXACT,
-            asks="Multiply out E[(ã − b̃)(ã − b̃)ᵀ] and E[ã (ã − b̃)ᵀ]: how often does P_ab stand in each?",
+            asks="Multiply out E[(ã − b̃)(ã − b̃)ᵀ] and E[ã (ã − b̃)ᵀ]: how often does P_ab stand "
+            "in each?",
             step=_innovation,
         ),
         equals(

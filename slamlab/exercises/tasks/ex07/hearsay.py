@@ -53,7 +53,8 @@ def _follows(inputs):
 
 
 def _blocks(inputs, outputs):
-    """x and P, the entries in sight first: x, what P says of them, of them and the rest, the rest."""
+    """x and P, the entries in sight first: x, what P says of them, of them and the rest, the
+    rest."""
     k, size = inputs["seen"].shape[1], inputs["x"].shape[1]
     order = [np.r_[s, np.setdiff1d(np.arange(size), s)] for s in inputs["seen"].astype(int)]
     x = np.array([x[o] for x, o in zip(outputs["x"], order, strict=True)])
@@ -112,10 +113,12 @@ HEARSAY = Task(
         Law(
             "means",
             0.5,
-            "x follows: those in sight are as told, the others move as far as they share their error",
+            "x follows: those in sight are as told, the others move as far as they share their "
+            "error",
             _same("x"),
             want=_wanted("x"),
-            asks="A landmark's error and the robot's are known to go together. The robot turns out to "
+            asks="A landmark's error and the robot's are known to go together. The robot turns "
+            "out to "
             "be 10 cm further left: where is the landmark now to be expected?",
             step=_follows,
         ),
@@ -125,7 +128,8 @@ HEARSAY = Task(
             "P of those in sight is as told, and what the others share with them shrinks alike",
             _same("seen", "cross"),
             want=_wanted("P"),
-            asks="If an entry is G times those in sight, plus something that shares nothing with them: "
+            asks="If an entry is G times those in sight, plus something that shares nothing with "
+            "them: "
             "what is its covariance with them?",
             step=_follows,
         ),

@@ -36,7 +36,8 @@ def corridors(rng, runs=RUNS, doors=DOORS, readings=READINGS, widths=(2, 3, 4)):
 
 
 def best(inputs):
-    """The doors and their covariance as known best: sizes of the shared error weighed by likelihood.
+    """The doors and their covariance as known best: sizes of the shared error weighed by
+    likelihood.
 
     Returns
     -------
@@ -180,7 +181,8 @@ MORNINGS = Task(
             f"{EACH[0]} and {EACH[1]} on average",
             _honest(_nees_each, *EACH),
             why=_honest_why(_nees_each, "a single door"),
-            asks="The mornings contradict each other. By how much, and what does that tell of them?",
+            asks="The mornings contradict each other. By how much, and what does that tell of "
+            "them?",
         ),
     ),
     rounds=False,

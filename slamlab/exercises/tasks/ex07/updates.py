@@ -112,7 +112,8 @@ TWO_UPDATES = Task(
             "P_first⁻¹ = P⁻¹ + H_1ᵀ R⁻¹ H_1: information adds up",
             _first,
             tolerance=EXACT,
-            asks="How large is the innovation's own covariance S, and which rows does the gain have?",
+            asks="How large is the innovation's own covariance S, and which rows does the gain "
+            "have?",
             step=_innovation("H_1", None),
         ),
         equals(
@@ -121,7 +122,8 @@ TWO_UPDATES = Task(
             "P_both⁻¹ = P⁻¹ + H_1ᵀ R⁻¹ H_1 + H_2ᵀ R⁻¹ H_2",
             _both,
             tolerance=EXACT,
-            asks="Which covariance does the robot have when it sees p2: that from before it saw p1?",
+            asks="Which covariance does the robot have when it sees p2: that from before it saw "
+            "p1?",
             step=_innovation("H_2", _first),
         ),
         equals(
@@ -131,7 +133,8 @@ TWO_UPDATES = Task(
             _both,
             parts={"P_both": np.s_[FIRST, SECOND]},
             tolerance=EXACT,
-            asks="The robot stood 10 cm further left than it thought. Which of the two moves, then?",
+            asks="The robot stood 10 cm further left than it thought. Which of the two moves, "
+            "then?",
         ),
     ),
 )

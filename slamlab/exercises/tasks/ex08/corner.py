@@ -87,7 +87,8 @@ CORNER = Task(
             1,
             "p lies on both lines",
             meeting,
-            asks="n₁·p = ρ₁ and n₂·p = ρ₂ are two equations for two numbers. As N p = …, what are the "
+            asks="n₁·p = ρ₁ and n₂·p = ρ₂ are two equations for two numbers. As N p = …, what are "
+            "the "
             "rows of N?",
             step=lambda inputs: {"N": _normals(inputs)},
         ),
@@ -96,7 +97,8 @@ CORNER = Task(
             2.5,
             "P is the covariance of p when both lines err as R1 and R2 say",
             spread,
-            asks="When only the first line moves, by dρ₁ and dα₁, what is n₁·dp, and what is n₂·dp? "
+            asks="When only the first line moves, by dρ₁ and dα₁, what is n₁·dp, and what is "
+            "n₂·dp? "
             "Which dp obeys both?",
             step=_on_the_way,
         ),

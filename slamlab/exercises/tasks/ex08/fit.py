@@ -16,7 +16,9 @@ def walls(rng, alpha, k, rho=(0.8, 4), half=1.0, noise=0.04):
     """(n, k, 2) points of walls with given directions (n,), seen to one side of the normal."""
     n = len(alpha)
     along = half * (rng.uniform(-1, 1, (n, k)) + rng.choice([-1.0, 1.0], (n, 1)))
-    along[:, :2] = along.mean(axis=1, keepdims=True) + [-half, half]  # never all in one place
+    along[:, :2] = along.mean(axis=1, keepdims=True) + np.array(
+        [-half, half]
+    )  # never all in one place
     off = rng.uniform(*rho, (n, 1)) + noise * rng.standard_normal((n, k))
     normal = direction(alpha)[:, None]
     return {"points": off[..., None] * normal + along[..., None] * across(normal)}
@@ -65,7 +67,7 @@ def _on_the_way(inputs):
 
 
 def _negative(inputs, outputs):
-    rho, alpha = outputs["result"][outputs["result"][:, 0].argmin()]
+    rho, _ = outputs["result"][outputs["result"][:, 0].argmin()]
     return f"ρ = {rho:.3g} m: a distance, so where the normal points away from the wall, turn it"
 
 
@@ -88,7 +90,8 @@ FIT_LINE = Task(
             "no other line has a smaller sum of squared distances",
             _is_least,
             want=_wanted,
-            asks="Through which point does the best line go, whatever its direction? And about which "
+            asks="Through which point does the best line go, whatever its direction? And about "
+            "which "
             "point, then, do you have to measure how the points scatter?",
             step=_on_the_way,
         ),

@@ -9,12 +9,15 @@ from slamlab.exercises.tasks.ex08.lines import across, direction
 
 BAND, LARGEST, NEEDED = 0.04, 0.5, 16  # [m], [m]
 TRIES = 60
-"""A guess gets the whole pillar with a chance of 0.29 or more where 30 of 42 readings are of it: that
+"""A guess gets the whole pillar with a chance of 0.29 or more where 30 of 42 readings are of it:
+that
 none of these many does is less likely than 1e-8. Elsewhere the number is chosen alike."""
 CLEAR = 2 * LARGEST + 2 * BAND
-"""No reading of a wall is nearer to the pillar [m]: no circle that may be found has readings of both."""
+"""No reading of a wall is nearer to the pillar [m]: no circle that may be found has readings of
+both."""
 NEAR = 0.12, 0.18
-"""So far off the circle are the other readings about a pillar, within and without [m]: no circle that
+"""So far off the circle are the other readings about a pillar, within and without [m]: no circle
+that
 has the whole arc within the band has one of these."""
 GUESSES = 300  # of the judge's own, which are always the same
 
@@ -169,7 +172,8 @@ PILLAR = Task(
             1.5,
             "fit_circle solves 2 c·p + d = |p|² for c and d with the least sum of squares",
             lambda inputs: {"circle": circles(inputs["arc"])},
-            asks="Which numbers stand before c_x, c_y and d in the equation of one point? What is the "
+            asks="Which numbers stand before c_x, c_y and d in the equation of one point? What is "
+            "the "
             "radius, once c and d are known?",
         ),
         equals(

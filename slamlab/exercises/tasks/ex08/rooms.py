@@ -1,6 +1,7 @@
 """Scans of rooms with clutter for exercise 08, and whose readings they are.
 
-Scans come in pairs whose errors are opposite. The truth is in no array, but the middle of a pair lies
+Scans come in pairs whose errors are opposite. The truth is in no array, but the middle of a pair
+lies
 exactly on its wall, and the middles of clutter lie on no line.
 """
 

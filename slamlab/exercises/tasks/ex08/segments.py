@@ -1,4 +1,5 @@
-"""Task 08-segments: whose readings they are, in rooms with clutter, scored by the share that is right."""
+"""Task 08-segments: whose readings they are, in rooms with clutter, scored by the share that is
+right."""
 
 import functools
 
@@ -11,7 +12,8 @@ from slamlab.exercises.task import Probe, Task
 from slamlab.exercises.tasks.ex08.rooms import counts, scans, walls
 
 STEPS = {"some": (0.7, 0.5), "most": (0.84, 1), "nearly": (0.88, 1.5), "well": (0.92, 1.5)}
-"""Law's name to the share asked for, and its points. Labels by blocks of beams reach 0.45, windows of
+"""Law's name to the share asked for, and its points. Labels by blocks of beams reach 0.45,
+windows of
 25 readings nothing, RANSAC with a fixed band 0.77, with one that grows with the range 0.91."""
 
 
@@ -49,7 +51,8 @@ def _step(name, wanted, points):
         why=lambda inputs, outputs: (
             f"the share is {mean_share(inputs, outputs):.3f}; {wanted} is asked for"
         ),
-        asks="Draw a scan with a colour for each label. Which readings are wrong: those near corners, "
+        asks="Draw a scan with a colour for each label. Which readings are wrong: those near "
+        "corners, "
         "those far away, those of clutter, or those of whole walls?",
     )
 
@@ -96,14 +99,17 @@ SEGMENTS = Task(
     diagnoses=(
         Diagnosis(
             "merged",
-            "Many of your walls hold readings of two of the room's or more: where one wall ends and "
+            "Many of your walls hold readings of two of the room's or more: where one wall ends "
+            "and "
             "the next begins, the line has to change.",
             _over(_merged, 0.3),
         ),
         Diagnosis(
             "missed",
-            "Many readings of walls are said to be of none. A guess that clutter spoils finds nobody who "
-            "agrees: guess more often, or from fewer readings; and let the band grow with the noise.",
+            "Many readings of walls are said to be of none. A guess that clutter spoils finds "
+            "nobody who "
+            "agrees: guess more often, or from fewer readings; and let the band grow with the "
+            "noise.",
             _over(_unlabelled, 0.25),
         ),
         Diagnosis(
@@ -114,7 +120,8 @@ SEGMENTS = Task(
         ),
         Diagnosis(
             "split",
-            "Many walls are cut into two pieces or more. All readings of one straight line are of one "
+            "Many walls are cut into two pieces or more. All readings of one straight line are of "
+            "one "
             "wall, also where something stands before its middle.",
             _over(_split, 0.3),
         ),
