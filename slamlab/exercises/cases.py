@@ -1,4 +1,4 @@
-"""The smallest failing case: which of all inputs that were tried shows best that a law is broken."""
+"""The smallest failing case: of all inputs that were tried, which shows best that a law is broken."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
