@@ -1,4 +1,4 @@
-"""The smallest failing case: of all inputs that were tried, which shows best that a law is broken."""
+"""The smallest failing case: the one input, of all tried, that shows best how a law is broken."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
