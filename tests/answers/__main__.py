@@ -49,7 +49,8 @@ def kind(one, verdict) -> str:
         return "passed"
     if verdict.problem:
         return "unjudged"
-    if verdict.diagnosis in {slip.name for slip in one.slips}:
+    changed = [law.name for law in verdict.laws if law.failed] == ["unchanged"]
+    if changed or verdict.diagnosis in {slip.name for slip in one.slips}:
         return "named"
     if verdict.diagnosis:
         return "led" if verdict.diagnosis in FAMILIES else "property"
