@@ -332,8 +332,8 @@ def cut(box, lines):
 
 def look(robot, heading, objects, z, bounds):
     """Robot and heading after one round through all sightings; None where nothing is left."""
-    for place, sight in zip(objects, z, strict=True):
-        box = np.repeat(place, 2)
+    for thing, sight in zip(objects, z, strict=True):
+        box = np.repeat(thing, 2)
         if bounds[1] + (heading[1] - heading[0]) / 2 < np.pi / 2:
             robot = cut(robot, edges(sight, bounds, np.add(heading, np.pi), box))
             if robot is None:

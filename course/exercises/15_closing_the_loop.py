@@ -261,7 +261,8 @@ def _():
         H, b = np.zeros((30, 30)), np.zeros(30)
         for i, j, z, L in edges[:9]:
             J = np.zeros((3, 30))
-            J[:, 3 * i : 3 * i + 3], J[:, 3 * j : 3 * j + 3] = jacobians(poses[i], poses[j], z)
+            at_i, at_j = slice(3 * i, 3 * i + 3), slice(3 * j, 3 * j + 3)
+            J[:, at_i], J[:, at_j] = jacobians(poses[i], poses[j], z)
             H, b = H + J.T @ L @ J, b + J.T @ L @ error(poses[i], poses[j], z)
         for k in range(1, 10):
             e, _, B = range_edge(poses[0], poses[k], r[k], station, mast)

@@ -245,19 +245,19 @@ for theta in (25, 115):
 # | 00 | [Start here](00_start_here.ipynb) | how all this works | 15 min | |
 # | 01 | [Why SLAM](01_why_slam.ipynb) | a robot that believes its wheels draws a map that does not close | 40 min | 40 min |
 # | 02 | [Sensors and worlds](02_sensors_and_worlds.ipynb) | how a lidar, an infrared and an ultrasonic scanner see a room, and how a real one errs | 60 min | 40 min |
-# | 03 | [The Kalman filter](03_kalman_filter.ipynb) | predict, measure, correct: the gain derived, the filter's word about its own error tested | 75 min | 45 min |
-# | 04 | [Models and Jacobians](04_models_and_jacobians.ipynb) | how a robot moves and measures, and how errors pass through: derived, not believed | 90 min | 45 min |
+# | 03 | [The Kalman filter](03_kalman_filter.ipynb) | predict, measure, correct: the gain derived, the filter's word about its own error tested | 75 min | 60 min |
+# | 04 | [Models and Jacobians](04_models_and_jacobians.ipynb) | how a robot moves and measures, and how errors pass through: derived, not believed | 90 min | 60 min |
 # | 05 | [Two easy halves](05_two_easy_halves.ipynb) | a known map locates the robot, known poses draw the map; both in turn is not SLAM | 50 min | 40 min |
 # | 06 | [EKF-SLAM: the MAK filter](06_ekf_slam.ipynb) | robot and map in one filter, every block of its covariance built before your eyes | 80 min | 60 min |
-# | 07 | [Correlations](07_correlations.ipynb) | why what robot and landmarks share cannot be dropped, what it costs, and ways out | 100 min | 50 min |
-# | 08 | [Landmarks from scans](08_landmarks_from_scans.ipynb) | table legs, walls and corners found in a scan, and which of them were seen before | 75 min | 50 min |
+# | 07 | [Correlations](07_correlations.ipynb) | why what robot and landmarks share cannot be dropped, what it costs, and ways out | 100 min | 60 min |
+# | 08 | [Landmarks from scans](08_landmarks_from_scans.ipynb) | table legs, walls and corners found in a scan, and which of them were seen before | 75 min | 60 min |
 # | 09 | [SLAM with walls](09_slam_with_walls.ipynb) | a whole thesis system, driven live through two buildings; its flaws measured and mended | 90 min | 50 min |
-# | 10 | [Boxes](10_boxes.ipynb) | a filter that promises bounds, not likelihoods, and what one broken promise does | 90 min | 70 min |
+# | 10 | [Boxes](10_boxes.ipynb) | a filter that promises bounds, not likelihoods, and what one broken promise does | 90 min | 60 min |
 # | 11 | [Samples](11_samples.ipynb) | a cloud of guesses that can say "here or there", which no ellipse can | 90 min | 45 min |
 # | 12 | [Three filters, one robot](12_three_filters.ipynb) | box, ellipse and samples on the same three laps of a small robot, over eighty drives | 90 min | 60 min |
 # | 13 | [Scan matching](13_scan_matching.ipynb) | laying one scan over another until it fits, though nobody knows which points belong together | 120 min | 60 min |
 # | 14 | [The eMIR system](14_the_emir_system.ipynb) | from bytes on a wire to a live map: a real lidar and robot, or their emulators, driven by you | 110 min | 60 min |
-# | 15 | [Closing the loop](15_closing_the_loop.ipynb) | a place seen again mends the whole map: a graph of poses, loops true and false, a real building | 100 min | 75 min |
+# | 15 | [Closing the loop](15_closing_the_loop.ipynb) | a place seen again mends the whole map: a graph of poses, loops true and false, a real building | 100 min | 60 min |
 #
 # They are numbered in the order in which to read them.
 
