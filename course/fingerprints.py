@@ -112,14 +112,14 @@ def _mutants(one):
 
 def _slip_prints(one, slip, program, sets):
     source = one.source(program)
-    if one.verdict(source, OPEN_SEED).full:
+    verdict = one.verdict(source, OPEN_SEED)
+    if verdict.full:
         raise ProgramError(f"{one.task.id}: the slip {slip.name!r} keeps full marks:\n{source}")
     prints = prints_of(one, source, sets)
     if prints is None:
-        said = one.verdict(source, OPEN_SEED).problem
         raise ProgramError(
-            f"{one.task.id}: the slip {slip.name!r} cannot be judged ({said}): it is a Stumble, or "
-            f"an edit of too much:\n{source}"
+            f"{one.task.id}: the slip {slip.name!r} cannot be judged ({verdict.problem}): it is a "
+            f"Stumble, or an edit of too much:\n{source}"
         )
     return prints
 

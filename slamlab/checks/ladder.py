@@ -4,7 +4,7 @@ import numpy as np
 
 from slamlab.exercises import case_text, cases
 from slamlab.exercises.drives import StudentError
-from slamlab.exercises.drives.input_sets import MAIN, run_sets
+from slamlab.exercises.drives.input_sets import run_sets
 from slamlab.exercises.task import OPEN_SEED
 
 _climbed = {}  # (task's id, law's name) to how often a hint was asked for, in this kernel
@@ -31,9 +31,7 @@ def next_rung(task, namespace) -> str:
             f"A question to begin with: {first.asks}" if first.asks else f"It asks: {first.says}"
         )
         return f"{error.message}\n{begin}"
-    case = cases.smallest(
-        task, sets, answers, lambda inputs: run_sets(task.drive, namespace, {MAIN: inputs})[MAIN]
-    )
+    case = cases.smallest(task, sets, answers, lambda inputs: task.drive(namespace, inputs))
     if case is None:
         return f"{task.id} breaks no law: there is nothing to hint at"
     rung = _climbed.get((task.id, case.law.name), 0)

@@ -42,7 +42,7 @@ def smallest(task, sets, answers, run=None) -> Case | None:
     ----------
     task : Task
     sets : what ``task.draw`` made
-    answers : set's name to outputs or StudentError; empty where they are to be run
+    answers : set's name to outputs or StudentError
     run : inputs -> outputs, calls the student's functions to shrink the case; raises StudentError;
         None: only cases that were tried are looked at
 

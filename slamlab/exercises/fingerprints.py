@@ -74,6 +74,12 @@ def fingerprint(arrays):
     return total
 
 
+def parts_of(task, inputs, outputs):
+    """The parts of a task's measured outputs that can be wrong by themselves, by name."""
+    outputs = {key: array for key, array in outputs.items() if key != CHANGED}
+    return task.parts(inputs, outputs) if task.parts else outputs
+
+
 def of_answers(task, sets, answers):
     """The fingerprint of each part of a task's outputs.
 
@@ -95,8 +101,7 @@ def of_answers(task, sets, answers):
                 return {}
             found = dict.fromkeys(parts, _failure(outputs))
         else:
-            outputs = {key: array for key, array in outputs.items() if key != CHANGED}
-            found = task.parts(inputs, outputs) if task.parts else outputs
+            found = parts_of(task, inputs, outputs)
         for part, array in found.items():
             parts.setdefault(part, []).append(np.asarray(array, dtype=float))
     return {part: fingerprint(arrays) for part, arrays in parts.items()}

@@ -41,10 +41,6 @@ def run_and_tell(task: Task, namespace) -> Verdict:
     Verdict
     """
     sets = task.draw(OPEN_SEED)
-
-    def run_main(inputs):
-        return run_sets(task.drive, namespace, {MAIN: inputs})[MAIN]
-
     try:
         answers = run_sets(task.drive, namespace, sets)
         verdict = task.judge(sets, answers)
@@ -55,7 +51,7 @@ def run_and_tell(task: Task, namespace) -> Verdict:
     verdict = recognised(task, verdict, lambda *_: answers)
     tried = {name: sets[name] for name in answers}
     try:
-        case = cases.smallest(task, tried, answers, run_main)
+        case = cases.smallest(task, tried, answers, lambda inputs: task.drive(namespace, inputs))
     except KeyboardInterrupt:  # the time limit, perhaps: what was judged stays judged
         return verdict
     return replace(verdict, case=case_text.format_case(task, case)) if case else verdict

@@ -78,6 +78,25 @@ def numbers(value, function):
         ) from None
 
 
+def shaped(value, what, shape):
+    """Convert what a student's function returned to a float array of one shape.
+
+    Parameters
+    ----------
+    value : anything
+    what : str, what it is, for the message
+    shape : tuple of int
+
+    Raises
+    ------
+    StudentError : "malformed" when it is no such array
+    """
+    array = numbers(value, what)
+    if array.shape != shape:
+        raise StudentError("malformed", f"{what} has shape {array.shape}, expected {shape}")
+    return array
+
+
 def rows(inputs: Arrays):
     """Yield the arguments of each call: row i of each array, scalars as float, arrays as copies."""
     count = min(len(a) for a in inputs.values())

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from slamlab.exercises.drives import Drive, StudentError, numbers, rows
+from slamlab.exercises.drives import Drive, StudentError, numbers, rows, shaped
 
 
 def cornered(functions, inputs):
@@ -23,8 +23,8 @@ def cornered(functions, inputs):
     """
     pairs = [_parts(functions["corner"](*row), "corner", "p, P") for row in rows(inputs)]
     return {
-        "p": np.array([_array(p, "corner's p", (2,)) for p, _ in pairs]),
-        "P": np.array([_array(P, "corner's P", (2, 2)) for _, P in pairs]),
+        "p": np.array([shaped(p, "corner's p", (2,)) for p, _ in pairs]),
+        "P": np.array([shaped(P, "corner's P", (2, 2)) for _, P in pairs]),
     }
 
 
@@ -105,8 +105,8 @@ def pillars(functions, inputs):
 
 def _circle(value, function):
     centre, radius = _parts(value, function, "centre, radius")
-    centre = _array(centre, f"{function}'s centre", (2,))
-    return np.append(centre, _array(radius, f"{function}'s radius", ()))
+    centre = shaped(centre, f"{function}'s centre", (2,))
+    return np.append(centre, shaped(radius, f"{function}'s radius", ()))
 
 
 def _mask(inside, k):
@@ -136,7 +136,7 @@ def segmented(functions, inputs):
     StudentError : "malformed" when a call does not return k whole numbers from −1 on
     """
     k = inputs["points"].shape[1]
-    labels = [_array(functions["segment"](*row), "segment", (k,)) for row in rows(inputs)]
+    labels = [shaped(functions["segment"](*row), "segment", (k,)) for row in rows(inputs)]
     if any((one != np.floor(one)).any() or (one < -1).any() for one in labels):
         raise StudentError("malformed", "segment: labels are whole numbers from 0 on, or −1")
     return {"labels": np.array(labels)}
@@ -146,13 +146,6 @@ def _parts(value, function, names):
     if not isinstance(value, tuple | list) or len(value) != 2:
         raise StudentError("malformed", f"{function} must end with: return {names}")
     return value
-
-
-def _array(value, what, shape):
-    array = numbers(value, what)
-    if array.shape != shape:
-        raise StudentError("malformed", f"{what} has shape {array.shape}, expected {shape}")
-    return array
 
 
 DRIVES = {

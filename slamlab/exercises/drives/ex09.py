@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from slamlab.exercises.drives import Drive, StudentError, numbers
+from slamlab.exercises.drives import Drive, StudentError, numbers, shaped
 from slamlab.exercises.drives.slam_step import SLAM_STEP
 
 
@@ -10,15 +10,8 @@ def _parts(value, function, names, shapes):
     """What a function returned, part by part."""
     if not isinstance(value, tuple | list) or len(value) != len(names):
         raise StudentError("malformed", f"{function} must end with: return {', '.join(names)}")
-    parts = []
-    for part, name, shape in zip(value, names, shapes, strict=True):
-        array = numbers(part, f"{function}'s {name}")
-        if array.shape != shape:
-            raise StudentError(
-                "malformed", f"{function}'s {name} has shape {array.shape}, expected {shape}"
-            )
-        parts.append(array)
-    return parts
+    parts = zip(value, names, shapes, strict=True)
+    return [shaped(part, f"{function}'s {name}", shape) for part, name, shape in parts]
 
 
 def _rows(inputs):

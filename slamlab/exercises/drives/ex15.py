@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from slamlab.exercises.drives import Drive, StudentError, numbers, rows
+from slamlab.exercises.drives import Drive, StudentError, rows, shaped
 
 
 def _jacobians(functions, inputs):
@@ -21,7 +21,7 @@ def _several(function, inputs, name, shapes):
     if any(not isinstance(values, tuple | list) or len(values) != len(shapes) for values in found):
         raise StudentError("malformed", f"{name} must end with: return {', '.join(shapes)}")
     return {
-        output: np.array([_shaped(values[k], f"{name}'s {output}", shape) for values in found])
+        output: np.array([shaped(values[k], f"{name}'s {output}", shape) for values in found])
         for k, (output, shape) in enumerate(shapes.items())
     }
 
@@ -30,7 +30,7 @@ def _steps(functions, inputs):
     """One step of every graph."""
     found = []
     for poses, *edges in rows(inputs):
-        found.append(_shaped(functions["step"](poses, _listed(*edges)), "step", poses.shape))
+        found.append(shaped(functions["step"](poses, _listed(*edges)), "step", poses.shape))
     return {"result": np.array(found)}
 
 
@@ -41,7 +41,7 @@ def _closed(functions, inputs):
         chain = np.column_stack([np.arange(len(poses) - 1), np.arange(1, len(poses))])
         wheels = _listed(chain, measured, information)
         value = functions["close_loops"](poses, wheels, _listed(*loops))
-        found.append(_shaped(value, "close_loops", poses.shape))
+        found.append(shaped(value, "close_loops", poses.shape))
     return {"result": np.array(found)}
 
 
@@ -49,13 +49,6 @@ def _listed(pairs, measured, information):
     """Edges as the exercise has them: i, j, z and Λ of each."""
     edges = zip(pairs, measured, information, strict=True)
     return [(int(i), int(j), z, L) for (i, j), z, L in edges]
-
-
-def _shaped(value, what, shape):
-    array = numbers(value, what)
-    if array.shape != shape:
-        raise StudentError("malformed", f"{what} has shape {array.shape}, expected {shape}")
-    return array
 
 
 DRIVES = {
