@@ -100,16 +100,17 @@ def execute(derived, folder):
 
 
 def _clean_output(output, number):
-    """Clean an output: no live widget beside its still picture, no machine paths, no counts."""
+    """Clean an output: words in place of a widget, no machine paths, no counts."""
     if "execution_count" in output:
         output["execution_count"] = number
     data = output.get("data", {})
-    if WIDGET in data and "image/png" in data:
-        # a stored view has no model behind it: Jupyter would say so instead of showing the picture
+    if WIDGET in data:
+        # a stored widget has no model behind it: Jupyter would say that there is none
         del data[WIDGET]
     for holder, key in [(output, "text"), (output, "evalue"), *((data, mime) for mime in data)]:
-        if isinstance(holder.get(key), str) and not key.startswith("image/"):
-            holder[key] = _without_paths(holder[key])
+        text = holder.get(key)
+        if isinstance(text, str) and "data:image/" not in text and not key.startswith("image/"):
+            holder[key] = _without_paths(text)
     if "traceback" in output:
         output["traceback"] = [_without_paths(line) for line in output["traceback"]]
     return output

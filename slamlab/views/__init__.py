@@ -4,7 +4,8 @@ Drawing takes plain arrays (:mod:`slamlab.layers`): it computes no pose and no m
 
 Read in this order:
 
-- ``figures``: axes and how they are shown; ``layer_drawing``: what an estimator shows
+- ``figures``: axes and colours; ``layer_drawing``: what an estimator shows
+- ``showing``, ``figure_words``: how a figure reaches a notebook, and its alternative text
 - ``comparison``, ``box_drawing``, ``heatmap``, ``interval_plot``, ``loglog_plot``, ``matrix_plot``,
   ``linked_map``, ``scan_overlay``, ``resampling_wheel``, ``frame_sketches``: one plot each
 - ``sliders``, ``play_button``, ``widget_errors``: interactive figures
@@ -13,7 +14,7 @@ Read in this order:
 
 from slamlab.views import box_drawing as boxes
 from slamlab.views.comparison import cloud, curves
-from slamlab.views.figures import COLOURS, axes, chart, panels, png, show
+from slamlab.views.figures import COLOURS, axes, chart, panels
 from slamlab.views.frame_sketches import frames
 from slamlab.views.heatmap import cells
 from slamlab.views.interval_plot import shares
@@ -24,6 +25,7 @@ from slamlab.views.loglog_plot import growth
 from slamlab.views.matrix_plot import correlation
 from slamlab.views.resampling_wheel import wheel
 from slamlab.views.scan_overlay import overlay
+from slamlab.views.showing import png, show
 from slamlab.views.sliders import explore
 
 __all__ = [

@@ -23,7 +23,7 @@ def scene(title, window, size=(5, 4.2)):
     ----------
     title : str or None
     window : (x_min, x_max, y_min, y_max) [m]
-    size : (width, height) [inch]
+    size : (width, height) [80 pixels of the page]
 
     Returns
     -------
@@ -116,7 +116,7 @@ def intervals(rows, truth, xlabel, ylabel, title=None, last=1, size=(6, 4)):
     xlabel, ylabel : str, with the unit in brackets
     title : str or None
     last : int, how many at the bottom are drawn as results
-    size : (width, height) [inch]
+    size : (width, height) [80 pixels of the page]
 
     Returns
     -------

@@ -26,7 +26,7 @@ def cloud(samples, covariances, title=None, size=(6, 4.5), layers=()):
     samples : (n, 2) or wider; the first two columns are x and y [m]
     covariances : dict, name for the legend to (2, 2) or larger [m²]
     title : str or None
-    size : (width, height) [inch]
+    size : (width, height) [80 pixels of the page]
     layers : what else to draw, such as the track driven
 
     Returns
@@ -55,7 +55,7 @@ def curves(x, ys, xlabel, ylabel, title=None, size=(6, 3.5)):
     ys : dict, name for the legend to (n,)
     xlabel, ylabel : str, with the unit in brackets
     title : str or None
-    size : (width, height) [inch]
+    size : (width, height) [80 pixels of the page]
 
     Returns
     -------

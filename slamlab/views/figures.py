@@ -1,14 +1,9 @@
-"""Figures of Matplotlib: axes in metres, panels, colours, PNG and alt text for a notebook.
+"""Figures of Matplotlib: axes in metres, panels, charts, and the colours of the whole course.
 
 Figures are made without pyplot: nothing global is opened, so nothing has to be closed.
 """
 
-import base64
-import io
-
-from IPython.display import display
 from matplotlib.figure import Figure
-from PIL import Image
 
 # colour-blind-safe palette of Okabe and Ito: told apart with any kind of colour vision
 COLOURS = {
@@ -26,7 +21,23 @@ COLOURS = {
     "perpendicular": "#BBBBBB",
 }
 
-DPI = 80  # resolution [pixels/inch]
+CSS_DPI = 96  # pixels of a page to an inch of print: text of 10 pt is as large as 10 pt of a page
+UNIT = 80  # pixels of a page to a unit of a figure's size; 11 units fill a notebook's page
+
+
+def empty(size):
+    """Figure without axes.
+
+    Parameters
+    ----------
+    size : (width, height) [80 pixels of the page]
+
+    Returns
+    -------
+    Figure
+    """
+    inches = [UNIT / CSS_DPI * side for side in size]
+    return Figure(figsize=inches, dpi=CSS_DPI, layout="constrained")
 
 
 def axes(title=None, size=(6, 5)):
@@ -35,7 +46,7 @@ def axes(title=None, size=(6, 5)):
     Parameters
     ----------
     title : str or None
-    size : (width, height) [inch]
+    size : (width, height) [80 pixels of the page]
 
     Returns
     -------
@@ -51,14 +62,14 @@ def panels(titles, size=(11, 5), shared=True):
     Parameters
     ----------
     titles : sequence of str or None
-    size : (width, height) of the whole figure [inch]
+    size : (width, height) of the whole figure [80 pixels of the page]
     shared : bool, whether all show the same part of the plane
 
     Returns
     -------
     (Figure, list of Axes)
     """
-    fig = Figure(figsize=size, dpi=DPI, layout="constrained")
+    fig = empty(size)
     shared = shared and len(titles) > 1
     all_axes = fig.subplots(1, len(titles), sharex=shared, sharey=shared, squeeze=False)[0]
     for ax, title in zip(all_axes, titles, strict=True):
@@ -77,13 +88,13 @@ def chart(xlabel, ylabel, title=None, size=(6, 4)):
     ----------
     xlabel, ylabel : str, with the unit in brackets
     title : str or None
-    size : (width, height) [inch]
+    size : (width, height) [80 pixels of the page]
 
     Returns
     -------
     (Figure, Axes)
     """
-    fig = Figure(figsize=size, dpi=DPI, layout="constrained")
+    fig = empty(size)
     ax = fig.subplots()
     ax.set(xlabel=xlabel, ylabel=ylabel)
     ax.grid(color=COLOURS["guide"], linewidth=0.5)
@@ -91,61 +102,3 @@ def chart(xlabel, ylabel, title=None, size=(6, 4)):
     if title:
         ax.set_title(title)
     return fig, ax
-
-
-def png(fig):
-    """Render a figure as PNG with a palette of 256 colours; deterministic: always the same bytes.
-
-    A figure of lines and letters looks the same in a palette and takes well under half the bytes.
-
-    Parameters
-    ----------
-    fig : Figure
-
-    Returns
-    -------
-    bytes
-    """
-    drawn, small = io.BytesIO(), io.BytesIO()
-    fig.savefig(drawn, format="png", dpi=fig.dpi)
-    picture = Image.open(drawn).convert("RGB")
-    picture.quantize(method=Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE).save(small, "PNG")
-    return small.getvalue()
-
-
-def bundle(fig, alt):
-    """MIME bundle that a notebook stores of a figure: PNG, and alt text for who cannot see it.
-
-    Parameters
-    ----------
-    fig : Figure
-    alt : str, what the figure shows
-
-    Returns
-    -------
-    (data, metadata) : dicts by MIME type
-
-    Raises
-    ------
-    ValueError : without alt text
-    """
-    if not isinstance(alt, str) or not alt.strip():
-        raise ValueError("a figure needs alt text: say in a sentence what it shows")
-    data = {"image/png": base64.b64encode(png(fig)).decode(), "text/plain": alt}
-    return data, {"image/png": {"alt": alt}}
-
-
-def show(fig, alt):
-    """Show (display) a figure in the notebook, with alternative text.
-
-    Parameters
-    ----------
-    fig : Figure
-    alt : str, what the figure shows
-
-    Raises
-    ------
-    ValueError : without alt text
-    """
-    data, metadata = bundle(fig, alt)
-    display(data, metadata=metadata, raw=True)

@@ -1,9 +1,8 @@
 """Heat map (heatmap) of tables of shares: a coloured cell a value, its number written in it."""
 
 import numpy as np
-from matplotlib.figure import Figure
 
-from slamlab.views.figures import DPI
+from slamlab.views.figures import empty
 
 _COLOUR_MAP = "cividis"  # colour map that is colour-blind safe
 _BLACK_TEXT_ABOVE = 0.5  # share above which a cell is light: its number is black
@@ -17,7 +16,7 @@ def cells(tables, x, y, xlabel, ylabel, size=(7, 3)):
     tables : dict, title to (len(y), len(x)) shares [1]
     x, y : the values that stand at the columns and rows
     xlabel, ylabel : str, with the unit in brackets
-    size : (width, height) of the whole figure [inch]
+    size : (width, height) of the whole figure [80 pixels of the page]
 
     Returns
     -------
@@ -27,7 +26,7 @@ def cells(tables, x, y, xlabel, ylabel, size=(7, 3)):
     ------
     ValueError : a table that does not fit its rows and columns, or numbers that are no shares
     """
-    fig = Figure(figsize=size, dpi=DPI, layout="constrained")
+    fig = empty(size)
     all_axes = fig.subplots(1, len(tables), sharey=True, squeeze=False)[0]
     for ax, (title, table) in zip(all_axes, tables.items(), strict=True):
         table = np.asarray(table, dtype=float)

@@ -18,7 +18,7 @@ def shares(rows, xlabel, title=None, size=(7, 3.2)):
         for every name
     xlabel : str
     title : str or None
-    size : (width, height) [inch]
+    size : (width, height) [80 pixels of the page]
 
     Returns
     -------

@@ -71,7 +71,7 @@ def side_by_side(layers_by_title, size=(11, 5), shared=True):
     Parameters
     ----------
     layers_by_title : dict, title to list of layers
-    size : (width, height) of the whole figure [inch]
+    size : (width, height) of the whole figure [80 pixels of the page]
     shared : bool, whether all show the same part of the plane
 
     Returns

@@ -22,7 +22,7 @@ def linked(landmarks, rho, names, marked=0, layers=(), room=None, view=None, siz
     layers : what else to draw on the map
     room : int or None, landmarks to leave room for, so that a growing matrix keeps its place
     view : (x_min, x_max, y_min, y_max) [m], or None for all
-    size : (width, height) [inch]
+    size : (width, height) [80 pixels of the page]
 
     Returns
     -------

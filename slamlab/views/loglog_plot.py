@@ -20,7 +20,7 @@ def growth(x, measured, predicted, xlabel, ylabel, title=None, size=(6, 4)):
     measured, predicted : dict, name for the legend to (n,)
     xlabel, ylabel : str, with the unit in brackets
     title : str or None
-    size : (width, height) [inch]
+    size : (width, height) [80 pixels of the page]
 
     Returns
     -------

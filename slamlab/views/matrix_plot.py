@@ -18,7 +18,7 @@ def correlation(rho, names, title=None, ax=None, size=(4.8, 4.2)):
     names : 1 + N names of the blocks, the robot's (three rows) before the landmarks' (two each)
     title : str or None
     ax : Axes to draw in, or None for a figure of its own
-    size : (width, height) of that figure [inch]
+    size : (width, height) of that figure [80 pixels of the page]
 
     Returns
     -------

@@ -17,7 +17,7 @@ def wheel(weights, picks, title=None, size=(7, 2.4)):
     weights : (n,) that sum to one
     picks : dict, name of a row to (k,) positions from 0 to 1
     title : str or None
-    size : (width, height) [inch]
+    size : (width, height) [80 pixels of the page]
 
     Returns
     -------

@@ -16,7 +16,7 @@ def overlay(first, second, pairs=None, title=None, size=(5, 3.8)):
     second : (n, 2) the scan that is laid over it, moved already [m]
     pairs : (k, 2) int, correspondences: rows of second and of first, or None
     title : str or None
-    size : (width, height) [inch]
+    size : (width, height) [80 pixels of the page]
 
     Returns
     -------

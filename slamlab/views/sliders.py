@@ -4,18 +4,18 @@ import html
 import traceback
 
 import ipywidgets
-from IPython.display import display
 
 from slamlab.views import play_button
-from slamlab.views.figures import bundle
+from slamlab.views.showing import bundle, show_bundle, show_controls
 
 
 def explore(draw, alt, play=None, **controls):
     """Interactive figure: show a plot with sliders, choices and tick boxes that redraw it.
 
-    The first view is drawn at once, so that a mistake in ``draw`` surfaces as any other; what a
-    notebook stores is that view. A later mistake is shown in place of the figure. Calling this
-    stops whatever plays, so that a cell can be run again.
+    The first view is drawn at once, so that a mistake in ``draw`` surfaces as any other. The figure
+    is a display of its own below the controls: a notebook that is saved keeps the view last shown.
+    A later mistake is shown in place of the figure. Calling this stops whatever plays, so that a
+    cell can be run again.
 
     Parameters
     ----------
@@ -33,33 +33,30 @@ def explore(draw, alt, play=None, **controls):
     """
     play_button.stop()
     widgets = {name: _control(name, given) for name, given in controls.items()}
-    view = ipywidgets.HTML()
     buttons = []
     if play is not None:
         if play not in widgets:
             raise ValueError(f"play: no control is called {play!r}, only {', '.join(widgets)}")
         buttons.append(play_button.Player(widgets[play]).button)
 
-    def redraw():
+    def drawn():
         values = {name: widget.value for name, widget in widgets.items()}
-        data, metadata = bundle(draw(**values), alt(**values) if callable(alt) else alt)
-        view.value = _image(data["image/png"], data["text/plain"])
-        return data, metadata
+        return bundle(draw(**values), alt(**values) if callable(alt) else alt)
 
     def changed(_):
         try:
-            redraw()
+            shown = drawn()
         except Exception:
             # a callback has no cell to fail in
             play_button.stop()
-            view.value = f"<pre>{html.escape(traceback.format_exc(limit=-2))}</pre>"
+            shown = _trouble(traceback.format_exc(limit=-2))
+        figure.update(shown, raw=True)
 
-    data, metadata = redraw()
+    first = drawn()
     for widget in widgets.values():
         widget.observe(changed, "value")
-    box = ipywidgets.VBox([*widgets.values(), *buttons, view])
-    live = box._repr_mimebundle_() or {}
-    display(live | data, metadata=metadata, raw=True)
+    show_controls(ipywidgets.VBox([*widgets.values(), *buttons]))
+    figure = show_bundle(first)
 
 
 def _control(name, given):
@@ -95,5 +92,5 @@ def _control(name, given):
     )
 
 
-def _image(png, alt):
-    return f'<img src="data:image/png;base64,{png}" alt="{html.escape(alt, quote=True)}">'
+def _trouble(text):
+    return {"text/html": f"<pre>{html.escape(text)}</pre>", "text/plain": text}

@@ -8,9 +8,11 @@ import sys
 import time
 from contextlib import contextmanager
 
+from course.source import ROOT
 from tests.patience import PATIENCE
 
 CHROMIUMS = ("chromium", "chromium-browser", "google-chrome", "chrome")
+EXTENSION = ROOT / "labextension" / "share" / "jupyter"
 NEWS = "@jupyterlab/apputils-extension:announcements"
 
 
@@ -65,6 +67,7 @@ def jupyterlab(home):
     settings.write_text(json.dumps({"disabledExtensions": {NEWS: True}}))
     places = {"HOME": home, "JUPYTER_CONFIG_DIR": home / "config", "IPYTHONDIR": home / "ipython"}
     places |= {"JUPYTER_RUNTIME_DIR": home / "runtime", "JUPYTER_DATA_DIR": home / "data"}
+    places["JUPYTER_PATH"] = EXTENSION  # as it stands here, not as it was installed
     options = ["--no-browser", "--allow-root", "--ip=127.0.0.1", "--port=0"]
     with open(home / "said.txt", "w") as said:
         server = subprocess.Popen(
@@ -118,7 +121,7 @@ class Visit:
     def run_all(self):
         """Run all cells of the notebook that is open, by the menu."""
         self.page.get_by_role("menuitem", name="Run", exact=True).click()
-        self.page.get_by_text("Run All Cells", exact=True).click()
+        self.page.locator(".lm-Menu-item").get_by_text("Run All Cells", exact=True).click()
 
     def run(self, cell):
         """Run a cell, given by its position, and wait until it is done.

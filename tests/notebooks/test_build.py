@@ -285,24 +285,22 @@ def test_only_changed_code_runs_again_and_outputs_are_carried(root, runs):
     assert len(runs) == 2
 
 
-def test_what_is_stored_tells_nothing_of_the_machine_and_shows_a_picture_for_a_widget(root):
+def test_what_is_stored_tells_nothing_of_the_machine_and_says_how_a_widget_lives(root):
     text = """
     # %%
     import pathlib, sys
     import ipywidgets
-    from IPython.display import display
+    from slamlab.views.showing import show_controls
 
     print(pathlib.Path.home() / "x")
     print(sys.prefix)
-    view = ipywidgets.IntSlider()._repr_mimebundle_()
-    display(view | {"image/png": "AAAA"}, raw=True, metadata={"image/png": {"alt": "a dot"}})
+    show_controls(ipywidgets.IntSlider())
     """
     tool.build(write(root, text), root=root)
     notebook = stored(root)
     printed, shown = notebook.cells[2].outputs
     assert printed.text == "~/x\npython\n"
-    assert set(shown.data) == {"image/png", "text/plain"}
-    assert shown.metadata == {"image/png": {"alt": "a dot"}}
+    assert shown.data == {"text/plain": "Run this cell for its controls."}
     assert set(notebook.metadata) == {"kernelspec", "language_info", "slamlab"}
     assert notebook.cells[2].execution_count == 1
 

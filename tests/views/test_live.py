@@ -14,18 +14,16 @@ from slamlab.views.live.controls import Controls
 from slamlab.views.live.raster import RasterScreen
 from slamlab.views.live.run_loop import RunLoop
 from slamlab.views.live.stepper import Stepper
+from tests.views.displays import Displays
 from tests.views.live_fakes import Car, FakeScreen, Sum, Walk
 
 ALT = "a robot walks"
-WIDGET = "application/vnd.jupyter.widget-view+json"
 
 
 @pytest.fixture
 def stored(monkeypatch):
     """What the cells of a notebook store."""
-    shown = []
-    monkeypatch.setattr(live_view, "display", lambda data, **rest: shown.append((data, rest)))
-    yield shown
+    yield Displays(monkeypatch, live_view)
     run_loop.stop()
 
 
@@ -33,12 +31,13 @@ def walk(**more):
     return views.live(Walk, lambda source: Sum(), ALT, **more)
 
 
-def test_one_bundle_holds_the_live_view_and_a_still_with_its_text(stored):
-    walk()
-    ((data, rest),) = stored
-    assert set(data) == {WIDGET, "image/png", "text/plain"}
-    assert data["text/plain"] == rest["metadata"]["image/png"]["alt"] == ALT
-    assert rest["raw"]
+def test_the_still_is_a_display_of_its_own_with_its_text(stored):
+    loop = walk()
+    (controls,), (still,) = stored.widgets, stored.bundles
+    assert loop.screen.widget in controls.children
+    assert set(still) == {"text/html", "text/plain"}
+    assert still["text/plain"] == f"Map: x [m] across, y [m] up. {ALT}"
+    assert 'class="slamlab-still"' in still["text/html"]
 
 
 def test_without_a_browser_nothing_runs(stored):
@@ -65,8 +64,8 @@ def test_a_picture_comes_with_the_widget_the_newest_there_is(stored):
 def test_the_still_is_the_same_bytes_each_time(stored):
     for _ in range(2):
         walk(steps=3)
-    (first, _), (second, _) = stored
-    assert first["image/png"] == second["image/png"]
+    first, second = stored.bundles
+    assert first == second
 
 
 def test_the_still_has_a_panel_for_each_group_of_curves():

@@ -15,6 +15,7 @@ from slamlab.sources.base import Source
 from slamlab.views.live import cell_views, live_view, reading_thread, run_loop
 from slamlab.views.live.run_loop import RunLoop
 from slamlab.views.live.stepper import Stepper
+from tests.views.displays import Displays
 from tests.views.live_fakes import FakeScreen, Sum, Walk, until
 
 ALT = "a robot waits"
@@ -298,8 +299,7 @@ def test_a_robot_with_a_clock_of_its_own_is_told_at_once_and_stands_when_nobody_
 @pytest.fixture
 def cell(monkeypatch):
     """Tell which cell runs, and what it displays."""
-    shown = []
-    monkeypatch.setattr(live_view, "display", lambda data, **rest: shown.append(data))
+    displays = Displays(monkeypatch, live_view)
     monkeypatch.setattr(live_view, "FIRST_READING_TIMEOUT", 0.001)
     monkeypatch.setattr(cell_views, "_shown", {})
 
@@ -309,14 +309,14 @@ def cell(monkeypatch):
             cell_views, "get_ipython", lambda: SimpleNamespace(get_parent=lambda: parent)
         )
 
-    run.shown = shown
+    run.stills = displays.bundles
     return run
 
 
 def test_a_cell_shows_a_source_that_gives_nothing_and_run_again_closes_it(cell):
     cell("one", "1")
     first, twin = (views.live(Device, lambda source: Sum(), ALT) for _ in range(2))
-    assert "image/png" in cell.shown[0]
+    assert "<img" in cell.stills[0]["text/html"]
     cell("two", "2")
     other = views.live(Device, lambda source: Sum(), ALT)
     assert not any(loop.pair.source.closed for loop in (first, twin, other))

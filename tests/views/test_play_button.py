@@ -8,6 +8,7 @@ import pytest
 from slamlab import views
 from slamlab.views import play_button, sliders
 from tests.patience import PATIENCE
+from tests.views.displays import Displays
 
 ALT = "a line"
 
@@ -17,7 +18,7 @@ def quick(monkeypatch):
     """Pictures as fast as they are drawn, and none shown."""
     monkeypatch.setattr(play_button, "FRAME_PERIOD", 0.0)
     monkeypatch.setattr(play_button, "MIN_PAUSE", 0.0)
-    monkeypatch.setattr(sliders, "display", lambda *args, **rest: None)
+    Displays(monkeypatch, sliders)
     yield
     play_button.stop()
 

@@ -1,8 +1,10 @@
 """Figures as data: what was drawn, where, in which colour; never pixels."""
 
 import io
+import re
 import subprocess
 import sys
+from html.parser import HTMLParser
 
 import ipywidgets
 import numpy as np
@@ -11,25 +13,29 @@ from PIL import Image
 
 from slamlab import models, views
 from slamlab.layers import Boxes, Ellipses, Points, Poses, Samples, Segments
-from slamlab.views import figures, sliders
+from slamlab.views import figure_words, sliders
+from tests.views.displays import Displays
 
 ALT = "two walls that meet"
 
 
+def html_elements(text, tag):
+    """Attributes of each element of a kind in HTML."""
+    found = []
+
+    class Reader(HTMLParser):
+        def handle_starttag(self, name, attributes):
+            if name == tag:
+                found.append(dict(attributes))
+
+    Reader().feed(text)
+    return found
+
+
 @pytest.fixture
 def stored(monkeypatch):
-    """Call a function as a cell would; what it would store, its only output."""
-
-    def run(function):
-        shown = []
-        for module in (figures, sliders):
-            monkeypatch.setattr(module, "display", lambda data, **rest: shown.append((data, rest)))
-        function()
-        ((data, rest),) = shown
-        assert rest["raw"]
-        return data, rest["metadata"]
-
-    return run
+    """What the cells of a notebook store."""
+    return Displays(monkeypatch, sliders)
 
 
 def test_a_map_has_equal_scales_and_metres_on_both_axes():
@@ -127,11 +133,45 @@ def test_side_by_side_draws_each_layer_in_its_panel():
     assert [text.get_text() for text in left.get_legend().get_texts()] == ["walls", "naive"]
 
 
-def test_a_figure_reaches_the_notebook_as_png_with_its_text(stored):
+def test_a_figure_reaches_the_notebook_as_a_picture_with_its_text(stored):
     fig, _ = views.axes()
-    data, metadata = stored(lambda: views.show(fig, ALT))
-    assert set(data) == {"image/png", "text/plain"}
-    assert data["text/plain"] == metadata["image/png"]["alt"] == ALT
+    views.show(fig, 'a <b> & "c"')
+    (data,) = stored.bundles
+    assert set(data) == {"text/html", "text/plain"}
+    assert data["text/plain"] == 'Map: x [m] across, y [m] up. a <b> & "c"'
+    (picture,) = html_elements(data["text/html"], "img")
+    assert picture["alt"] == data["text/plain"]
+    assert picture["src"].startswith("data:image/png;base64,")
+
+
+def test_a_figure_is_as_wide_as_its_size_says_and_has_two_pixels_for_each_of_the_page(stored):
+    fig, _ = views.axes(size=(5, 3))
+    views.show(fig, ALT)
+    (picture,) = html_elements(stored.bundles[0]["text/html"], "img")
+    assert picture["width"] == "400"
+    assert Image.open(io.BytesIO(views.png(fig))).size == (800, 480)
+
+
+def test_a_table_of_the_data_unfolds_below_a_figure(stored):
+    fig, _ = views.axes()
+    views.show(fig, ALT, data={"n <1>": [1, 2], "error [m]": [0.123456, "none"]})
+    found = re.findall("<(t[hd])\\b[^>]*>([^<]*)<", stored.bundles[0]["text/html"])
+    assert found == [
+        ("th", "n &lt;1&gt;"), ("th", "error [m]"),
+        ("td", "1"), ("td", "0.1235"), ("td", "2"), ("td", "none"),
+    ]  # fmt: skip
+    with pytest.raises(ValueError):
+        views.show(fig, ALT, data={"n": [1, 2], "error [m]": [1]})
+
+
+def test_the_words_of_a_figure_tell_its_panels_apart():
+    fig, _ = views.panels(["naive", "corrected"])
+    assert figure_words.words(fig) == "Two maps (naive, corrected): x [m] across, y [m] up."
+    fig, ax = views.chart("n", "error [m]", "growth")
+    ax.set_xscale("log")
+    assert figure_words.words(fig) == "Chart (growth): n (logarithmic) across, error [m] up."
+    fig = views.correlation(np.eye(5), ["robot", "a"], "left")[0]
+    assert figure_words.words(fig).startswith("Matrix (left)")
 
 
 def test_a_figure_without_text_is_refused():
@@ -164,7 +204,7 @@ def test_a_palette_keeps_every_colour_of_a_figure_and_halves_its_bytes():
     for name in views.COLOURS:
         views.draw(ax, Points(name, rng.normal(size=(60, 2))))
     ax.legend()
-    fig.savefig(whole, format="png", dpi=fig.dpi)
+    fig.savefig(whole, format="png", dpi=2 * fig.dpi)
     exact = np.asarray(Image.open(whole).convert("RGB"), dtype=float)
     found = np.asarray(Image.open(io.BytesIO(views.png(fig))).convert("RGB"), dtype=float)
     off = np.abs(found - exact).max(axis=2)
@@ -186,20 +226,23 @@ class Recorder:
         return views.chart("t [s]", "x [m]")[0]
 
 
-def test_exploring_stores_the_first_view_as_png_with_its_text(stored):
-    recorder = Recorder()
-    data, metadata = stored(
-        lambda: views.explore(recorder, alt=lambda error: f"error {error}", error=(0, 10, 3))
-    )
+def test_exploring_keeps_the_view_last_shown_as_a_picture_with_its_text(stored):
+    recorder, slider = Recorder(), ipywidgets.IntSlider(3, 0, 10)
+    views.explore(recorder, alt=lambda error: f"error {error}", error=slider)
     assert recorder.calls == [{"error": 3}]
-    assert data["image/png"]
-    assert data["text/plain"] == metadata["image/png"]["alt"] == "error 3"
+    (controls,) = stored.widgets
+    assert slider in controls.children
+    for value in (3, 5):
+        slider.value = value
+        (data,) = stored.bundles
+        assert data["text/plain"] == f"Chart: t [s] across, x [m] up. error {value}"
+        assert "<img" in data["text/html"]
 
 
 def test_moving_a_slider_draws_once_and_only_when_let_go(stored):
     recorder = Recorder()
     slider = ipywidgets.IntSlider(3, 0, 10)
-    stored(lambda: views.explore(recorder, alt=ALT, error=slider))
+    views.explore(recorder, alt=ALT, error=slider)
     assert not slider.continuous_update
     slider.value = 7
     assert recorder.calls == [{"error": 3}, {"error": 7}]
@@ -210,16 +253,15 @@ def test_a_mistake_in_the_first_view_surfaces_as_any_other():
         views.explore(Recorder(), alt=ALT, error=(0, 10, 9))
 
 
-def test_a_mistake_after_a_slider_moved_stands_in_place_of_the_figure(stored, monkeypatch):
-    view = ipywidgets.HTML()
-    monkeypatch.setattr(sliders.ipywidgets, "HTML", lambda: view)
+def test_a_mistake_after_a_slider_moved_stands_in_place_of_the_figure(stored):
     slider = ipywidgets.IntSlider(3, 0, 10)
-    stored(lambda: views.explore(Recorder(), alt=ALT, error=slider))
-    assert f'alt="{ALT}"' in view.value
+    views.explore(Recorder(), alt=ALT, error=slider)
+    assert ALT in stored.bundles[0]["text/html"]
     slider.value = 9
-    assert "ZeroDivisionError: too &lt;much&gt;" in view.value
+    (data,) = stored.bundles
+    assert "ZeroDivisionError: too &lt;much&gt;" in data["text/html"]
     slider.value = 2
-    assert f'alt="{ALT}"' in view.value
+    assert ALT in stored.bundles[0]["text/html"]
 
 
 @pytest.mark.parametrize(

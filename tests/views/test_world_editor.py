@@ -13,6 +13,7 @@ from slamlab.views.editor import WorldEditor, edit_world, editor_view
 from slamlab.views.editor.edit_history import replace_numbers
 from slamlab.worlds.files import parse
 from slamlab.worlds.world import World
+from tests.views.displays import Displays
 
 ALT = "An irregular room."
 ROWS = """\
@@ -113,9 +114,7 @@ def test_undo_takes_back_a_drag_as_a_whole_and_each_change_of_the_rows(editor):
 @pytest.fixture
 def shown(monkeypatch):
     """Show an editor as a cell does; its board, rows, undo button and message."""
-    seen = []
-    for place in (editor_view, sliders):
-        monkeypatch.setattr(place, "display", lambda data, **rest: seen.append(data))
+    displays = Displays(monkeypatch, editor_view, sliders)
     connected, boxes = editor_view._connect, []
 
     def kept(*given):
@@ -129,7 +128,7 @@ def shown(monkeypatch):
         board, beside = boxes[-1].children if boxes else (None, None)
         return editor, board, *(beside.children if boxes else ())
 
-    run.scan_points = seen
+    run.stills = displays.bundles
     return run
 
 
@@ -138,8 +137,8 @@ def test_a_drag_changes_the_rows_and_the_scan_and_rows_change_the_drawing(shown)
         return world.walls[:1, :2]
 
     editor, board, rows, undo, _ = shown(parse(ROWS), scan=scan)
-    (data,) = shown.scan_points
-    assert "image/png" in data and data["text/plain"] == ALT
+    (data,) = shown.stills
+    assert "<img" in data["text/html"] and data["text/plain"].endswith(ALT)
     board.set_state({"world": {"walls": [[1, 0, 3, 0], [3, 0, 3, 2]], "circles": [[1, 1, 0.2]]}})
     assert rows.value == editor.text and "1.0 0.0 3.0 0.0" in rows.value
     assert np.frombuffer(board.scan, "<f4").tolist() == [1, 0]
@@ -184,4 +183,4 @@ def test_a_scan_that_fails_is_told_in_one_line(shown):
 def test_without_anywidget_the_numbers_stay(shown, monkeypatch):
     monkeypatch.setitem(sys.modules, "slamlab.views.editor.board", None)
     editor = edit_world(parse(ROWS), ALT)
-    assert "image/png" in shown.scan_points[-1] and len(editor.world.walls) == 2
+    assert "<img" in shown.stills[-1]["text/html"] and len(editor.world.walls) == 2

@@ -7,7 +7,7 @@ import numpy as np
 import traitlets
 
 from slamlab.views.figures import COLOURS
-from slamlab.views.live.scripts import script
+from slamlab.views.live.scripts import script, styles
 
 HERE = Path(__file__).parent
 
@@ -29,7 +29,7 @@ class Board(anywidget.AnyWidget):
     """
 
     _esm = script(HERE / "board.js")
-    _css = (HERE / "board.css").read_text(encoding="utf-8")
+    _css = styles(HERE / "board.css")
     alt = traitlets.Unicode().tag(sync=True)
     world = traitlets.Dict().tag(sync=True)
     scan = traitlets.Bytes().tag(sync=True)

@@ -3,10 +3,9 @@
 import html
 
 import ipywidgets
-from IPython.display import display
 
 from slamlab.views.editor.edit_history import WorldEditor
-from slamlab.views.figures import bundle
+from slamlab.views.showing import bundle, show_bundle, show_controls
 from slamlab.views.sliders import explore
 from slamlab.views.widget_errors import error_line
 
@@ -38,9 +37,11 @@ def edit_world(world, alt, scan=None, dragging=True):
 
         explore(drawn, alt, rows=rows)
         return editor
-    data, metadata = bundle(editor.figure(), alt)
-    box = _connect(editor, board, rows)
-    display((box._repr_mimebundle_() or {}) | data, metadata=metadata, raw=True)
+    still = bundle(editor.figure(), alt)
+    show_controls(_connect(editor, board, rows))
+    # kept by a file; beside the drawing that can be dragged it is not seen (widgets.css)
+    still["text/html"] = f'<div class="slamlab-still">{still["text/html"]}</div>'
+    show_bundle(still)
     return editor
 
 

@@ -8,7 +8,7 @@ import traitlets
 
 from slamlab.views.live.back_pressure import Screen
 from slamlab.views.live.frame_packing import FramePacker, Scene
-from slamlab.views.live.scripts import script
+from slamlab.views.live.scripts import script, styles
 
 # Jupyter's server lets TCP hold a short message back until the one before is acknowledged, which a
 # browser on the same machine does 40 ms later; a message of two of loopback's packets is not held
@@ -28,6 +28,7 @@ class CanvasWidget(anywidget.AnyWidget):
     """
 
     _esm = script(Path(__file__).with_name("canvas.js"))
+    _css = styles()
     alt = traitlets.Unicode().tag(sync=True)
     title = traitlets.Unicode().tag(sync=True)
     width = traitlets.Int(720).tag(sync=True)

@@ -2,10 +2,9 @@
 
 import ipywidgets
 import numpy as np
-from IPython.display import display
 
 from slamlab.layers import Points
-from slamlab.views.figures import COLOURS, axes, bundle
+from slamlab.views.figures import COLOURS, UNIT, axes
 from slamlab.views.layer_drawing import draw, legend
 from slamlab.views.live.cell_views import loops_of_this_cell
 from slamlab.views.live.controls import Controls
@@ -13,6 +12,7 @@ from slamlab.views.live.drive_commands import velocities
 from slamlab.views.live.raster import RasterScreen
 from slamlab.views.live.run_loop import RunLoop, stop
 from slamlab.views.live.stepper import Stepper
+from slamlab.views.showing import bundle, show_bundle, show_controls
 
 FIRST_READING_TIMEOUT = 3.0  # [s] that a notebook's cell waits for a reading
 
@@ -40,9 +40,9 @@ def live(
 ):
     """Live view: run an estimator on a source and store a still picture of its first steps.
 
-    The first steps are made at once, so that a mistake surfaces as any other; what a notebook
-    stores is the picture after them, and where a browser shows the live view, it goes on from
-    there. Calling this stops whatever runs, so that a cell can be run again.
+    The first steps are made at once, so that a mistake surfaces as any other; the picture after
+    them is a display of its own, which a notebook keeps, and where a browser shows the live view,
+    it goes on from there. Calling this stops whatever runs, so that a cell can be run again.
 
     A source may wait for a device: all else in the notebook goes on meanwhile. One made here is
     closed when the cell is run again or the view is gone; one handed in ready-made stays open.
@@ -98,10 +98,12 @@ def live(
         pass
     for name in script:
         stepper.drive(velocities(name, tops))
-    data, metadata = bundle(still_picture(stepper.scene(), title, size), alt)
+    still = bundle(still_picture(stepper.scene(), title, size), alt)
     loop.show()
-    box = ipywidgets.VBox([Controls(loop, steppers).widget, shown.widget])
-    display((box._repr_mimebundle_() or {}) | data, metadata=metadata, raw=True)
+    show_controls(ipywidgets.VBox([Controls(loop, steppers).widget, shown.widget]))
+    # kept by a file, where no live view can be; beside one that lives it is not seen (widgets.css)
+    still["text/html"] = f'<div class="slamlab-still">{still["text/html"]}</div>'
+    show_bundle(still)
     return loop
 
 
@@ -119,11 +121,11 @@ def still_picture(scene, title, size):
     Figure
     """
     count = len(scene.curves)
-    wide, high = size[0] / 100, size[1] / 100 + count
+    wide, high = size[0] / UNIT, size[1] / UNIT + count
     fig, ax = axes(title or None, (wide, high))
     panels = []
     if count:
-        grid = fig.add_gridspec(1 + count, 1, height_ratios=[size[1] / 100 - 1, *[1] * count])
+        grid = fig.add_gridspec(1 + count, 1, height_ratios=[size[1] / UNIT - 1, *[1] * count])
         ax.set_subplotspec(grid[0])
         panels = [fig.add_subplot(grid[row + 1]) for row in range(count)]
     for below, (panel, lines) in zip(panels, scene.curves.items(), strict=True):

@@ -1,0 +1,29 @@
+// Controls of ipywidgets: names for their handles, and plain words where no kernel moves them.
+
+import { forEachElement } from "./watching.js";
+
+const DEAD = "Run this cell for its controls.";
+
+export function nameControls(panel) {
+  forEachElement(panel, ".widget-slider .noUi-handle", (handle) => {
+    const slider = handle.closest(".widget-slider");
+    const label = slider.querySelector(".widget-label")?.textContent;
+    handle.setAttribute("aria-label", label || "slider");
+    const readout = slider.querySelector(".widget-readout");
+    readout?.setAttribute("aria-label", `${label}, as a number`);
+    readout?.setAttribute("role", "textbox");
+  });
+}
+
+export function tellDeadWidgets(panel) {
+  // the line that stands for a widget whose kernel is gone, as after a notebook is opened again
+  forEachElement(panel, ".jp-OutputArea-output.jupyter-widgets", (output) => {
+    const tell = () => {
+      if (!/^Error displaying widget/.test(output.textContent)) return;
+      output.textContent = DEAD;
+      output.classList.add("slamlab-dead");
+    };
+    tell();
+    new MutationObserver(tell).observe(output, { childList: true, characterData: true, subtree: true });
+  });
+}

@@ -1,0 +1,45 @@
+// Plugins of the course: each keeps one thing in order, and all else works without them.
+
+import { openAnswers } from "./answers.js";
+import { keepClean } from "./clean.js";
+import { nameControls, tellDeadWidgets } from "./controls.js";
+import { showProgress } from "./progress.js";
+
+const NARROW = 1000; // pixels, below which the side bar leaves a notebook too little room
+
+export function plugins(INotebookTracker) {
+  const style = document.createElement("link");
+  style.rel = "stylesheet";
+  style.href = new URL("style.css", import.meta.url).href;
+  document.head.append(style);
+
+  const forEachNotebook = (name, description, attend) => ({
+    id: `slamlab:${name}`,
+    description,
+    autoStart: true,
+    requires: [INotebookTracker],
+    activate: (app, tracker) => {
+      const safely = (panel) => Promise.resolve(attend(panel, app)).catch(console.error);
+      tracker.forEach(safely);
+      tracker.widgetAdded.connect((_, panel) => { safely(panel); });
+    },
+  });
+
+  return [
+    forEachNotebook("clean", "A notebook that was only opened is not unsaved.", keepClean),
+    forEachNotebook("answers", "Answers unfold once a question is answered.", openAnswers),
+    forEachNotebook("names", "Sliders have names for who cannot see them.", nameControls),
+    forEachNotebook("dead", "Controls without a kernel say how they come alive.", tellDeadWidgets),
+    forEachNotebook("progress", "The head of a notebook shows how far one is.", showProgress),
+    {
+      id: "slamlab:narrow",
+      description: "On a narrow screen the side bar starts closed.",
+      autoStart: true,
+      activate: (app) => {
+        app.restored.then(() => {
+          if (window.innerWidth < NARROW) app.shell.collapseLeft?.();
+        });
+      },
+    },
+  ];
+}

@@ -1,0 +1,70 @@
+// Progress at the head of a notebook: the points of each task, the questions that are answered.
+// It is read from progress.json, which the kernel writes beside the folders of the notebooks.
+
+const TASK = /\bcheck\("([^"\\]+)"\)/;
+const QUESTION = /\bask\(\s*"([^"\\]+)"/;
+
+// what there is to be done in a notebook, in its order
+function tasksAndQuestions(model) {
+  const found = [];
+  for (const cell of model.cells) {
+    if (cell.type !== "code") continue;
+    const source = cell.sharedModel.getSource();
+    const task = TASK.exec(source)?.[1], question = QUESTION.exec(source)?.[1];
+    if (task) found.push({ kind: "task", id: task, of: cell.getMetadata("nbgrader")?.points });
+    else if (question) found.push({ kind: "question", id: question });
+  }
+  return found;
+}
+
+async function read(contents, path) {
+  try {
+    const file = await contents.get(path, { type: "file", format: "text" });
+    return JSON.parse(file.content);
+  } catch {
+    return {}; // nothing is done yet, or it is being written
+  }
+}
+
+function state(item, progress) {
+  const done = progress[item.kind === "task" ? "tasks" : "questions"]?.[item.id];
+  const name = item.id.replace(/^\d+-/, "");
+  if (item.kind === "question") {
+    return { mark: done ? "✓" : "○", text: name, words: `question ${name}: ${done ? "answered" : "open"}` };
+  }
+  const points = done?.points ?? 0, of = done?.of ?? item.of;
+  const mark = !done ? "○" : points >= of ? "✓" : "◐";
+  const words = done ? `${points} of ${of} points` : "not checked yet";
+  return { mark, text: `${name} ${done ? points : 0}/${of}`, words: `task ${name}: ${words}` };
+}
+
+export async function showProgress(panel, app) {
+  const { context } = panel;
+  await context.ready;
+  if (!context.model.getMetadata("slamlab")) return;
+  const items = tasksAndQuestions(context.model);
+  if (!items.length) return;
+  const bar = document.createElement("ul");
+  bar.className = "slamlab-progress";
+  bar.setAttribute("aria-label", "Progress");
+  panel.contentHeader.node.append(bar);
+  panel.contentHeader.node.style.minHeight = "auto";
+
+  const path = `${context.path.split("/").slice(0, -2).join("/")}/progress.json`;
+  let shown = "";
+  const update = async () => {
+    const progress = await read(app.serviceManager.contents, path);
+    const states = items.map((item) => state(item, progress));
+    if (JSON.stringify(states) === shown || panel.isDisposed) return;
+    shown = JSON.stringify(states);
+    bar.replaceChildren(...states.map(({ mark, text, words }) => {
+      const entry = document.createElement("li");
+      entry.textContent = `${mark} ${text}`;
+      entry.title = words;
+      return entry;
+    }));
+  };
+  await update();
+  // the kernel writes while it is busy with a check or an answer
+  panel.sessionContext.statusChanged.connect((_, status) => { if (status === "idle") update(); });
+}

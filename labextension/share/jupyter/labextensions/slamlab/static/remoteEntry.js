@@ -1,0 +1,32 @@
+// Container of the extension (module federation), written by hand: plain modules need no build.
+// JupyterLab calls init with what the application shares, then get for the extension.
+
+window._JUPYTERLAB = window._JUPYTERLAB || {};
+window._JUPYTERLAB.slamlab = (() => {
+  const here = document.currentScript.src;
+  let scope;
+
+  async function shared(name) {
+    const [offered] = Object.values(scope[name]);
+    return (await offered.get())();
+  }
+
+  return {
+    init(shares) {
+      scope = shares;
+    },
+    async get() {
+      let found = []; // an extension that fails must not take the application with it
+      try {
+        const [{ plugins }, { INotebookTracker }] = await Promise.all([
+          import(new URL("index.js", here).href),
+          shared("@jupyterlab/notebook"),
+        ]);
+        found = plugins(INotebookTracker);
+      } catch (error) {
+        console.error("slamlab:", error);
+      }
+      return () => ({ __esModule: true, default: found });
+    },
+  };
+})();

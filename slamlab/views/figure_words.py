@@ -1,0 +1,57 @@
+"""Words for a figure: of what kind it is and what its axes are, for who cannot see it."""
+
+from itertools import groupby
+
+COUNTS = {2: "two", 3: "three", 4: "four", 5: "five", 6: "six"}
+
+
+def words(fig):
+    """Words for a figure, such as "Map: x [m] across, y [m] up."
+
+    They are read from the figure itself, so that they are true of every figure.
+
+    Parameters
+    ----------
+    fig : Figure
+
+    Returns
+    -------
+    str, a sentence; of several panels one that names them, too
+    """
+    panels = [ax for ax in fig.axes if not _is_colour_bar(ax)]
+    said = []
+    for (kind, axes_), group in groupby(panels, lambda ax: (_kind(ax), _axes(ax))):
+        titles = [ax.get_title() for ax in group]
+        said.append(_panel(kind, axes_, titles))
+    return " Beside it: ".join(said) if said else "Picture."
+
+
+def _panel(kind, axes_, titles):
+    named = ", ".join(" ".join(title.split()) for title in titles if title)
+    many = len(titles) > 1
+    start = f"{COUNTS.get(len(titles), len(titles))} {kind}s" if many else kind
+    parts = [start[0].upper() + start[1:], f" ({named})" if named else ""]
+    return "".join(parts) + (f": {axes_}." if axes_ else ".")
+
+
+def _is_colour_bar(ax):
+    return ax.get_label() == "<colorbar>" or hasattr(ax, "_colorbar")
+
+
+def _kind(ax):
+    if ax.xaxis.label.get_text() == "x [m]" and ax.yaxis.label.get_text() == "y [m]":
+        return "map"
+    if ax.images:
+        return "matrix"
+    if ax.containers:
+        return "bar chart"
+    return "chart" if ax.axison else "drawing"
+
+
+def _axes(ax):
+    if not ax.axison:
+        return ""
+    across, up = (" ".join(text.split()) for text in (ax.get_xlabel(), ax.get_ylabel()))
+    across += " (logarithmic)" if across and ax.get_xscale() == "log" else ""
+    up += " (logarithmic)" if up and ax.get_yscale() == "log" else ""
+    return ", ".join(f"{name} {where}" for name, where in ((across, "across"), (up, "up")) if name)

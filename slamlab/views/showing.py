@@ -1,0 +1,128 @@
+"""Figures shown in a notebook: crisp PNG in HTML with alternative text, which a file keeps."""
+
+import base64
+import html
+import io
+
+from IPython.display import DisplayHandle, display
+from PIL import Image
+
+from slamlab.views.figure_words import words
+
+SHARPNESS = 2  # pixels of a picture to a pixel of the page: crisp where a screen has two
+PALETTE = 96  # colours of a picture; edges of letters and lines need no more
+
+
+def png(fig):
+    """Render a figure as PNG with a palette of 96 colours; deterministic: always the same bytes.
+
+    A figure of lines and letters looks the same in a palette and takes well under half the bytes.
+
+    Parameters
+    ----------
+    fig : Figure
+
+    Returns
+    -------
+    bytes
+    """
+    drawn, small = io.BytesIO(), io.BytesIO()
+    fig.savefig(drawn, format="png", dpi=SHARPNESS * fig.dpi)
+    picture = Image.open(drawn).convert("RGB")
+    few = picture.quantize(PALETTE, method=Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE)
+    few.save(small, "PNG", optimize=True)
+    return small.getvalue()
+
+
+def bundle(fig, alt, data=None):
+    """MIME bundle that a notebook stores of a figure: the picture in HTML, its words as text.
+
+    HTML carries the alternative text to every front end, and to pages made of a notebook; a bare
+    image/png loses it.
+
+    Parameters
+    ----------
+    fig : Figure
+    alt : str, what is to be seen; of what kind the figure is and what its axes are is put before
+    data : dict or None, heading to column (of numbers or text): a table to unfold below
+
+    Returns
+    -------
+    dict by MIME type
+
+    Raises
+    ------
+    ValueError : without alt text, or with columns of different length
+    """
+    if not isinstance(alt, str) or not alt.strip():
+        raise ValueError("a figure needs alt text: say in a sentence what it shows")
+    alt = f"{words(fig)} {alt.strip()}"
+    wide = round(fig.get_figwidth() * fig.dpi)
+    picture = (
+        f'<img class="slamlab-figure" width="{wide}" alt="{html.escape(alt)}" '
+        f'src="data:image/png;base64,{base64.b64encode(png(fig)).decode()}">'
+    )
+    return {"text/html": picture + _table(data), "text/plain": alt}
+
+
+def show(fig, alt, data=None):
+    """Show (display) a figure in the notebook, with alternative text.
+
+    Parameters
+    ----------
+    fig : Figure
+    alt : str, what is to be seen; of what kind the figure is and what its axes are is put before
+    data : dict or None, heading to column (of numbers or text): a table to unfold below
+
+    Raises
+    ------
+    ValueError : without alt text, or with columns of different length
+    """
+    show_bundle(bundle(fig, alt, data))
+
+
+def show_bundle(shown):
+    """Show what :func:`bundle` made as a display of its own, where another can take its place.
+
+    Beside no widget a file keeps it, and shows it when it is opened again.
+
+    Parameters
+    ----------
+    shown : dict by MIME type
+
+    Returns
+    -------
+    DisplayHandle : its ``update(bundle, raw=True)`` shows another bundle instead
+    """
+    handle = DisplayHandle()
+    handle.display(shown, raw=True)
+    return handle
+
+
+def show_controls(box):
+    """Show a widget, or words where none can be: in a file, or where no kernel runs.
+
+    Parameters
+    ----------
+    box : Widget
+    """
+    words = {"text/plain": "Run this cell for its controls."}
+    display((box._repr_mimebundle_() or {}) | words, raw=True)
+
+
+def _table(data):
+    if data is None:
+        return ""
+    head = "".join(f'<th scope="col">{html.escape(name)}</th>' for name in data)
+    rows = "".join(
+        f"<tr>{''.join(f'<td>{_cell(value)}</td>' for value in row)}</tr>"
+        for row in zip(*data.values(), strict=True)
+    )
+    return (
+        "<details><summary>data</summary>"
+        f"<table><thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table></details>"
+    )
+
+
+def _cell(value):
+    return html.escape(value if isinstance(value, str) else f"{value:.4g}")
