@@ -27,6 +27,9 @@ LECTURE = (
     "jupyterlab-fonts",
 )  # and what they need beyond JupyterLab: nothing
 NEWS = "@jupyterlab/apputils-extension:announcements"
+# what differs from JupyterLab's own settings: the width of the side bar is for whole names
+SETTINGS = {"@jupyterlab/filebrowser-extension:browser": {"showLastModifiedColumn": False}}
+PROJECT = ("pyproject.toml", "labextension")  # what is copied into the environment, not linked
 SPACE = 1.2e9  # bytes
 
 # What pip's output gives away, and what to tell the reader: the first that fits.
@@ -159,6 +162,10 @@ def install_all(venv, lock, lecture):
     run(venv, "compileall", "-q", "-j", "0", library)
     if run(venv, "jupyterlab.labextensions", "disable", NEWS):
         raise Trouble("JupyterLab does not run; why is at the end of " + log_of(venv))
+    settings = os.path.join(venv, "share", "jupyter", "lab", "settings")
+    os.makedirs(settings, exist_ok=True)
+    with open(os.path.join(settings, "overrides.json"), "w") as file:
+        json.dump(SETTINGS, file, indent=1)
 
 
 def entries(lock, names):
@@ -181,9 +188,18 @@ def write_stamp(venv, stamp):
         json.dump(stamp, file, indent=1)
 
 
-def digest(path):
-    with open(os.path.join(ROOT, path), "rb") as file:
-        return hashlib.sha256(file.read().replace(b"\r\n", b"\n")).hexdigest()
+def digest(*paths):
+    """Digest of files and of all files in folders."""
+    found = []
+    for path in [os.path.join(ROOT, path) for path in paths]:
+        found.append(path)
+        for folder, _, names in os.walk(path):
+            found += [os.path.join(folder, name) for name in names]
+    whole = hashlib.sha256()
+    for path in sorted(filter(os.path.isfile, found)):
+        with open(path, "rb") as file:
+            whole.update(file.read().replace(b"\r\n", b"\n"))
+    return whole.hexdigest()
 
 
 def make_venv(venv):
@@ -214,7 +230,7 @@ def set_up(venv, lock, lecture):
     stamp = read_stamp(venv)
     here = {"place": venv, "python": "%d.%d" % sys.version_info[:2]}
     usable = all(stamp.get(key) == here[key] for key in here) and os.path.exists(python_of(venv))
-    wanted = dict(here, lock=digest(lock), project=digest("pyproject.toml"))
+    wanted = dict(here, lock=digest(lock), project=digest(*PROJECT))
     wanted["lecture"] = lecture or (usable and stamp["lecture"])
     if usable and stamp == wanted:
         return

@@ -39,7 +39,7 @@ SHARED_CLASS = 6
 
 def derived(folder):
     """The text of the exercise's notebook in a folder of the project."""
-    return (ROOT / folder / f"{NAME}.ipynb").read_text("utf-8")
+    return (ROOT / folder / f"ex{NAME}.ipynb").read_text("utf-8")
 
 
 def make_submissions(folder, count):

@@ -9,7 +9,7 @@ import nbformat
 
 from course.derive import FOLDERS, derive
 from course.execute import ExecutionError, carry_outputs, execute, executed, same_code
-from course.source import ROOT, CourseError, sources
+from course.source import ROOT, CourseError, file_name, sources
 
 
 def build(path, force=False, root=ROOT):
@@ -85,13 +85,13 @@ def differences(path, root=ROOT):
 
 def orphans(root=ROOT):
     """Find orphans: notebooks in the derived folders without a source, as paths from the root."""
-    sourced = {(p.parent.name, p.stem) for p in sources(root)}
+    sourced = {(p.parent.name, file_name(p)) for p in sources(root)}
     kinds = {folder: f"{kind}s" for kind, folders in FOLDERS.items() for folder in folders}
     return [
         path.relative_to(root).as_posix()
         for folder in kinds
         for path in sorted((root / folder).glob("*.ipynb"))
-        if (kinds[folder], path.stem) not in sourced
+        if (kinds[folder], path.name) not in sourced
     ]
 
 

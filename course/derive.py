@@ -18,6 +18,7 @@ from course.exercise import (
 from course.lint import lint
 from course.source import ROOT, Cell, CourseError, Source, read
 from slamlab.exercises import catalogue
+from course.ways import with_ways
 from slamlab.exercises.report import points
 
 _TASK_HEADING = re.compile(r"^## .*\S", re.MULTILINE)
@@ -63,13 +64,15 @@ def derive(path, root=ROOT):
     problems = lint(source, exercise)
     if problems:
         raise CourseError(problems)
+    last = []
     if exercise:
-        last = Cell("code", VALIDATE, "validate", source.cells[-1].line, {})
-        source = replace(source, cells=[*_with_points(source.cells, exercise), last])
+        source = replace(source, cells=_with_points(source.cells, exercise))
+        last = [Cell("code", VALIDATE, "validate", source.cells[-1].line, {})]
+    source = replace(source, cells=with_ways(source, last))
     return [
         Derived(
             source,
-            root / folder / f"{source.path.stem}.ipynb",
+            root / folder / source.file,
             _notebook(source, exercise, stubs=folder == "exercises"),
             folder != "exercises",
         )
@@ -122,7 +125,9 @@ def _notebook(source, exercise, stubs):
 
 
 def _cell(cell, exercise, stubs):
-    metadata = {k: v for k, v in cell.metadata.items() if k != "name"}
+    metadata = {k: v for k, v in cell.metadata.items() if k not in ("name", "answers")}
+    if cell.answers:  # folded until the question is answered
+        metadata |= {"slamlab": {"answers": cell.answers}, "jupyter": {"outputs_hidden": True}}
     text = glossary.filled(cell.text)
     if cell.check:
         metadata |= check_metadata(exercise.task(cell.check))

@@ -11,6 +11,7 @@ from nbclient import NotebookClient
 from nbclient.exceptions import CellExecutionError, CellTimeoutError, DeadKernelError
 
 from course.source import ROOT
+from slamlab.coursework.folder import OFF
 from slamlab.parallel import THREAD_VARIABLES
 
 WIDGET = "application/vnd.jupyter.widget-view+json"
@@ -83,6 +84,7 @@ def execute(derived, folder):
         "JUPYTER_PREFER_ENV_PATH": "1",
     }
     env["NO_COLOR"] = "1"  # what is stored is plain text
+    env[OFF] = "1"  # nobody learns here
     env |= dict.fromkeys(THREAD_VARIABLES, "1")  # measured times are those of one core
     if "SLAMLAB_DATA" in env:  # the kernel stands in another folder
         env["SLAMLAB_DATA"] = str(Path(env["SLAMLAB_DATA"]).resolve())

@@ -15,6 +15,7 @@ TAGS = {
     "raises-exception",
     "remove-input",
 }
+QUESTION = re.compile(r"\bask\(\s*\"([^\"]+)\"")
 SLIDES = {"slide", "subslide", "fragment", "notes", "skip", "-"}
 MAX_CELL_LINES = 30  # lines of a lesson's code cell
 
@@ -46,6 +47,7 @@ def lint(source, exercise=None):
         if cell.type == "code":
             problems += [f"{source.at(cell, line)}: {text}" for line, text in _code(source, cell)]
     problems += [f"{source.at(cell)}: {text}" for cell, text in _slides(source)]
+    problems += [f"{source.at(cell)}: {text}" for cell, text in _questions(source)]
     problems += [f"{source.at(cell)}: {text}" for cell, text in _first_and_last_cell(source)]
     if source.kind == "exercise":
         problems += [f"{source.at(cell)}: {text}" for cell, text in _checks(source, exercise)]
@@ -116,6 +118,18 @@ def _slides(source):
             )
 
 
+def _questions(source):
+    """Problems of questions: ids that are not this lesson's, answers without their question."""
+    asked = set()
+    for cell in source.cells:
+        for id in QUESTION.findall(cell.text) if cell.type == "code" else ():
+            if not id.startswith(f"{source.number}-") or id in asked:
+                yield cell, f"call the question {source.number}-…, and each one differently"
+            asked.add(id)
+        if cell.answers and (cell.type != "code" or cell.answers not in asked):
+            yield cell, f"answers a question {cell.answers!r} that no cell before it asks"
+
+
 def _first_and_last_cell(source):
     """Problems of the first and the last cell."""
     if not source.cells:
@@ -129,7 +143,7 @@ def _first_and_last_cell(source):
         if not re.search(pattern, first.text, re.IGNORECASE):
             yield first, f"the first cell: {wish}"
     if source.kind == "lesson":
-        wanted = f"../exercises/{source.path.stem}.ipynb" if source.number != "00" else ".ipynb"
+        wanted = f"../exercises/ex{source.path.stem}.ipynb" if source.number != "00" else ".ipynb"
         if last.type != "markdown" or wanted not in last.text:
             yield (
                 last,

@@ -5,7 +5,7 @@ import zipfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
-FOLDERS = ("notebooks", "exercises", "slamlab", "docs")
+FOLDERS = ("notebooks", "exercises", "slamlab", "labextension", "docs")
 FILES = ("README.md", "LICENSE", "Makefile", "lab.py", "pyproject.toml", "environment.yml",
          "requirements.lock")  # fmt: skip
 EXCLUDED = ("__pycache__", ".ipynb_checkpoints")

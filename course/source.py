@@ -10,7 +10,7 @@ from nbformat import NotebookNode
 
 ROOT = Path(__file__).resolve().parent.parent
 KINDS = {"lessons": "lesson", "exercises": "exercise"}
-METADATA = ("name", "slideshow", "tags")
+METADATA = ("name", "slideshow", "tags", "answers")
 CHECK = re.compile(r'check\("([^"\\]+)"\)')
 ID = re.compile(r"[a-zA-Z0-9_-]{1,64}")
 
@@ -57,6 +57,11 @@ class Cell:
         return list(self.metadata.get("tags", []))
 
     @property
+    def answers(self):
+        """The id of the question that the cell answers, or None."""
+        return self.metadata.get("answers")
+
+    @property
     def slide(self):
         """The cell's slide type or None."""
         return self.metadata.get("slideshow", {}).get("slide_type")
@@ -88,9 +93,28 @@ class Source:
         """The number the file's name starts with, such as "04"."""
         return self.path.stem.split("_")[0]
 
+    @property
+    def file(self):
+        """The name of its notebooks."""
+        return file_name(self.path)
+
     def at(self, cell, line=0):
         """The place of a cell's line (counted from 1; 0 is the marker) as "file:line"."""
         return f"{_relative(self.path)}:{cell.line + line}"
+
+
+def file_name(path):
+    """The name of a source's notebooks; an exercise's begins with ex, so that tabs tell it apart.
+
+    Parameters
+    ----------
+    path : Path, of the source
+
+    Returns
+    -------
+    str
+    """
+    return f"{'ex' if path.parent.name == 'exercises' else ''}{path.stem}.ipynb"
 
 
 def sources(root=ROOT):

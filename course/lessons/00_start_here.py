@@ -38,7 +38,24 @@ setup_check.report()
 # Try it. A lidar turns once in a room and measures 400 distances, 0.9° apart. It is a good one, but
 # now and then a beam gets lost on something black or shiny.
 #
-# **Predict:** how many of the 400 beams come back?
+# The next cell asks for your prediction. Run it, type a number, press *answer*: you are told why it
+# is right or what you may have thought of. Then run the cell after it and see.
+
+# %% name="ask-beams"
+from slamlab.checks import ask
+
+ask(
+    "00-beams",
+    "**Predict:** how many of the 400 beams come back?",
+    right=398,
+    tolerance=1.5,
+    unit="beams",
+    reason="of the surfaces in front of it a good lidar misses fewer than one in a hundred.",
+    wrong={
+        400: "all of them would be a perfect lidar; a beam gets lost now and then.",
+        200: "half of them would be a broken lidar: a room has walls on all sides.",
+    },
+)
 
 # %% name="first-scan" tags=["nbval-check-output"]
 import numpy as np
@@ -59,10 +76,23 @@ print(f"{scan.valid.sum()} of {len(scan.ranges)} beams came back")
 # comes from a generator `rng` with a written-down seed, so you get the number printed here. Change
 # the 7 and you get another one.
 #
-# **Predict:** the lidar sees in every direction. Which parts of the room will be missing from the
-# picture?
+# A prediction may also be a choice. The picture that answers this one is folded until you have
+# chosen, or ask to see it: a click on the dots below its cell opens it, too.
 
-# %% name="first-picture"
+# %% name="ask-missing"
+ask(
+    "00-missing",
+    "**Predict:** the lidar sees in every direction. Which parts of the room will be missing from "
+    "the picture?",
+    {
+        "what is far away": "walls twelve metres off come back as well as those at one metre.",
+        "what stands behind something": "a beam ends where it first meets a surface.",
+        "nothing: it turns all round": "it turns all round, but it does not see through a table.",
+    },
+    right="what stands behind something",
+)
+
+# %% name="first-picture" answers="00-missing"
 fig, ax = views.axes("One turn of the lidar in a room")
 views.draw(ax, Segments("walls", room.outline()), lw=0.8)
 views.draw(ax, Points("scan", transform(pose, scan.points())))
@@ -106,8 +136,9 @@ views.explore(
 # Move the lidar past the table, to the left or to the top, and the cupboard's front appears.
 #
 # When a notebook gets muddled, because cells ran out of order, choose *Kernel → Restart Kernel and
-# Run All Cells*. Nothing can be broken: `git restore notebooks` in a terminal brings every lesson
-# back as it was.
+# Run All Cells*. Nothing can be broken: `slamlab reset lesson-00` in a terminal (*File → New →
+# Terminal*) brings this lesson back as it was handed out, `slamlab reset 04` exercise 04, and
+# `slamlab reset 04-camera` one of its tasks. What you had written is kept in a file beside it.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## How an exercise works
@@ -268,6 +299,18 @@ for theta in (25, 115):
 # key press, and speaker's notes stand in cells of their own. `python lab.py --lecture` adds the
 # slideshow to JupyterLab; [docs/lecturing.md](../docs/lecturing.md) says which keys to press and
 # how to see your notes. *View → Appearance → Presentation Mode* makes everything larger without it.
+
+# %% [markdown]
+# ## How far you are
+#
+# What you answer and check is kept in the file `progress.json` beside the folders of the notebooks,
+# and nowhere else: nothing leaves your computer. The head of each notebook shows its own tasks and
+# questions; the next cell, and `slamlab progress` in a terminal, show all of them.
+
+# %% name="progress"
+from slamlab import coursework
+
+coursework.show_progress()
 
 # %% [markdown]
 # ## Where help is

@@ -204,7 +204,7 @@ views.show(fig, alt="On logarithmic axes length errors rise with slope 1/2, head
 # %% [markdown]
 # The marks follow the lines: slope ½ for length, 1½ for heading. At 5 m both errors seem bearable;
 # at 80 m the heading error is eighty times the other. **Whatever is only added up runs away.** In
-# the [exercise](../exercises/01_why_slam.ipynb) you work out the formula and hold it against
+# the [exercise](../exercises/ex01_why_slam.ipynb) you work out the formula and hold it against
 # robots.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
@@ -307,7 +307,7 @@ views.show(fig, alt="Left a tangle 80 m long; right a building 30 m across with 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## What comes next
 #
-# Now draw such maps with your own functions: [exercise 01](../exercises/01_why_slam.ipynb), 40 min.
+# Now draw such maps with your own functions: [exercise 01](../exercises/ex01_why_slam.ipynb), 40 min.
 #
 # After that, [04 · Models and Jacobians](04_models_and_jacobians.ipynb) writes motion and
 # observation as functions and derives how errors pass through them; [13 · Scan

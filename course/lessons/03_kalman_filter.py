@@ -839,5 +839,5 @@ for sensor in (1, 1e-3, 1e-5):
 # [04 · Models and Jacobians](04_models_and_jacobians.ipynb) makes real models straight, near
 # where the robot is.
 #
-# **Exercise:** [write the filter, piece by piece](../exercises/03_kalman_filter.ipynb), and have it
+# **Exercise:** [write the filter, piece by piece](../exercises/ex03_kalman_filter.ipynb), and have it
 # judged by what it promises: least squares, and errors that P foretold.

@@ -1036,4 +1036,4 @@ Markdown(table(errata))
 #
 # **Exercise:** [write H, J_xr, J_z and a new landmark's covariance, derive the Jacobian of a
 # camera that is in no book, and beat the linearised step where it
-# fails](../exercises/04_models_and_jacobians.ipynb). The models judge them, not a stored answer.
+# fails](../exercises/ex04_models_and_jacobians.ipynb). The models judge them, not a stored answer.

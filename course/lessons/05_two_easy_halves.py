@@ -856,5 +856,5 @@ PHt.blocks[2, 0]
 # **Next:** [lesson 06](06_ekf_slam.ipynb) puts robot and landmarks into one state and keeps P_ri:
 # the MAK filter, EKF-SLAM.
 #
-# **Exercise:** [write both halves](../exercises/05_two_easy_halves.ipynb), and have them judged by
+# **Exercise:** [write both halves](../exercises/ex05_two_easy_halves.ipynb), and have them judged by
 # what honest filters obey.

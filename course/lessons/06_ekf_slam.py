@@ -1136,4 +1136,4 @@ for share in (0, 0.5, 0.8, 0.95):
 # correlations cannot be dropped, why they only grow, and what they cost.
 #
 # **Exercise:** [write predict, augment, H, update and the whole
-# filter](../exercises/06_ekf_slam.ipynb), and have them judged by what robots really do.
+# filter](../exercises/ex06_ekf_slam.ipynb), and have them judged by what robots really do.

@@ -936,4 +936,4 @@ for name in ("ideal", "first estimates", "standard"):
 # **Next:** [lesson 08](08_landmarks_from_scans.ipynb), landmarks from scans: here every landmark
 # told its name; a wall does not. [Lesson 13](13_scan_matching.ipynb) does without landmarks.
 #
-# **Exercise:** [correlations](../exercises/07_correlations.ipynb).
+# **Exercise:** [correlations](../exercises/ex07_correlations.ipynb).

@@ -1096,4 +1096,4 @@ for n, lives in ((1, 3), (2, 3), (3, 3), (5, 3), (3, 1), (3, 40)):
 # live, through both situations, and its flaws one by one, measured.
 #
 # **Exercise:** [fit a line, meet in a corner, pair, find pillars, and take a whole scan
-# apart](../exercises/08_landmarks_from_scans.ipynb).
+# apart](../exercises/ex08_landmarks_from_scans.ipynb).

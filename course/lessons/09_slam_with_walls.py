@@ -1523,6 +1523,6 @@ for limit in (90, 30, 20, 10):
 # | predict after pairing | ghosts in the map and a wrong heading, or lost |
 #
 # **Exercise:** [place a wall, keep its life, update, drive a corridor, thin
-# points](../exercises/09_slam_with_walls.ipynb).
+# points](../exercises/ex09_slam_with_walls.ipynb).
 #
 # **Next:** [lesson 10](10_boxes.ipynb) asks what is left when errors have no likelihood, only bounds.

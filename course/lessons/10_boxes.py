@@ -918,5 +918,5 @@ print(f"steps of {len(run)} with the truth outside: boxes {box_out}, 95 % ellips
 # **Next:** lesson 11 keeps neither box nor ellipse but a cloud of samples. Lesson 12 lets all three
 # drive the same robot.
 #
-# **Exercise:** [write the intervals, the edges and the heading](../exercises/10_boxes.ipynb) of a
+# **Exercise:** [write the intervals, the edges and the heading](../exercises/ex10_boxes.ipynb) of a
 # filter that must never lose the truth, and make its boxes as small as they can be.

@@ -745,4 +745,4 @@ for name, (error, value, _) in found.items():
 # **Next:** in [12 · Three filters, one robot](12_three_filters.ipynb) boxes, ellipses and samples
 # drive the same robot.
 #
-# **Exercise:** [samples](../exercises/11_samples.ipynb).
+# **Exercise:** [samples](../exercises/ex11_samples.ipynb).

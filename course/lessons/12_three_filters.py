@@ -974,6 +974,6 @@ Markdown(head + "\n".join(f"| {finding} | {answer} |" for finding, answer in jud
 # landmarks end: corners that one scan in three shows are too few to be found again by.
 #
 # **Exercise:** [odometry, the follower, lost or not, and how sure is a
-# share](../exercises/12_three_filters.ipynb).
+# share](../exercises/ex12_three_filters.ipynb).
 #
 # **Next:** [lesson 13](13_scan_matching.ipynb) does without landmarks altogether.

@@ -999,4 +999,4 @@ except (sources.SourceError, ValueError) as absent:
 # only more slowly. Lesson 14 puts ICP on a live robot; lesson 15 closes the loop.
 #
 # **Exercise:** [write the best motion, ICP, trimmed ICP and a walk that loses no
-# scan](../exercises/13_scan_matching.ipynb), judged by where the points land.
+# scan](../exercises/ex13_scan_matching.ipynb), judged by where the points land.

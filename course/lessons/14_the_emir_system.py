@@ -992,5 +992,5 @@ print("naive pose at least ten times worse:", distances[0] > 10 * distances[1])
 # where the robot comes back walls stand twice: lesson [15](15_closing_the_loop.ipynb) recognises
 # places and closes the loop.
 #
-# **Exercise:** [decode nodes, frames and counters](../exercises/14_the_emir_system.ipynb), judged
+# **Exercise:** [decode nodes, frames and counters](../exercises/ex14_the_emir_system.ipynb), judged
 # with bytes that no one has seen before.

@@ -997,7 +997,7 @@ views.explore(
 # building that agrees with its walls to centimetres.
 #
 # **Exercise:** [an edge's error, its Jacobians, a step of Gauss and Newton, an edge by radio and a
-# map in spite of liars](../exercises/15_closing_the_loop.ipynb).
+# map in spite of liars](../exercises/ex15_closing_the_loop.ipynb).
 #
 # **Next:** your own robot. [Lesson 00](00_start_here.ipynb) says where help is; `slamlab run` takes
 # your own logs, as CARMEN, BreezySLAM or ROS bags.

@@ -1,8 +1,9 @@
-"""Checks of the exercises, for notebooks: ``check("04-h-robot")``, hint, attempt, validate.
+"""Checks of the exercises, for notebooks: ``check("04-h-robot")``, hint, ask, attempt, validate.
 
 Read in this order:
 
-- here: check, hint, attempt, validate; ``time_limit``: their timeout; ``ladder``: what hint says
+- here: check, hint, ask, attempt, validate; ``time_limit``: their timeout
+- ``ladder``: what hint says; ``questions``: what ask shows
 - ``validation``: a whole notebook judged as grading judges it
 - ``setup_check``: whether this machine has what the course needs
 """
@@ -53,6 +54,34 @@ def hint(task_id):
     print(said)
 
 
+def ask(id, text, choices=None, right=None, *, tolerance=None, unit="", reason="", wrong=None):
+    """Ask a question of a lesson, with choices or for a number; the answer opens what follows.
+
+    Each answer gets its reason. It goes into the progress and nowhere else: nothing is graded.
+
+    Parameters
+    ----------
+    id : str such as "04-leaning"; a cell marked ``answers="04-leaning"`` opens when it is answered
+    text : str, the question, Markdown
+    choices : dict or None, choice to the reason why it is right or wrong; None asks for a number
+    right : str or float, the right choice or number
+    tolerance : float, how far a number may be off
+    unit : str, of the number
+    reason : str, why the number is right
+    wrong : dict or None, a number that somebody may have to the reason why it is wrong
+
+    Raises
+    ------
+    ValueError : choices without the right one, a number without a tolerance
+    """
+    from slamlab.checks import questions
+
+    if choices is not None:
+        questions.ask_choice(id, text, choices, right)
+    else:
+        questions.ask_number(id, text, right, tolerance or 0.0, unit, reason, wrong or {})
+
+
 def validate():
     """Validate this notebook: run its saved file as grading will, and print what it earns."""
     if "NBGRADER_EXECUTION" in os.environ:  # nbgrader is at it already
@@ -97,6 +126,7 @@ def _task(task_id):
 
 
 def _check(task_id, namespace):
+    from slamlab.coursework import progress
     from slamlab.exercises import catalogue, report
 
     task = _task(task_id)
@@ -113,6 +143,7 @@ def _check(task_id, namespace):
     if printed.get(task.id):
         print(f"your code printed:\n{printed[task.id]}\n")
     print(report.coloured(report.format_verdict(task, verdict)))
+    progress.keep_check(task.id, float(verdict.points), float(task.points))
     if verdict.laws and not verdict.full:
         print(f'    hint("{task.id}") asks a question that leads on.')
     return float(min(verdict.points, task.points))

@@ -5,6 +5,7 @@ import textwrap
 from datetime import datetime
 from pathlib import Path
 
+from slamlab.coursework import progress
 from slamlab.exercises.report import WIDTH, coloured, format_verdict, number, points
 from slamlab.exercises.task import OPEN_SEED
 from slamlab.grading import judge, preflight, submissions
@@ -16,13 +17,14 @@ class ValidationError(Exception):
     """A notebook cannot be validated at all; the text says why."""
 
 
-def validate(path, default=None) -> bool:
+def validate(path, default=None, keep=False) -> bool:
     """Validate a notebook and print its verdicts, with the inputs (open seed) that ``check`` uses.
 
     Parameters
     ----------
     path : Path, of the notebook
     default : str or None, its exercise where it does not tell it
+    keep : bool, whether the points go into the progress
 
     Returns
     -------
@@ -51,6 +53,8 @@ def validate(path, default=None) -> bool:
         print(coloured(format_verdict(task, verdict)))
     earned = sum(verdict.points for verdict in result["verdicts"])
     print(f"{number(earned)} of {points(exercise.points)}")
+    if keep:
+        progress.keep_validation(exercise.id, float(earned), float(exercise.points))
     return all(verdict.full for verdict in result["verdicts"])
 
 
@@ -71,7 +75,7 @@ def validate_current_notebook(names):
     saved = datetime.fromtimestamp(path.stat().st_mtime)
     print(f"{path.name} as saved at {saved:%H:%M:%S}, in a fresh process from top to bottom:")
     try:
-        validate(path)
+        validate(path, keep=True)
     except ValidationError as error:
         print(f"✗ {error}")
     except KeyboardInterrupt:

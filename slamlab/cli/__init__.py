@@ -4,6 +4,7 @@ Read in this order:
 
 - ``run``, ``convert``: estimators over sources, sources into reading logs
 - ``emulate``, ``record``, ``replay``: devices
+- ``progress``, ``reset`` (and update): a student's own folder
 - ``check``, ``grade``, ``gradebook_verbs`` (merge, adjust, export): exercises
 - ``common``: what several share
 
@@ -16,7 +17,8 @@ from importlib import import_module
 
 from slamlab import __version__
 
-COMMANDS = ("run", "convert", "emulate", "record", "replay", "check", "grade", "gradebook_verbs")
+COMMANDS = ("run", "convert", "emulate", "record", "replay", "check", "grade", "gradebook_verbs",
+            "progress", "reset")  # fmt: skip
 SUBCOMMANDS = {"grade": ("merge", "adjust", "export")}
 """Subcommands, written as two words; a folder of such a name is given as ./merge."""
 

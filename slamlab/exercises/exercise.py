@@ -14,7 +14,7 @@ class Exercise:
     Parameters
     ----------
     id : str, the lesson's number such as "04"
-    notebook : str, the file's stem such as "04_models_and_jacobians"
+    notebook : str, its own name, and nbgrader's assignment, such as "04_models_and_jacobians"
     title : str
     tasks : in the notebook's order
     drives : str, the module of the drives, such as "slamlab.exercises.drives.ex04"
@@ -48,6 +48,11 @@ class Exercise:
             if task.id == id:
                 return task
         raise KeyError(id)
+
+    @property
+    def file(self):
+        """The name of the notebook's file, told from the lesson's by its first two letters."""
+        return f"ex{self.notebook}.ipynb"
 
     @property
     def points(self):

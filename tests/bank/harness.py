@@ -52,7 +52,7 @@ def load(id) -> Bank:
 
 
 def _solution(exercise):
-    notebook = json.loads((ROOT / "solutions" / f"{exercise.notebook}.ipynb").read_text("utf-8"))
+    notebook = json.loads((ROOT / "solutions" / exercise.file).read_text("utf-8"))
     cells = ("".join(c["source"]) for c in notebook["cells"] if c["cell_type"] == "code")
     return tuple(c for c in cells if not c.lstrip().startswith(("check(", "%", "!")))
 

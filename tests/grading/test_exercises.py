@@ -18,7 +18,7 @@ EXERCISES = list(catalogue.EXERCISES)
 
 
 def judged(folder, exercise, change=lambda cells: cells):
-    data = (ROOT / folder / f"{exercise.notebook}.ipynb").read_bytes()
+    data = (ROOT / folder / exercise.file).read_bytes()
     notebook = notebooks.parse(data)
     assert notebook.exercise == exercise.id
     return judge.judge_notebook(exercise, change(notebook.cells), b"a seed of the suite", workers())
@@ -70,7 +70,7 @@ def without(function):
 
 
 def defined_in(id):
-    path = ROOT / "solutions" / f"{catalogue.exercise(id).notebook}.ipynb"
+    path = ROOT / "solutions" / catalogue.exercise(id).file
     cells = json.loads(path.read_text("utf-8"))["cells"]
     code = "\n".join("".join(c["source"]) for c in cells if c["cell_type"] == "code")
     return {node.name for node in ast.parse(code).body if isinstance(node, ast.FunctionDef)}

@@ -23,7 +23,7 @@ HEAD = """\
 """
 TAIL = """
 # %% [markdown]
-# Next: [the exercise](../exercises/90_sums.ipynb).
+# Next: [the exercise](../exercises/ex90_sums.ipynb).
 """
 ADD = """
 # %% tags=["nbval-check-output"]
@@ -227,7 +227,7 @@ def test_first_and_last_cell_follow_the_convention(root):
     told = refused(write(root, ADD, head="# %% [markdown]\n# # A lesson\n", tail=""), root)
     assert "`# 90 · Title`" in told
     assert "how many minutes" in told
-    assert "../exercises/90_sums.ipynb" in told
+    assert "../exercises/ex90_sums.ipynb" in told
 
 
 def test_ids_are_names_or_sections_and_another_section_leaves_them_alone(root):

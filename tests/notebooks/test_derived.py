@@ -13,7 +13,7 @@ from nbgrader.preprocessors import CheckCellMetadata
 from course.build import differences, orphans
 from course.derive import derive
 from course.exercise import solution_lines
-from course.source import ID, ROOT, read
+from course.source import ID, ROOT, file_name, read
 from slamlab.exercises import catalogue
 from tests.notebooks import (
     EXERCISES,
@@ -77,7 +77,7 @@ def test_no_line_of_a_solution_leaks_into_an_exercise(path):
         for line in solution_lines(cell.text)
     ]
     assert solutions, "an exercise without a solution has nothing to solve"
-    exercise = load(ROOT / "exercises" / f"{path.stem}.ipynb")
+    exercise = load(ROOT / "exercises" / file_name(path))
     told = "\n".join("".join(tokens(line)) for c in exercise.cells for line in c.source.split("\n"))
     assert "SOLUTION" not in told
     leaked = [line for line in solutions if telling(line) and "".join(tokens(line)) in told]
@@ -100,7 +100,7 @@ def telling(line):
 
 @each_exercise
 def test_an_exercise_is_handed_out_unsolved_and_without_outputs(path):
-    cells = code_cells(load(ROOT / "exercises" / f"{path.stem}.ipynb"))
+    cells = code_cells(load(ROOT / "exercises" / file_name(path)))
     assert not any(cell.outputs or cell.execution_count for cell in cells)
     assert not any(CHECKED in cell.metadata.get("tags", []) for cell in cells)
 
@@ -108,7 +108,7 @@ def test_an_exercise_is_handed_out_unsolved_and_without_outputs(path):
 @each_exercise
 @pytest.mark.parametrize("folder", ["exercises", "solutions"])
 def test_nbgrader_accepts_the_metadata_and_finds_the_points_of_the_tasks(path, folder):
-    notebook = load(ROOT / folder / f"{path.stem}.ipynb")
+    notebook = load(ROOT / folder / file_name(path))
     MetadataValidator().validate_nb(notebook)
     CheckCellMetadata().preprocess(notebook, {})
     marks = [c.metadata.nbgrader for c in notebook.cells if "nbgrader" in c.metadata]

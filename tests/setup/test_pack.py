@@ -112,7 +112,7 @@ def test_no_file_that_goes_out_holds_the_text_of_a_solution(shipped):
 
 
 def test_a_solution_that_went_out_would_be_found():
-    (path,) = (pack.ROOT / "solutions").glob("06_*.ipynb")
+    (path,) = (pack.ROOT / "solutions").glob("ex06_*.ipynb")
     out = "\n".join(cells(path.read_bytes()))
     assert sum(source in out for source in solutions()) >= 4
 

@@ -1,0 +1,152 @@
+"""Questions of a lesson: choices or a number, a reason for each answer; none is graded."""
+
+import html
+from dataclasses import dataclass
+
+import ipywidgets
+from IPython.display import DisplayHandle, display
+
+from slamlab.coursework import progress
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What is said of an answer: whether it is right, and why."""
+
+    right: bool
+    reason: str
+
+
+class Question:
+    """A question on the page: its text, the controls to answer it, what is said of the answer.
+
+    The text and the reason are displays of their own, so that a file keeps them.
+
+    Parameters
+    ----------
+    id : str such as "04-leaning"
+    text : str, Markdown
+    judge : callable(answer) -> Answer
+    """
+
+    def __init__(self, id, text, judge):
+        self.id, self._judge = id, judge
+        self._text, self._told = text, DisplayHandle()
+
+    def show(self, controls, words):
+        """Show text, controls and an empty place for the reason.
+
+        Parameters
+        ----------
+        controls : Widget
+        words : str, what stands for the controls where there are none
+        """
+        display({"text/markdown": self._text, "text/plain": self._text}, raw=True)
+        display((controls._repr_mimebundle_() or {}) | {"text/plain": words}, raw=True)
+        self._told.display({"text/html": "", "text/plain": ""}, raw=True)
+
+    def answer(self, given):
+        """Take an answer: say what is to be said of it, and keep it in the progress.
+
+        Parameters
+        ----------
+        given : str or float
+        """
+        answer = self._judge(given)
+        self._say(f"{'✓' if answer.right else '✗'} {given}: {answer.reason}")
+        progress.keep_answer(self.id, given, answer.right)
+
+    def tell(self):
+        """Open the answer to who does not want to guess; nothing is kept."""
+        self._say("The cells below answer it.")
+
+    def _say(self, said):
+        # the labextension unfolds the cells that answer the question (answers.js)
+        shown = f'<p data-slamlab-answered="{html.escape(self.id)}">{html.escape(said)}</p>'
+        self._told.update({"text/html": shown, "text/plain": said}, raw=True)
+
+
+def ask_choice(id, text, choices, right):
+    """Ask a question with choices: a button each.
+
+    Parameters
+    ----------
+    id : str
+    text : str, Markdown
+    choices : dict, choice to the reason why it is right or wrong, both plain text
+    right : str, the right choice
+
+    Returns
+    -------
+    Question
+
+    Raises
+    ------
+    ValueError : fewer than two choices, or the right one is none of them
+    """
+    if len(choices) < 2 or right not in choices:
+        raise ValueError(f"{id}: give two choices or more, the right one among them")
+    letters = dict(zip("ABCDEFGH", choices, strict=False))
+    listed = "".join(f"\n- **{letter}** {choice}" for letter, choice in letters.items())
+    reasons = {
+        letter: Answer(choice == right, choices[choice]) for letter, choice in letters.items()
+    }
+    question = Question(id, f"{text}\n{listed}", reasons.__getitem__)
+    buttons = []
+    for letter, choice in letters.items():
+        button = ipywidgets.Button(
+            description=letter, tooltip=choice, layout=ipywidgets.Layout(width="4em")
+        )
+        button.on_click(lambda _, letter=letter: question.answer(letter))
+        buttons.append(button)
+    question.show(_row(question, *buttons), "Run this cell to answer.")
+    return question
+
+
+def ask_number(id, text, right, tolerance, unit, reason, wrong):
+    """Ask for a number: a field to type it in.
+
+    Parameters
+    ----------
+    id : str
+    text : str, Markdown
+    right, tolerance : float
+    unit : str
+    reason : str, why it is the right one
+    wrong : dict, a wrong number that somebody may have to the reason why it is wrong
+
+    Returns
+    -------
+    Question
+
+    Raises
+    ------
+    ValueError : a tolerance that is not positive, or a wrong number that would be right
+    """
+    if not tolerance > 0 or any(abs(number - right) <= tolerance for number in wrong):
+        raise ValueError(f"{id}: a positive tolerance, which holds none of the wrong numbers")
+
+    def judge(given):
+        if abs(given - right) <= tolerance:
+            return Answer(True, reason)
+        for number, why in wrong.items():
+            if abs(given - number) <= tolerance:
+                return Answer(False, why)
+        return Answer(False, f"what comes out is more than {tolerance:g} {unit} off; run and see")
+
+    question = Question(id, text, judge)
+    field = ipywidgets.FloatText(
+        description=f"answer [{unit}]" if unit else "answer",
+        style={"description_width": "initial"},
+        layout=ipywidgets.Layout(width="14em"),
+    )
+    button = ipywidgets.Button(description="answer", tooltip="say whether this is right")
+    button.on_click(lambda _: question.answer(field.value))
+    question.show(_row(question, field, button), "Run this cell to answer.")
+    return question
+
+
+def _row(question, *controls):
+    show = ipywidgets.Button(description="show me", tooltip="open the answer without guessing")
+    show.on_click(lambda _: question.tell())
+    return ipywidgets.HBox([*controls, show], layout=ipywidgets.Layout(flex_flow="row wrap"))

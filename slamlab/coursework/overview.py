@@ -1,0 +1,143 @@
+"""Overview of the progress: lessons, tasks, points, and what is next."""
+
+import json
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+from slamlab.exercises import catalogue
+from slamlab.exercises.report import number
+
+_QUESTION = re.compile(r"\bask\(\s*\"([^\"\\]+)\"")
+
+
+@dataclass(frozen=True)
+class Row:
+    """One lesson and its exercise.
+
+    Parameters
+    ----------
+    id : str such as "04"
+    title : str
+    answered, questions : int, of the lesson
+    marks : str, a letter a task: ● all points, ◐ some, ○ none yet
+    points, of : float
+    minutes : float
+    """
+
+    id: str
+    title: str
+    answered: int
+    questions: int
+    marks: str
+    points: float
+    of: float
+    minutes: float
+
+
+def rows(folder: Path | None, progress: dict) -> list[Row]:
+    """Tell how far one is, lesson by lesson.
+
+    Parameters
+    ----------
+    folder : Path, of the course, whose lessons are looked into for questions; None for none
+    progress : dict, as ``progress_file.read`` returns it
+
+    Returns
+    -------
+    list of Row
+    """
+    found = []
+    for id, exercise in catalogue.EXERCISES.items():
+        marks, points = [], 0.0
+        for task in exercise.tasks:
+            entry = _entry(progress["tasks"].get(task.id))
+            earned = _number(entry.get("points"))
+            points += earned
+            marks.append("●" if earned >= task.points else "◐" if entry else "○")
+        asked = _questions(folder, id) if folder else []
+        answered = sum(question in progress["questions"] for question in asked)
+        minutes = sum(_number(progress["minutes"].get(name)) for name in (id, f"ex{id}"))
+        found.append(
+            Row(id, exercise.title, answered, len(asked), "".join(marks), points,
+                exercise.points, minutes)
+        )  # fmt: skip
+    return found
+
+
+def overview(folder: Path | None, progress: dict) -> str:
+    """Say how far one is: a line a lesson, the whole, and what is next.
+
+    Parameters
+    ----------
+    folder : Path, of the course, or None
+    progress : dict, as ``progress_file.read`` returns it
+
+    Returns
+    -------
+    str
+    """
+    table = rows(folder, progress)
+    width = max(len(row.title) for row in table)
+    lines = [f"{'lesson':<{width + 3}}  questions  tasks       points"]
+    for row in table:
+        asked = f"{row.answered} of {row.questions}" if row.questions else "–"
+        score = f"{number(row.points):>4} of {number(row.of)}"
+        lines.append(f"{row.id} {row.title:<{width}}  {asked:<9}  {row.marks:<9} {score}")
+    whole = sum(row.marks.count("●") for row in table)
+    tasks = sum(len(row.marks) for row in table)
+    points, of = sum(row.points for row in table), sum(row.of for row in table)
+    hours, minutes = divmod(round(sum(row.minutes for row in table)), 60)
+    spent = f"{hours} h {minutes} min" if hours else f"{minutes} min"
+    lines += [
+        "",
+        f"{whole} of {tasks} tasks, {number(points)} of {number(of)} points, {spent}",
+        f"next: {next_step(table)}",
+    ]
+    return "\n".join(lines)
+
+
+def next_step(table) -> str:
+    """What to do next: the first lesson or exercise that is not done.
+
+    Parameters
+    ----------
+    table : list of Row
+
+    Returns
+    -------
+    str
+    """
+    for row in table:
+        if row.marks.count("●") == len(row.marks):
+            continue
+        begun = row.minutes > 0 or row.answered
+        exercise = catalogue.exercise(row.id)
+        open_ = next(t for t, mark in zip(exercise.tasks, row.marks, strict=True) if mark != "●")
+        if begun:
+            return f"task {open_.id}, {open_.title}, in exercises/{exercise.file}"
+        return f"lesson {row.id}, then its exercise exercises/{exercise.file}"
+    return "nothing: every task has its points"
+
+
+def _questions(folder, id):
+    """Ids of a lesson's questions, as its file asks them."""
+    asked = []
+    for path in sorted((folder / "notebooks").glob(f"{id}_*.ipynb"))[:1]:
+        try:
+            cells = json.loads(path.read_text(encoding="utf-8"))["cells"]
+        except (OSError, ValueError, KeyError):
+            continue
+        for cell in cells:
+            if cell.get("cell_type") == "code":
+                asked += _QUESTION.findall("".join(cell.get("source", "")))
+    return asked
+
+
+def _entry(value):
+    return value if isinstance(value, dict) else {}
+
+
+def _number(value):
+    """A number of the file, 0 where somebody wrote something else."""
+    return float(value) if isinstance(value, int | float) else 0.0

@@ -1,0 +1,74 @@
+"""``progress.json``: read by the notebook's head and ``slamlab progress``, written by kernels."""
+
+import json
+from datetime import datetime
+from pathlib import Path
+
+from filelock import FileLock, Timeout
+
+from slamlab.coursework.files import keep_beside, write
+
+NAME = "progress.json"
+KINDS = ("tasks", "questions", "validated", "minutes")
+EMPTY = {kind: {} for kind in KINDS}
+PATIENCE = 5.0  # how long another kernel may hold the file [s]
+
+
+def read(folder: Path) -> dict:
+    """Read the progress; what is not there or not readable counts as nothing done.
+
+    Parameters
+    ----------
+    folder : Path, of the course
+
+    Returns
+    -------
+    dict of dicts: ``tasks`` and ``questions`` by id, ``validated`` and ``minutes`` by notebook
+    """
+    try:
+        found = json.loads((folder / NAME).read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        found = {}
+    if not isinstance(found, dict):
+        found = {}
+    return {kind: _entries(found.get(kind)) for kind in KINDS}
+
+
+def change(folder: Path, change, now: datetime) -> bool:
+    """Change the progress; several kernels may do so at once, and none is lost.
+
+    A file that cannot be read is kept beside the new one.
+
+    Parameters
+    ----------
+    folder : Path, of the course
+    change : (progress) -> None, called with what :func:`read` returns
+    now : datetime, for the name of a file that is kept
+
+    Returns
+    -------
+    bool, whether it was written; not where the folder cannot be written to
+    """
+    path = folder / NAME
+    try:
+        with FileLock(folder / f".{NAME}.lock", timeout=PATIENCE):
+            if path.exists() and not _is_readable(path):
+                keep_beside(path, now)
+            progress = read(folder)
+            change(progress)
+            text = json.dumps(progress, indent=1, sort_keys=True, ensure_ascii=False)
+            write(path, text.encode() + b"\n")
+    except (OSError, Timeout):
+        return False
+    return True
+
+
+def _is_readable(path):
+    try:
+        return isinstance(json.loads(path.read_text(encoding="utf-8")), dict)
+    except (OSError, ValueError):
+        return False
+
+
+def _entries(found):
+    return found if isinstance(found, dict) else {}
