@@ -24,7 +24,8 @@ def browser():
 def lab_folder(tmp_path_factory):
     """The folder with all lessons and the notebooks of these tests."""
     notebooks = tmp_path_factory.mktemp("lab") / "course" / "notebooks"
-    shutil.copytree(ROOT / "notebooks", notebooks)
+    for folder in ("notebooks", "exercises"):
+        shutil.copytree(ROOT / folder, notebooks.with_name(folder))
     for made in (live, waiting, editing, measuring, driving):
         nbformat.write(made.notebook(), notebooks / made.NAME)
     return notebooks

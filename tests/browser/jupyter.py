@@ -8,6 +8,8 @@ import sys
 import time
 from contextlib import contextmanager
 
+from axe_playwright_python.sync_playwright import Axe
+
 from course.source import ROOT
 from tests.patience import PATIENCE
 
@@ -56,24 +58,27 @@ def jupyterlab(home):
 
     Yields
     ------
-    str, the address of a notebook, with ``{}`` for its name
+    str, the address of a notebook, with ``{}`` for its name, or its path from the course's folder
 
     Raises
     ------
     Unavailable : it does not start
     """
     settings = home / "config" / "labconfig" / "page_config.json"
-    settings.parent.mkdir(parents=True)
+    settings.parent.mkdir(parents=True, exist_ok=True)
     settings.write_text(json.dumps({"disabledExtensions": {NEWS: True}}))
     places = {"HOME": home, "JUPYTER_CONFIG_DIR": home / "config", "IPYTHONDIR": home / "ipython"}
     places |= {"JUPYTER_RUNTIME_DIR": home / "runtime", "JUPYTER_DATA_DIR": home / "data"}
     places["JUPYTER_PATH"] = EXTENSION  # as it stands here, not as it was installed
     options = ["--no-browser", "--allow-root", "--ip=127.0.0.1", "--port=0"]
+    # a test is no student, but these play one: their progress is kept
+    student = {name: value for name, value in os.environ.items() if name != "PYTEST_VERSION"}
+    shutil.rmtree(home / "runtime", ignore_errors=True)  # of a server before
     with open(home / "said.txt", "w") as said:
         server = subprocess.Popen(
             [sys.executable, "-m", "jupyterlab", *options],
             cwd=home / "course",
-            env=os.environ | {name: str(place) for name, place in places.items()},
+            env=student | {name: str(place) for name, place in places.items()},
             stdin=subprocess.DEVNULL,
             stdout=said,
             stderr=subprocess.STDOUT,
@@ -94,7 +99,7 @@ def _address(server, home):
                 told = json.loads(file.read_text())
             except json.JSONDecodeError:
                 continue  # half written
-            return f"{told['url']}lab/tree/notebooks/{{}}?reset&token={told['token']}"
+            return f"{told['url']}lab/tree/{{}}?reset&token={told['token']}"
         time.sleep(0.1)
     raise Unavailable("JupyterLab did not start:\n" + (home / "said.txt").read_text()[-2000:])
 
@@ -112,7 +117,8 @@ class Visit:
 
     def open(self, notebook):
         """Open a notebook and wait until its kernel is ready."""
-        self.page.goto(self.address.format(notebook))
+        path = notebook if "/" in notebook else f"notebooks/{notebook}"
+        self.page.goto(self.address.format(path))
         self.page.wait_for_selector(".jp-NotebookPanel .jp-Cell")
         self.page.wait_for_selector(".jp-Notebook-ExecutionIndicator[data-status=idle]")
         # the indicator is idle before there is a kernel, too
@@ -122,6 +128,45 @@ class Visit:
         """Run all cells of the notebook that is open, by the menu."""
         self.page.get_by_role("menuitem", name="Run", exact=True).click()
         self.page.locator(".lm-Menu-item").get_by_text("Run All Cells", exact=True).click()
+
+    def run_all_and_wait(self):
+        """Run all cells and wait until the last one is done."""
+        self.run_all()
+        self.page.wait_for_selector(".jp-Notebook-ExecutionIndicator[data-status=busy]")
+        self.page.wait_for_function(
+            """() => [...document.querySelectorAll(".jp-InputPrompt")]
+                .every((prompt) => prompt.textContent != "[*]:")"""
+        )
+        self.page.wait_for_selector(".jp-Notebook-ExecutionIndicator[data-status=idle]")
+
+    def save(self):
+        """Save the notebook and wait until it is."""
+        self.page.keyboard.press("Control+s")
+        self.page.wait_for_selector(".jp-mod-current.jp-mod-dirty", state="detached")
+
+    @property
+    def is_dirty(self):
+        """bool, whether the tab says that something is unsaved."""
+        return self.page.locator(".lm-TabBar-tab.jp-mod-dirty").count() > 0
+
+    def serious_faults(self):
+        """Faults of accessibility in the notebook's own area, serious or critical, by axe-core.
+
+        Returns
+        -------
+        list of str, the rule and where it is broken
+        """
+        found = Axe().run(
+            self.page,
+            context=".jp-NotebookPanel .jp-WindowedPanel-viewport",
+            options={"resultTypes": ["violations"]},
+        )
+        return [
+            f"{broken['id']}: {node['html'][:200]}"
+            for broken in found.response["violations"]
+            if broken["impact"] in ("serious", "critical")
+            for node in broken["nodes"]
+        ]
 
     def run(self, cell):
         """Run a cell, given by its position, and wait until it is done.

@@ -1,8 +1,20 @@
-// Controls of ipywidgets: names for their handles, and plain words where no kernel moves them.
+// Names for what a reader without a screen meets, and plain words where no kernel moves controls.
 
 import { forEachElement } from "./watching.js";
 
 const DEAD = "Run this cell for its controls.";
+
+export function nameParts(panel) {
+  // JupyterLab calls the cells a feed, whose parts must be articles, and names no editor
+  forEachElement(panel, ".jp-Cell", (cell) => cell.setAttribute("role", "article"));
+  forEachElement(panel, ".jp-Cell .cm-content", (editor) => {
+    const code = editor.closest(".jp-CodeCell");
+    editor.setAttribute("aria-label", code ? "code" : "text");
+  });
+  forEachElement(panel, ".jp-collapseHeadingButton", (button) => {
+    button.setAttribute("aria-label", "fold this section");
+  });
+}
 
 export function nameControls(panel) {
   forEachElement(panel, ".widget-slider .noUi-handle", (handle) => {

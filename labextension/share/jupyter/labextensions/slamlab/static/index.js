@@ -2,12 +2,12 @@
 
 import { openAnswers } from "./answers.js";
 import { keepClean } from "./clean.js";
-import { nameControls, tellDeadWidgets } from "./controls.js";
+import { nameControls, nameParts, tellDeadWidgets } from "./controls.js";
 import { showProgress } from "./progress.js";
 
 const NARROW = 1000; // pixels, below which the side bar leaves a notebook too little room
 
-export function plugins(INotebookTracker) {
+export function plugins(INotebookTracker, Widget) {
   const style = document.createElement("link");
   style.rel = "stylesheet";
   style.href = new URL("style.css", import.meta.url).href;
@@ -19,7 +19,7 @@ export function plugins(INotebookTracker) {
     autoStart: true,
     requires: [INotebookTracker],
     activate: (app, tracker) => {
-      const safely = (panel) => Promise.resolve(attend(panel, app)).catch(console.error);
+      const safely = (panel) => Promise.resolve(attend(panel, app, Widget)).catch(console.error);
       tracker.forEach(safely);
       tracker.widgetAdded.connect((_, panel) => { safely(panel); });
     },
@@ -28,6 +28,7 @@ export function plugins(INotebookTracker) {
   return [
     forEachNotebook("clean", "A notebook that was only opened is not unsaved.", keepClean),
     forEachNotebook("answers", "Answers unfold once a question is answered.", openAnswers),
+    forEachNotebook("parts", "Cells and editors have names, too.", nameParts),
     forEachNotebook("names", "Sliders have names for who cannot see them.", nameControls),
     forEachNotebook("dead", "Controls without a kernel say how they come alive.", tellDeadWidgets),
     forEachNotebook("progress", "The head of a notebook shows how far one is.", showProgress),

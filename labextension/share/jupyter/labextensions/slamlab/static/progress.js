@@ -17,12 +17,17 @@ function tasksAndQuestions(model) {
   return found;
 }
 
-async function read(contents, path) {
+const NAME = "progress.json";
+
+async function read(contents, folder) {
   try {
-    const file = await contents.get(path, { type: "file", format: "text" });
-    return JSON.parse(file.content);
+    const { content } = await contents.get(folder, { content: true });
+    const file = content.find(({ name }) => name == NAME); // asking for none would be an error
+    if (!file) return {};
+    const options = { type: "file", format: "text", content: true };
+    return JSON.parse((await contents.get(file.path, options)).content);
   } catch {
-    return {}; // nothing is done yet, or it is being written
+    return {}; // it is being written
   }
 }
 
@@ -38,7 +43,7 @@ function state(item, progress) {
   return { mark, text: `${name} ${done ? points : 0}/${of}`, words: `task ${name}: ${words}` };
 }
 
-export async function showProgress(panel, app) {
+export async function showProgress(panel, app, Widget) {
   const { context } = panel;
   await context.ready;
   if (!context.model.getMetadata("slamlab")) return;
@@ -47,13 +52,12 @@ export async function showProgress(panel, app) {
   const bar = document.createElement("ul");
   bar.className = "slamlab-progress";
   bar.setAttribute("aria-label", "Progress");
-  panel.contentHeader.node.append(bar);
-  panel.contentHeader.node.style.minHeight = "auto";
+  panel.contentHeader.addWidget(new Widget({ node: bar }));
 
-  const path = `${context.path.split("/").slice(0, -2).join("/")}/progress.json`;
+  const folder = context.path.split("/").slice(0, -2).join("/");
   let shown = "";
   const update = async () => {
-    const progress = await read(app.serviceManager.contents, path);
+    const progress = await read(app.serviceManager.contents, folder);
     const states = items.map((item) => state(item, progress));
     if (JSON.stringify(states) === shown || panel.isDisposed) return;
     shown = JSON.stringify(states);

@@ -18,11 +18,12 @@ window._JUPYTERLAB.slamlab = (() => {
     async get() {
       let found = []; // an extension that fails must not take the application with it
       try {
-        const [{ plugins }, { INotebookTracker }] = await Promise.all([
+        const [{ plugins }, { INotebookTracker }, { Widget }] = await Promise.all([
           import(new URL("index.js", here).href),
           shared("@jupyterlab/notebook"),
+          shared("@lumino/widgets"),
         ]);
-        found = plugins(INotebookTracker);
+        found = plugins(INotebookTracker, Widget);
       } catch (error) {
         console.error("slamlab:", error);
       }

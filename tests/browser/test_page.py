@@ -1,0 +1,121 @@
+"""A notebook in JupyterLab as students meet it: clean, kept, leading on, usable without a mouse."""
+
+import json
+
+import pytest
+
+from tests.browser.jupyter import Visit, jupyterlab
+
+LESSON, EXERCISE = "notebooks/00_start_here.ipynb", "exercises/ex01_why_slam.ipynb"
+FIGURES = ".jp-OutputArea-output img"
+
+
+def progress(lab_folder):
+    return json.loads((lab_folder.parent / "progress.json").read_text("utf-8"))
+
+
+def cell_of(visit, text):
+    """The code cell whose source holds a text."""
+    return visit.page.locator(".jp-CodeCell").filter(
+        has=visit.page.locator(".jp-InputArea").get_by_text(text, exact=False)
+    )
+
+
+def run_cell(visit, cell):
+    cell.locator(".cm-content").click()
+    visit.page.keyboard.press("Control+Enter")
+    visit.page.wait_for_selector(".jp-Notebook-ExecutionIndicator[data-status=idle]")
+
+
+@pytest.mark.parametrize("notebook", [LESSON, EXERCISE])
+def test_a_notebook_that_was_only_opened_is_not_unsaved(visit, notebook):
+    visit.open(notebook)
+    visit.page.wait_for_selector(".slamlab-progress li")
+    visit.page.wait_for_timeout(1500)  # JupyterLab writes what it knows of the kernel
+    assert not visit.is_dirty
+    assert visit.errors == []
+
+
+def test_a_change_by_the_reader_is_unsaved(visit):
+    visit.open(LESSON)
+    visit.page.locator(".jp-CodeCell .cm-content").first.click()
+    visit.page.keyboard.type("# mine")
+    visit.page.wait_for_selector(".lm-TabBar-tab.jp-mod-dirty")
+
+
+def test_figures_are_there_when_a_saved_notebook_is_opened_again(browser, tmp_path, lab_folder):
+    (tmp_path / "course" / "notebooks").mkdir(parents=True)
+    name = LESSON.split("/")[1]
+    (tmp_path / "course" / LESSON).write_bytes((lab_folder / name).read_bytes())
+    seen = []
+    for round_ in range(2):  # each with a server of its own
+        with jupyterlab(tmp_path) as address:
+            context = browser.new_context(viewport={"width": 1280, "height": 800})
+            visit = Visit(context.new_page(), address)
+            visit.open(LESSON)
+            if not round_:
+                visit.run_all_and_wait()
+                visit.save()
+            visit.page.wait_for_function(f"document.querySelectorAll('{FIGURES}').length >= 3")
+            alts = visit.page.locator(FIGURES).evaluate_all("all => all.map((one) => one.alt)")
+            seen.append(sorted(alts))
+            assert visit.page.get_by_text("Error displaying widget").count() == 0
+            assert visit.page.get_by_text("model not found").count() == 0
+            context.close()
+    assert seen[0] == seen[1]
+    assert all(seen[0])
+
+
+def test_an_answer_opens_what_was_folded_and_is_kept(visit, lab_folder):
+    visit.open(LESSON)
+    asked, answer = cell_of(visit, '"00-missing"'), cell_of(visit, "One turn of the lidar")
+    assert answer.locator("img").count() == 0, "the picture that answers is not folded"
+    run_cell(visit, cell_of(visit, "from slamlab.checks import ask"))
+    run_cell(visit, asked)
+    asked.get_by_role("button", name="B", exact=True).click()
+    asked.get_by_text("✓ B: a beam ends where it first meets a surface.").wait_for()
+    answer.locator("img").wait_for()
+    kept = progress(lab_folder)["questions"]["00-missing"]
+    assert (kept["answer"], kept["right"], kept["times"]) == ("B", True, 1)
+    visit.page.locator(".slamlab-progress li", has_text="✓ missing").wait_for()
+
+
+def test_a_check_is_kept_and_shown_at_the_head_of_the_notebook(visit, lab_folder):
+    visit.open(EXERCISE)
+    head = visit.page.locator(".slamlab-progress li").first
+    assert head.text_content().startswith("○ next-pose")
+    run_cell(visit, visit.page.locator(".jp-CodeCell").first)
+    run_cell(visit, cell_of(visit, 'check("01-next-pose")'))
+    visit.page.locator(".slamlab-progress li", has_text="◐ next-pose").wait_for()
+    assert progress(lab_folder)["tasks"]["01-next-pose"]["points"] == 0
+
+
+@pytest.mark.parametrize("notebook", [LESSON, EXERCISE])
+def test_nothing_in_a_notebook_keeps_anybody_out(visit, notebook):
+    visit.open(notebook)
+    visit.run_all_and_wait()
+    assert visit.serious_faults() == []
+    assert visit.page.locator(f"{FIGURES}:not([alt])").count() == 0
+
+
+def test_a_slider_has_a_name_and_is_moved_by_the_keyboard(visit):
+    visit.open(LESSON)
+    visit.run_all_and_wait()
+    handle = visit.page.get_by_role("slider", name="x", exact=True)
+    before = visit.page.locator(FIGURES).nth(1).get_attribute("src")
+    handle.focus()
+    visit.page.keyboard.press("ArrowLeft")
+    visit.page.wait_for_function(
+        f"(before) => document.querySelectorAll('{FIGURES}')[1].src != before", arg=before
+    )
+
+
+def test_on_a_narrow_screen_the_side_bar_is_closed_and_figures_fit(browser, lab):
+    context = browser.new_context(viewport={"width": 390, "height": 800}, has_touch=True)
+    visit = Visit(context.new_page(), lab)
+    visit.open(LESSON)
+    visit.page.wait_for_selector(FIGURES)
+    assert visit.page.locator("#jp-left-stack").is_hidden()
+    widths = visit.page.locator(FIGURES).evaluate_all("all => all.map((one) => one.clientWidth)")
+    assert max(widths) < 390
+    context.close()

@@ -1,0 +1,151 @@
+"""Progress is kept where a student works, by several kernels at once, and nowhere else."""
+
+import json
+import multiprocessing
+import os
+import signal
+import subprocess
+import sys
+from datetime import datetime
+
+import pytest
+
+from slamlab import coursework
+from slamlab.coursework import folder, overview, progress, progress_file
+
+NOW = datetime(2026, 11, 22, 18, 0, 0)
+
+
+@pytest.fixture
+def course(tmp_path, monkeypatch):
+    """A course's folder, in which a student works."""
+    for name in folder.FOLDERS:
+        (tmp_path / name).mkdir()
+    monkeypatch.delenv("PYTEST_VERSION")
+    monkeypatch.chdir(tmp_path / "exercises")
+    return tmp_path
+
+
+def test_a_check_an_answer_and_a_validation_are_kept(course):
+    progress.keep_check("04-h-robot", 2.0, 4.5)
+    progress.keep_check("04-h-robot", 1.0, 4.5)
+    progress.keep_answer("04-leaning", "A", False)
+    progress.keep_answer("04-leaning", "B", True)
+    progress.keep_validation("04", 12.0, 22.0)
+    kept = progress_file.read(course)
+    task, question = kept["tasks"]["04-h-robot"], kept["questions"]["04-leaning"]
+    assert (task["points"], task["best"], task["of"], task["times"]) == (1.0, 2.0, 4.5, 2)
+    assert (question["first"], question["answer"], question["right"]) == ("A", "B", True)
+    assert kept["validated"]["04"]["points"] == 12.0
+    assert set(kept["minutes"]) == {"04", "ex04"}
+
+
+@pytest.mark.parametrize("name", [folder.OFF, "NBGRADER_EXECUTION", "PYTEST_VERSION"])
+def test_nothing_is_kept_where_no_student_sits(course, monkeypatch, name):
+    monkeypatch.setenv(name, "1")
+    progress.keep_check("04-h-robot", 2.0, 4.5)
+    assert not (course / progress_file.NAME).exists()
+
+
+def test_nothing_is_kept_outside_the_course(course, tmp_path_factory, monkeypatch):
+    elsewhere = tmp_path_factory.mktemp("elsewhere")
+    monkeypatch.chdir(elsewhere)
+    progress.keep_check("04-h-robot", 2.0, 4.5)
+    assert list(elsewhere.iterdir()) == []
+
+
+def test_a_pause_counts_ten_minutes_at_most():
+    times = iter([0.0, 90.0, 90.0 + 3600, 3700.0])
+    watch = progress.Stopwatch(lambda: next(times))
+    assert [watch.lap(), watch.lap()] == [1.5, 10.0]
+
+
+@pytest.mark.parametrize("text", ["", "{", "[]", "null", '{"tasks": 3}', '{"tasks": {"04-a": 3}}'])
+def test_a_file_that_somebody_broke_stops_nothing_and_is_kept(course, text):
+    (course / progress_file.NAME).write_text(text)
+    progress.keep_check("04-a", 2.0, 4.5)
+    assert progress_file.read(course)["tasks"]["04-a"]["points"] == 2.0
+    copies = [path.read_text() for path in course.glob("progress 2*.json")]
+    assert copies == ([text] if not text.startswith('{"') else [])
+    overview.overview(course, progress_file.read(course))
+
+
+def test_minutes_that_are_no_numbers_stop_nothing(course):
+    broken = {"minutes": {"ex04": "long"}, "tasks": {"04-h-robot": {"points": "all"}}}
+    (course / progress_file.NAME).write_text(json.dumps(broken))
+    overview.overview(course, progress_file.read(course))
+    progress.keep_check("04-h-robot", 2.0, 4.5)
+    assert progress_file.read(course)["tasks"]["04-h-robot"]["points"] == 2.0
+
+
+def test_a_folder_that_cannot_be_written_to_stops_nothing(course, monkeypatch):
+    def refuse(*given):
+        raise PermissionError("read-only")
+
+    monkeypatch.setattr(progress_file, "write", refuse)
+    progress.keep_check("04-h-robot", 2.0, 4.5)
+
+
+def _kernel(place, number, count):
+    os.environ.pop("PYTEST_VERSION", None)
+    os.chdir(place)
+    for k in range(count):
+        progress.keep_check(f"04-task{number}-{k}", 1.0, 2.0)
+
+
+def test_kernels_that_write_at_once_lose_nothing(course):
+    context = multiprocessing.get_context("spawn")
+    kernels = [context.Process(target=_kernel, args=(course, n, 20)) for n in range(3)]
+    for kernel in kernels:
+        kernel.start()
+    for kernel in kernels:
+        kernel.join()
+    assert len(progress_file.read(course)["tasks"]) == 60
+
+
+def test_a_kernel_that_is_killed_loses_nothing_that_was_kept(course):
+    code = (
+        "from slamlab.coursework import progress\n"
+        "for k in range(10**6):\n"
+        "    progress.keep_check(f'04-task-{k}', 1.0, 2.0)\n"
+        "    print(k, flush=True)\n"
+    )
+    kept = 0
+    for _ in range(4):
+        kernel = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True)
+        for line in kernel.stdout:
+            if int(line) == 12:
+                break
+        kernel.send_signal(signal.SIGKILL)
+        kernel.wait()
+        kernel.stdout.close()
+        tasks = json.loads((course / progress_file.NAME).read_text())["tasks"]
+        assert len(tasks) >= max(13, kept)
+        kept = len(tasks)
+
+
+def test_the_overview_says_what_is_next(course):
+    table = overview.rows(course, progress_file.read(course))
+    assert overview.next_step(table).startswith("lesson 01")
+    assert "0 of" in overview.overview(None, progress_file.EMPTY)
+    first = table[0]
+    for task in overview.catalogue.exercise("01").tasks[:-1]:
+        progress.keep_check(task.id, task.points, task.points)
+    last = overview.catalogue.exercise("01").tasks[-1]
+    progress.keep_check(last.id, 0.5, last.points)
+    table = overview.rows(course, progress_file.read(course))
+    assert table[0].marks == "●" * (len(first.marks) - 1) + "◐"
+    assert last.id in overview.next_step(table)
+
+
+def test_questions_of_a_lesson_are_counted(course):
+    cell = {"cell_type": "code", "source": ["ask(\n", '    "01-why", "?")\n']}
+    (course / "notebooks" / "01_x.ipynb").write_text(json.dumps({"cells": [cell]}))
+    progress.keep_answer("01-why", "A", True)
+    row = overview.rows(course, progress_file.read(course))[0]
+    assert (row.answered, row.questions) == (1, 1)
+
+
+def test_the_overview_in_a_notebook_prints(course, capsys):
+    coursework.show_progress()
+    assert "next: lesson 01" in capsys.readouterr().out
