@@ -12,14 +12,17 @@ RUN = PATH="$(CURDIR)/$(ENV)/bin:$$PATH" $(ENV)/bin/python -m
 # one worker a core of a small machine; the cells of a notebook must stay on one worker
 PYTEST = $(RUN) pytest -n 2 --dist loadfile
 
-.PHONY: lab test soak env clients lint format notebooks student bench lock clean
+.PHONY: lab test test-all soak env clients lint format notebooks student lecturer bench lock clean
 
 lab:  ## Set up and open the course; LAB_ARGS="--no-browser --port 9999" go to JupyterLab
 	@$(PYTHON) lab.py $(LAB_ARGS)
 
 test: lint clients  ## Set up and run every test; TEST_ARGS go to pytest
-	$(PYTEST) -m "not soak" $(TEST_ARGS)
+	$(PYTEST) -m "not soak and not walk" $(TEST_ARGS)
 	PYTHONHASHSEED=0 $(RUN) pytest @tests/notebooks/nbval.args notebooks exercises solutions
+
+test-all: test  ## Also walk through every notebook in a real browser
+	$(RUN) pytest -m walk tests/browser
 
 soak: env  ## Run what takes long, or needs a machine that has nothing else to do
 	$(RUN) pytest -m soak
@@ -45,6 +48,9 @@ notebooks: env  ## Derive notebooks/, exercises/ and solutions/ from course/
 
 student: env  ## Pack what students get into slam-course.zip: no solutions
 	$(RUN) course.pack
+
+lecturer: env  ## Pack what lecturers get into slam-course-lecturer.zip: solutions and notes
+	$(RUN) course.pack --lecturer
 
 bench: env  ## Run every benchmark; BENCH_ARGS="--quick --json FILE"
 	$(RUN) benchmarks $(BENCH_ARGS)

@@ -9,6 +9,7 @@ from course.exercise import SolutionError, solution_regions
 from course.source import CHECK, ID, METADATA, heading
 
 TAGS = {
+    "lecturer",
     "nbval-check-output",
     "nbval-ignore-output",
     "nbval-skip",

@@ -1,20 +1,31 @@
-"""Pack the students' zip (``make student``): lessons, exercises, package, no solutions."""
+"""Pack the course: for students (``make student``), without solutions, or for lecturers."""
 
+import io
+import json
+import re
 import sys
 import zipfile
 from pathlib import Path
 
+from slamlab.coursework import originals
+
 ROOT = Path(__file__).resolve().parents[1]
-FOLDERS = ("notebooks", "exercises", "slamlab", "labextension", "docs")
-FILES = ("README.md", "LICENSE", "Makefile", "lab.py", "pyproject.toml", "environment.yml",
-         "requirements.lock")  # fmt: skip
+HANDOUT = Path(__file__).parent / "handout"  # files that students get in place of the project's
+FOLDERS = ("notebooks", "exercises", "slamlab", "labextension")
+FILES = ("LICENSE", "lab.py", "pyproject.toml", "environment.yml", "requirements.lock",
+         "docs/robots.md")  # fmt: skip
+LECTURERS_FOLDERS = (*FOLDERS, "solutions", "docs", "course")
+LECTURERS_FILES = (*FILES[:-1], "README.md", "Makefile", "CONTRIBUTING.md",
+                   "requirements-test.lock")  # fmt: skip
 EXCLUDED = ("__pycache__", ".ipynb_checkpoints")
 TOP = "slam-course"
 TIMESTAMP = (1980, 1, 1, 0, 0, 0)  # no time in a zip: the same files give the same bytes
+LECTURER = {"notes", "lecturer"}  # slide type or tag of cells that students do not get
+_PICTURE = re.compile(r"!\[[^]]*\]\(([^)]+)\)")
 
 
 def contents(root=ROOT):
-    """List the files that students get.
+    """List what students get.
 
     Parameters
     ----------
@@ -22,32 +33,88 @@ def contents(root=ROOT):
 
     Returns
     -------
-    list of Path, sorted
+    dict, name in the pack to bytes, sorted
     """
-    found = [root / name for name in FILES]
-    for folder in FOLDERS:
-        found += [path for path in (root / folder).rglob("*") if path.is_file()]
-    return sorted(path for path in found if not set(EXCLUDED) & set(path.parts))
+    found = _files(root, FOLDERS, FILES)
+    found |= {path.name: path.read_bytes() for path in sorted(HANDOUT.iterdir())}
+    robots = found["docs/robots.md"].decode()
+    for picture in _PICTURE.findall(robots):
+        found[f"docs/{picture}"] = (root / "docs" / picture).read_bytes()
+    for name in found:
+        if name.startswith("notebooks/"):
+            found[name] = without_notes(found[name])
+    notebooks = {name: data for name, data in found.items() if name.endswith(".ipynb")}
+    archive = io.BytesIO()
+    originals.pack(notebooks, archive)
+    return dict(sorted((found | {originals.ARCHIVE: archive.getvalue()}).items()))
 
 
-def pack(target, root=ROOT):
-    """Write the zip file.
+def lecturers_contents(root=ROOT):
+    """List what lecturers get: notes, solutions and the texts' sources as well.
+
+    Parameters
+    ----------
+    root : Path, of the project
+
+    Returns
+    -------
+    dict, name in the pack to bytes, sorted
+    """
+    return dict(sorted(_files(root, LECTURERS_FOLDERS, LECTURERS_FILES).items()))
+
+
+def without_notes(data):
+    """A notebook without what speaks to the lecturer.
+
+    Parameters
+    ----------
+    data : bytes, of a notebook's file
+
+    Returns
+    -------
+    bytes
+    """
+    notebook = json.loads(data)
+    notebook["cells"] = [cell for cell in notebook["cells"] if not LECTURER & _marks(cell)]
+    text = json.dumps(notebook, indent=1, sort_keys=True, ensure_ascii=False)
+    return text.encode() + b"\n"
+
+
+def pack(target, files):
+    """Write a zip file.
 
     Parameters
     ----------
     target : Path, ending in .zip
-    root : Path, of the project
+    files : dict, name in the pack to bytes
     """
     with zipfile.ZipFile(target, "w", zipfile.ZIP_DEFLATED) as packed:
-        for path in contents(root):
-            name = f"{TOP}/{path.relative_to(root).as_posix()}"
-            info = zipfile.ZipInfo(name, TIMESTAMP)
+        for name, data in files.items():
+            info = zipfile.ZipInfo(f"{TOP}/{name}", TIMESTAMP)
             info.compress_type = zipfile.ZIP_DEFLATED
-            info.external_attr = (path.stat().st_mode & 0o777) << 16
-            packed.writestr(info, path.read_bytes())
+            info.external_attr = 0o644 << 16
+            packed.writestr(info, data)
+
+
+def _files(root, folders, names):
+    paths = [root / name for name in names]
+    for folder in folders:
+        paths += [path for path in (root / folder).rglob("*") if path.is_file()]
+    return {
+        path.relative_to(root).as_posix(): path.read_bytes()
+        for path in paths
+        if not set(EXCLUDED) & set(path.parts)
+    }
+
+
+def _marks(cell):
+    metadata = cell["metadata"]
+    return {metadata.get("slideshow", {}).get("slide_type"), *metadata.get("tags", [])}
 
 
 if __name__ == "__main__":
-    to = Path(sys.argv[1] if len(sys.argv) > 1 else f"{TOP}.zip")
-    pack(to)
-    print(f"{to}: {to.stat().st_size / 2**20:.1f} MB, without solutions")
+    for_lecturers = "--lecturer" in sys.argv
+    to = Path(f"{TOP}-lecturer.zip" if for_lecturers else f"{TOP}.zip")
+    pack(to, lecturers_contents() if for_lecturers else contents())
+    said = "with solutions and notes: not for students" if for_lecturers else "without solutions"
+    print(f"{to}: {to.stat().st_size / 2**20:.1f} MB, {said}")

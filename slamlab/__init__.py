@@ -24,9 +24,10 @@ views            every drawing and widget: figures, sliders, the live view, the 
 The course's own machinery:
 
 exercises        what each task asks, and the laws its answers are judged by
+coursework       a student's folder: progress, reset, update
 parallel         many runs on processes or a Dask cluster
 grading          judge, sandbox, gradebook, late policy, similarity report
-checks           what notebooks call: ``check``, ``attempt``, ``validate``
+checks           what notebooks call: ``check``, ``hint``, ``ask``, ``validate``
 studies          tables of many runs, each made by a command
 cli              the command ``slamlab``
 

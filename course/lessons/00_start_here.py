@@ -292,7 +292,7 @@ for theta in (25, 115):
 #
 # They are numbered in the order in which to read them.
 
-# %% [markdown] slideshow={"slide_type": "skip"}
+# %% [markdown] slideshow={"slide_type": "skip"} tags=["lecturer"]
 # ## If you give the lecture
 #
 # Every lesson is also a set of slides, with live cells and sliders; derivations open one line per

@@ -276,7 +276,7 @@ for name, k in (("x", 0), ("y", 1)):
     print(f"{name}: {ratio:.1f} times as wide as what 20 000 drives fill")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# Over many random predictions (`python -m benchmarks.bor`) the mean is 1.00 for the steered robot,
+# Over many random predictions the mean is 1.00 for the steered robot,
 # 1.00 for odometry (way and turn), 1.22 for two wheels.
 
 # %% [markdown] slideshow={"slide_type": "slide"}

@@ -126,7 +126,7 @@ def _task(task_id):
 
 
 def _check(task_id, namespace):
-    from slamlab.coursework import progress
+    from slamlab.coursework import progress_records
     from slamlab.exercises import catalogue, report
 
     task = _task(task_id)
@@ -143,7 +143,7 @@ def _check(task_id, namespace):
     if printed.get(task.id):
         print(f"your code printed:\n{printed[task.id]}\n")
     print(report.coloured(report.format_verdict(task, verdict)))
-    progress.keep_check(task.id, float(verdict.points), float(task.points))
+    progress_records.keep_check(task.id, float(verdict.points), float(task.points))
     if verdict.laws and not verdict.full:
         print(f'    hint("{task.id}") asks a question that leads on.')
     return float(min(verdict.points, task.points))

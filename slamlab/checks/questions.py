@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import ipywidgets
 from IPython.display import DisplayHandle, display
 
-from slamlab.coursework import progress
+from slamlab.coursework import progress_records
 
 
 @dataclass(frozen=True)
@@ -54,7 +54,7 @@ class Question:
         """
         answer = self._judge(given)
         self._say(f"{'✓' if answer.right else '✗'} {given}: {answer.reason}")
-        progress.keep_answer(self.id, given, answer.right)
+        progress_records.keep_answer(self.id, given, answer.right)
 
     def tell(self):
         """Open the answer to who does not want to guess; nothing is kept."""

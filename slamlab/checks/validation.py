@@ -5,7 +5,7 @@ import textwrap
 from datetime import datetime
 from pathlib import Path
 
-from slamlab.coursework import progress
+from slamlab.coursework import progress_records
 from slamlab.exercises.report import WIDTH, coloured, format_verdict, number, points
 from slamlab.exercises.task import OPEN_SEED
 from slamlab.grading import judge, preflight, submissions
@@ -54,7 +54,7 @@ def validate(path, default=None, keep=False) -> bool:
     earned = sum(verdict.points for verdict in result["verdicts"])
     print(f"{number(earned)} of {points(exercise.points)}")
     if keep:
-        progress.keep_validation(exercise.id, float(earned), float(exercise.points))
+        progress_records.keep_validation(exercise.id, float(earned), float(exercise.points))
     return all(verdict.full for verdict in result["verdicts"])
 
 

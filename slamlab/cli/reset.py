@@ -36,14 +36,14 @@ def add_parser(subparsers):
 
 def run_reset(arguments) -> int:
     """Reset; 2 where it cannot be done."""
-    from slamlab.coursework.reset import ResetError, reset
+    from slamlab.coursework.notebook_reset import ResetError, reset
 
     return _run("reset", ResetError, lambda place, now: reset(place, arguments.what, now))
 
 
 def run_update(arguments) -> int:
     """Update; 2 where it cannot be done."""
-    from slamlab.coursework.update import UpdateError, update
+    from slamlab.coursework.notebook_update import UpdateError, update
 
     return _run("update", UpdateError, lambda place, now: update(place, arguments.pack, now))
 

@@ -3,10 +3,11 @@
 Read in this order:
 
 - ``folder``: where the course stands, and whether progress is kept in this process
-- ``progress_file``: ``progress.json``, written by several kernels; ``progress``: what goes into it
+- ``file_writing``: files whole or not at all; ``progress_file``: ``progress.json``, written by
+  several kernels; ``progress_records``: what goes into it
 - ``overview``: how far one is, as ``slamlab progress`` and lesson 00 show it
-- ``originals``: notebooks as they were handed out; ``reset``: giving them back;
-  ``update``: a new edition in place of the old one, with the answers kept
+- ``originals``: notebooks as they were handed out; ``notebook_reset``: giving them back;
+  ``notebook_update``: a new edition in place of the old one, with the answers kept
 """
 
 from slamlab.coursework.folder import course_folder, is_progress_kept

@@ -60,20 +60,19 @@ def original(folder: Path, name: str) -> bytes:
     return _git(folder, "show", f"HEAD:./{name}")
 
 
-def pack(folder: Path, target):
-    """Pack the notebooks of a folder as the archive of handed-out forms.
+def pack(notebooks, target):
+    """Pack notebooks as the archive of handed-out forms.
 
     Parameters
     ----------
-    folder : Path, of the course
+    notebooks : dict, name such as "exercises/ex04_models_and_jacobians.ipynb" to bytes
     target : Path or file to write
     """
     with zipfile.ZipFile(target, "w", zipfile.ZIP_DEFLATED) as packed:
-        for kind in ("notebooks", "exercises"):
-            for path in sorted((folder / kind).glob("*.ipynb")):
-                info = zipfile.ZipInfo(f"{kind}/{path.name}", (1980, 1, 1, 0, 0, 0))
-                info.compress_type = zipfile.ZIP_DEFLATED
-                packed.writestr(info, path.read_bytes())
+        for name in sorted(notebooks):
+            info = zipfile.ZipInfo(name, (1980, 1, 1, 0, 0, 0))
+            info.compress_type = zipfile.ZIP_DEFLATED
+            packed.writestr(info, notebooks[name])
 
 
 def _opened(archive):

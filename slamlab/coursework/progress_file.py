@@ -6,7 +6,7 @@ from pathlib import Path
 
 from filelock import FileLock, Timeout
 
-from slamlab.coursework.files import keep_beside, write
+from slamlab.coursework.file_writing import keep_beside, write
 
 NAME = "progress.json"
 KINDS = ("tasks", "questions", "validated", "minutes")

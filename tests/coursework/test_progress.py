@@ -11,7 +11,7 @@ from datetime import datetime
 import pytest
 
 from slamlab import coursework
-from slamlab.coursework import folder, overview, progress, progress_file
+from slamlab.coursework import folder, overview, progress_file, progress_records
 
 NOW = datetime(2026, 11, 22, 18, 0, 0)
 
@@ -27,11 +27,11 @@ def course(tmp_path, monkeypatch):
 
 
 def test_a_check_an_answer_and_a_validation_are_kept(course):
-    progress.keep_check("04-h-robot", 2.0, 4.5)
-    progress.keep_check("04-h-robot", 1.0, 4.5)
-    progress.keep_answer("04-leaning", "A", False)
-    progress.keep_answer("04-leaning", "B", True)
-    progress.keep_validation("04", 12.0, 22.0)
+    progress_records.keep_check("04-h-robot", 2.0, 4.5)
+    progress_records.keep_check("04-h-robot", 1.0, 4.5)
+    progress_records.keep_answer("04-leaning", "A", False)
+    progress_records.keep_answer("04-leaning", "B", True)
+    progress_records.keep_validation("04", 12.0, 22.0)
     kept = progress_file.read(course)
     task, question = kept["tasks"]["04-h-robot"], kept["questions"]["04-leaning"]
     assert (task["points"], task["best"], task["of"], task["times"]) == (1.0, 2.0, 4.5, 2)
@@ -43,27 +43,27 @@ def test_a_check_an_answer_and_a_validation_are_kept(course):
 @pytest.mark.parametrize("name", [folder.OFF, "NBGRADER_EXECUTION", "PYTEST_VERSION"])
 def test_nothing_is_kept_where_no_student_sits(course, monkeypatch, name):
     monkeypatch.setenv(name, "1")
-    progress.keep_check("04-h-robot", 2.0, 4.5)
+    progress_records.keep_check("04-h-robot", 2.0, 4.5)
     assert not (course / progress_file.NAME).exists()
 
 
 def test_nothing_is_kept_outside_the_course(course, tmp_path_factory, monkeypatch):
     elsewhere = tmp_path_factory.mktemp("elsewhere")
     monkeypatch.chdir(elsewhere)
-    progress.keep_check("04-h-robot", 2.0, 4.5)
+    progress_records.keep_check("04-h-robot", 2.0, 4.5)
     assert list(elsewhere.iterdir()) == []
 
 
 def test_a_pause_counts_ten_minutes_at_most():
     times = iter([0.0, 90.0, 90.0 + 3600, 3700.0])
-    watch = progress.Stopwatch(lambda: next(times))
+    watch = progress_records.Stopwatch(lambda: next(times))
     assert [watch.lap(), watch.lap()] == [1.5, 10.0]
 
 
 @pytest.mark.parametrize("text", ["", "{", "[]", "null", '{"tasks": 3}', '{"tasks": {"04-a": 3}}'])
 def test_a_file_that_somebody_broke_stops_nothing_and_is_kept(course, text):
     (course / progress_file.NAME).write_text(text)
-    progress.keep_check("04-a", 2.0, 4.5)
+    progress_records.keep_check("04-a", 2.0, 4.5)
     assert progress_file.read(course)["tasks"]["04-a"]["points"] == 2.0
     copies = [path.read_text() for path in course.glob("progress 2*.json")]
     assert copies == ([text] if not text.startswith('{"') else [])
@@ -74,7 +74,7 @@ def test_minutes_that_are_no_numbers_stop_nothing(course):
     broken = {"minutes": {"ex04": "long"}, "tasks": {"04-h-robot": {"points": "all"}}}
     (course / progress_file.NAME).write_text(json.dumps(broken))
     overview.overview(course, progress_file.read(course))
-    progress.keep_check("04-h-robot", 2.0, 4.5)
+    progress_records.keep_check("04-h-robot", 2.0, 4.5)
     assert progress_file.read(course)["tasks"]["04-h-robot"]["points"] == 2.0
 
 
@@ -83,14 +83,14 @@ def test_a_folder_that_cannot_be_written_to_stops_nothing(course, monkeypatch):
         raise PermissionError("read-only")
 
     monkeypatch.setattr(progress_file, "write", refuse)
-    progress.keep_check("04-h-robot", 2.0, 4.5)
+    progress_records.keep_check("04-h-robot", 2.0, 4.5)
 
 
 def _kernel(place, number, count):
     os.environ.pop("PYTEST_VERSION", None)
     os.chdir(place)
     for k in range(count):
-        progress.keep_check(f"04-task{number}-{k}", 1.0, 2.0)
+        progress_records.keep_check(f"04-task{number}-{k}", 1.0, 2.0)
 
 
 def test_kernels_that_write_at_once_lose_nothing(course):
@@ -105,9 +105,9 @@ def test_kernels_that_write_at_once_lose_nothing(course):
 
 def test_a_kernel_that_is_killed_loses_nothing_that_was_kept(course):
     code = (
-        "from slamlab.coursework import progress\n"
+        "from slamlab.coursework import progress_records\n"
         "for k in range(10**6):\n"
-        "    progress.keep_check(f'04-task-{k}', 1.0, 2.0)\n"
+        "    progress_records.keep_check(f'04-task-{k}', 1.0, 2.0)\n"
         "    print(k, flush=True)\n"
     )
     kept = 0
@@ -130,9 +130,9 @@ def test_the_overview_says_what_is_next(course):
     assert "0 of" in overview.overview(None, progress_file.EMPTY)
     first = table[0]
     for task in overview.catalogue.exercise("01").tasks[:-1]:
-        progress.keep_check(task.id, task.points, task.points)
+        progress_records.keep_check(task.id, task.points, task.points)
     last = overview.catalogue.exercise("01").tasks[-1]
-    progress.keep_check(last.id, 0.5, last.points)
+    progress_records.keep_check(last.id, 0.5, last.points)
     table = overview.rows(course, progress_file.read(course))
     assert table[0].marks == "●" * (len(first.marks) - 1) + "◐"
     assert last.id in overview.next_step(table)
@@ -141,7 +141,7 @@ def test_the_overview_says_what_is_next(course):
 def test_questions_of_a_lesson_are_counted(course):
     cell = {"cell_type": "code", "source": ["ask(\n", '    "01-why", "?")\n']}
     (course / "notebooks" / "01_x.ipynb").write_text(json.dumps({"cells": [cell]}))
-    progress.keep_answer("01-why", "A", True)
+    progress_records.keep_answer("01-why", "A", True)
     row = overview.rows(course, progress_file.read(course))[0]
     assert (row.answered, row.questions) == (1, 1)
 

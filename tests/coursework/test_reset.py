@@ -8,8 +8,8 @@ from datetime import datetime
 import pytest
 
 from slamlab.cli import main
-from slamlab.coursework import files, originals, reset, update
-from slamlab.coursework.reset import ResetError
+from slamlab.coursework import file_writing, notebook_reset, notebook_update, originals
+from slamlab.coursework.notebook_reset import ResetError
 
 NOW = datetime(2026, 11, 22, 18, 0, 0)
 EXERCISE, LESSON = "exercises/ex04_models.ipynb", "notebooks/04_models.ipynb"
@@ -45,11 +45,12 @@ def handed_out(edition=1):
 
 def make_pack(place, edition=1):
     for name, notebook in ((EXERCISE, handed_out(edition)), (LESSON, handed_out(1))):
-        files.write(place / name, reset.dump(notebook))
-    files.write(place / "lab.py", b"edition %d" % edition)
-    files.write(place / "slamlab" / "new.py", b"edition %d" % edition)
+        file_writing.write(place / name, notebook_reset.dump(notebook))
+    file_writing.write(place / "lab.py", b"edition %d" % edition)
+    file_writing.write(place / "slamlab" / "new.py", b"edition %d" % edition)
     (place / originals.ARCHIVE).parent.mkdir(parents=True)
-    originals.pack(place, place / originals.ARCHIVE)
+    names = (EXERCISE, LESSON)
+    originals.pack({n: (place / n).read_bytes() for n in names}, place / originals.ARCHIVE)
     return place
 
 
@@ -73,7 +74,7 @@ def solve(path):
     notebook = json.loads(path.read_bytes())
     sources(notebook)["a"]["source"] = "def a():\n    return 1"
     notebook["cells"].insert(3, code("mine", "print(a())"))
-    files.write(path, reset.dump(notebook))
+    file_writing.write(path, notebook_reset.dump(notebook))
 
 
 def sources(notebook):
@@ -92,8 +93,8 @@ def kept(course):
 def test_an_exercise_is_as_it_was_handed_out_and_the_old_form_is_kept(course, what, monkeypatch):
     monkeypatch.chdir(course)
     before = (course / EXERCISE).read_bytes()
-    told = reset.reset(course, what, NOW)
-    assert (course / EXERCISE).read_bytes() == reset.dump(handed_out())
+    told = notebook_reset.reset(course, what, NOW)
+    assert (course / EXERCISE).read_bytes() == notebook_reset.dump(handed_out())
     (copy,) = kept(course)
     assert copy.read_bytes() == before
     assert any(copy.name in line for line in told)
@@ -101,13 +102,13 @@ def test_an_exercise_is_as_it_was_handed_out_and_the_old_form_is_kept(course, wh
 
 def test_a_lesson_is_reset_and_a_lost_file_comes_back(course):
     (course / LESSON).unlink()
-    reset.reset(course, "lesson-04", NOW)
-    assert (course / LESSON).read_bytes() == reset.dump(handed_out())
+    notebook_reset.reset(course, "lesson-04", NOW)
+    assert (course / LESSON).read_bytes() == notebook_reset.dump(handed_out())
     assert kept(course) == []
 
 
 def test_a_tasks_cells_are_reset_and_all_else_stays(course):
-    reset.reset(course, "04-a", NOW)
+    notebook_reset.reset(course, "04-a", NOW)
     after = read(course / EXERCISE)
     assert "NotImplementedError" in after["a"]
     assert after["mine"] == "print(a())"
@@ -116,21 +117,21 @@ def test_a_tasks_cells_are_reset_and_all_else_stays(course):
 def test_a_tasks_cell_that_was_deleted_comes_back_before_its_check(course):
     notebook = json.loads((course / EXERCISE).read_bytes())
     notebook["cells"] = [c for c in notebook["cells"] if c["id"] not in ("a", "a2", "b")]
-    files.write(course / EXERCISE, reset.dump(notebook))
-    reset.reset(course, "04-a", NOW)
+    file_writing.write(course / EXERCISE, notebook_reset.dump(notebook))
+    notebook_reset.reset(course, "04-a", NOW)
     assert list(read(course / EXERCISE)) == ["head", "mine", "a", "a2", "04-a", "04-b"]
 
 
 def test_resets_in_one_second_overwrite_nothing(course):
     for _ in range(3):
         solve(course / EXERCISE)
-        reset.reset(course, "04", NOW)
+        notebook_reset.reset(course, "04", NOW)
     assert len(kept(course)) == 3
 
 
 def test_what_is_as_handed_out_stays_and_is_not_copied(course):
-    reset.reset(course, "04", NOW)
-    assert "nothing to reset" in reset.reset(course, "04", NOW)[0]
+    notebook_reset.reset(course, "04", NOW)
+    assert "nothing to reset" in notebook_reset.reset(course, "04", NOW)[0]
     assert len(kept(course)) == 1
 
 
@@ -138,15 +139,15 @@ def test_what_is_as_handed_out_stays_and_is_not_copied(course):
 def test_what_is_not_there_is_refused_in_words(course, what):
     before = (course / EXERCISE).read_bytes()
     with pytest.raises(ResetError, match=r"there is no|no task"):
-        reset.reset(course, what, NOW)
+        notebook_reset.reset(course, what, NOW)
     assert (course / EXERCISE).read_bytes() == before
 
 
 def test_a_task_of_a_notebook_that_cannot_be_read_is_refused_and_all_of_it_can_be_reset(course):
     (course / EXERCISE).write_text("{")
     with pytest.raises(ResetError, match="slamlab reset 04"):
-        reset.reset(course, "04-a", NOW)
-    reset.reset(course, "04", NOW)
+        notebook_reset.reset(course, "04-a", NOW)
+    notebook_reset.reset(course, "04", NOW)
     assert [path.read_text() for path in kept(course)] == ["{"]
 
 
@@ -154,13 +155,13 @@ def test_a_clone_is_reset_from_git(tmp_path):
     folder = make_pack(tmp_path)
     (folder / originals.ARCHIVE).unlink()
     with pytest.raises(ResetError, match="git does not know"):
-        reset.reset(folder, "04", NOW)
+        notebook_reset.reset(folder, "04", NOW)
     who = ["-c", "user.name=x", "-c", "user.email=x@example.org"]
     for words in (["init", "-q"], ["add", "."], [*who, "commit", "-qm", "handed out"]):
         subprocess.run(["git", *words], cwd=folder, check=True)
     solve(folder / EXERCISE)
-    reset.reset(folder, "04", NOW)
-    assert (folder / EXERCISE).read_bytes() == reset.dump(handed_out())
+    notebook_reset.reset(folder, "04", NOW)
+    assert (folder / EXERCISE).read_bytes() == notebook_reset.dump(handed_out())
 
 
 class Killed(BaseException):
@@ -169,7 +170,7 @@ class Killed(BaseException):
 
 def moments(monkeypatch, act):
     """Kill an act before its first write, its second, and so on; yields after each."""
-    files_write = files.write
+    files_write = file_writing.write
     for moment in range(100):
         left = [moment]
 
@@ -180,7 +181,7 @@ def moments(monkeypatch, act):
             files_write(path, data)
 
         with monkeypatch.context() as patch:
-            for module in (files, reset, update):
+            for module in (file_writing, notebook_reset, notebook_update):
                 patch.setattr(module, "write", write)
             try:
                 act()
@@ -193,28 +194,28 @@ def moments(monkeypatch, act):
 
 def test_a_reset_killed_at_any_moment_loses_nothing(course, monkeypatch):
     before = (course / EXERCISE).read_bytes()
-    for _ in moments(monkeypatch, lambda: reset.reset(course, "04", NOW)):
+    for _ in moments(monkeypatch, lambda: notebook_reset.reset(course, "04", NOW)):
         assert (course / EXERCISE).read_bytes() == before
     assert before in [path.read_bytes() for path in kept(course)]
 
 
 def test_a_write_that_is_killed_leaves_the_old_file_whole(tmp_path, monkeypatch):
     path = tmp_path / "x"
-    files.write(path, b"old")
+    file_writing.write(path, b"old")
 
     def killed(*given):
         raise Killed
 
-    monkeypatch.setattr(files.os, "replace", killed)
+    monkeypatch.setattr(file_writing.os, "replace", killed)
     with pytest.raises(Killed):
-        files.write(path, b"new")
+        file_writing.write(path, b"new")
     assert path.read_bytes() == b"old"
 
 
 def test_a_new_edition_replaces_what_was_not_touched_and_keeps_answers(course, tmp_path):
     pack = zipped(make_pack(tmp_path / "new", 2), tmp_path / "new.zip")
     before = (course / EXERCISE).read_bytes()
-    update.update(course, pack, NOW)
+    notebook_update.update(course, pack, NOW)
     after = read(course / EXERCISE)
     assert list(after) == ["head", "a", "a2", "mine", "more", "04-a", "b", "04-b"]
     assert (after["head"], after["a"]) == ("Edition 2", "def a():\n    return 1")
@@ -224,7 +225,7 @@ def test_a_new_edition_replaces_what_was_not_touched_and_keeps_answers(course, t
     assert [path.read_bytes() for path in kept(course)] == [before]
     assert (course / "lab.py").read_bytes() == b"edition 2"
     assert (course / "slamlab" / "new.py").read_bytes() == b"edition 2"
-    assert originals.original(course, EXERCISE) == reset.dump(handed_out(2))
+    assert originals.original(course, EXERCISE) == notebook_reset.dump(handed_out(2))
     assert list(course.glob(".update-*")) == []
 
 
@@ -232,9 +233,11 @@ def test_an_exercise_that_was_only_run_counts_as_untouched(tmp_path):
     course = make_pack(tmp_path / "course")
     notebook = json.loads((course / EXERCISE).read_bytes())
     notebook["cells"][1] |= {"outputs": [{"output_type": "stream"}], "execution_count": 1}
-    files.write(course / EXERCISE, reset.dump(notebook))
-    update.update(course, zipped(make_pack(tmp_path / "new", 2), tmp_path / "new.zip"), NOW)
-    assert (course / EXERCISE).read_bytes() == reset.dump(handed_out(2))
+    file_writing.write(course / EXERCISE, notebook_reset.dump(notebook))
+    notebook_update.update(
+        course, zipped(make_pack(tmp_path / "new", 2), tmp_path / "new.zip"), NOW
+    )
+    assert (course / EXERCISE).read_bytes() == notebook_reset.dump(handed_out(2))
 
 
 def test_an_update_killed_at_any_moment_loses_nothing_and_can_be_run_again(
@@ -242,7 +245,7 @@ def test_an_update_killed_at_any_moment_loses_nothing_and_can_be_run_again(
 ):
     pack = zipped(make_pack(tmp_path / "new", 2), tmp_path / "new.zip")
     before = (course / EXERCISE).read_bytes()
-    for _ in moments(monkeypatch, lambda: update.update(course, pack, NOW)):
+    for _ in moments(monkeypatch, lambda: notebook_update.update(course, pack, NOW)):
         there = [(course / EXERCISE).read_bytes(), *(path.read_bytes() for path in kept(course))]
         assert before in there
     after = read(course / EXERCISE)
@@ -252,12 +255,12 @@ def test_an_update_killed_at_any_moment_loses_nothing_and_can_be_run_again(
 @pytest.mark.parametrize("content", [b"", b"PK nonsense"])
 def test_what_is_no_pack_is_refused(course, tmp_path, content):
     (tmp_path / "x.zip").write_bytes(content)
-    with pytest.raises(update.UpdateError, match=r"x\.zip"):
-        update.update(course, tmp_path / "x.zip", NOW)
+    with pytest.raises(notebook_update.UpdateError, match=r"x\.zip"):
+        notebook_update.update(course, tmp_path / "x.zip", NOW)
     with zipfile.ZipFile(tmp_path / "y.zip", "w") as other:
         other.writestr("a", "b")
-    with pytest.raises(update.UpdateError, match="no students' pack"):
-        update.update(course, tmp_path / "y.zip", NOW)
+    with pytest.raises(notebook_update.UpdateError, match="no students' pack"):
+        notebook_update.update(course, tmp_path / "y.zip", NOW)
 
 
 def test_the_commands_say_what_they_did_and_what_is_wrong(course, monkeypatch, capsys, tmp_path):

@@ -2,6 +2,8 @@
 
 import io
 import json
+import posixpath
+import re
 import subprocess
 import sys
 import zipfile
@@ -14,17 +16,19 @@ from flit_core import wheel
 
 from course import pack
 from course.programs import programs
+from slamlab.coursework import originals
 from slamlab.exercises import catalogue
 from slamlab.grading import staging
 from tests.notebooks.test_derived import telling, tokens
 
+PATH = re.compile(r"[\w./-]+\.(ipynb|md|png|svg|py)")  # in code, brackets may stand so
 OURS = {"solutions", "course", "tests", "benchmarks"}
 
 
 @pytest.fixture(scope="module")
 def packed(tmp_path_factory):
     target = tmp_path_factory.mktemp("pack") / "student.zip"
-    pack.pack(target)
+    pack.pack(target, pack.contents())
     return target
 
 
@@ -76,7 +80,7 @@ def cells(notebook):
 
 
 def test_the_same_project_gives_the_same_file(packed, tmp_path):
-    pack.pack(tmp_path / "again.zip")
+    pack.pack(tmp_path / "again.zip", pack.contents())
     assert (tmp_path / "again.zip").read_bytes() == packed.read_bytes()
 
 
@@ -86,6 +90,60 @@ def test_it_holds_every_lesson_and_exercise(packed):
         ours = {f"{pack.TOP}/{folder}/{p.name}" for p in (pack.ROOT / folder).glob("*.ipynb")}
         assert ours
         assert ours <= set(names)
+
+
+def test_students_get_no_notes_and_lecturers_do(packed):
+    note = "*For the lecturer:*"
+    path = next((pack.ROOT / "notebooks").glob("04_*.ipynb"))
+    lecturers = pack.lecturers_contents()
+    assert note in lecturers[f"notebooks/{path.name}"].decode()
+    assert any(name.startswith("solutions/") for name in lecturers)
+    for name, data in opened(packed).items():
+        assert note not in data.decode("utf-8", "replace"), name
+        if name.endswith(".ipynb"):
+            assert not [cell for cell in json.loads(data)["cells"] if pack.LECTURER & marks(cell)]
+
+
+def marks(cell):
+    metadata = cell["metadata"]
+    return {metadata.get("slideshow", {}).get("slide_type"), *metadata.get("tags", [])}
+
+
+def opened(packed):
+    """Name, from the course's folder on, to content of every file in a pack."""
+    with zipfile.ZipFile(packed) as found:
+        return {name.removeprefix(f"{pack.TOP}/"): found.read(name) for name in found.namelist()}
+
+
+def test_no_link_that_students_get_leads_nowhere(packed):
+    files = opened(packed)
+    links = 0
+    for name, data in files.items():
+        if not name.endswith((".md", ".ipynb")):
+            continue
+        texts = [data.decode()] if name.endswith(".md") else cells(data)
+        for link in re.findall(r"\]\(([^)#\s]+)[^)]*\)", "\n".join(texts)):
+            if link.startswith(("http:", "https:", "attachment:")) or not PATH.fullmatch(link):
+                continue
+            target = posixpath.normpath(posixpath.join(posixpath.dirname(name), link))
+            assert target in files, f"{name} links {link}"
+            links += 1
+    assert links > 60
+
+
+def test_students_are_told_nothing_of_what_they_do_not_get(packed):
+    for name, data in opened(packed).items():
+        if name.endswith((".md", ".ipynb")):
+            text = "\n".join(cells(data)) if name.endswith(".ipynb") else data.decode()
+            for word in ("benchmarks", "`git ", "make test", "make student", "solutions/"):
+                assert word not in text, (name, word)
+
+
+def test_what_a_pack_can_reset_to_is_what_stands_in_it(packed):
+    files = opened(packed)
+    with zipfile.ZipFile(io.BytesIO(files[originals.ARCHIVE])) as archive:
+        kept = {name: archive.read(name) for name in archive.namelist()}
+    assert kept == {name: data for name, data in files.items() if name.endswith(".ipynb")}
 
 
 def test_no_folder_of_ours_goes_out(shipped):
@@ -98,8 +156,8 @@ def test_no_folder_of_ours_goes_out(shipped):
 
 def test_nothing_that_goes_out_imports_the_course_or_needs_it(shipped):
     texts = {path: data for path, data in shipped.items() if path.suffix in (".py", ".ipynb")}
-    for word in (b"import course", b"from course"):
-        assert [path for path, text in texts.items() if word in text] == []
+    ours = re.compile(rb"(import|from) course\b")
+    assert [path for path, text in texts.items() if ours.search(text)] == []
 
 
 def test_no_file_that_goes_out_holds_the_text_of_a_solution(shipped):

@@ -6,7 +6,7 @@ from datetime import datetime
 from pathlib import Path
 
 from slamlab.coursework import originals
-from slamlab.coursework.files import keep_beside, write
+from slamlab.coursework.file_writing import keep_beside, write
 from slamlab.coursework.originals import OriginalError
 
 _TASK = re.compile(r"(\d\d)-[a-z0-9-]+")

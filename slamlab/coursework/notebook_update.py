@@ -8,10 +8,10 @@ from datetime import datetime
 from pathlib import Path
 
 from slamlab.coursework import originals
-from slamlab.coursework.files import keep_beside, write
+from slamlab.coursework.file_writing import keep_beside, write
 from slamlab.coursework.folder import FOLDERS
+from slamlab.coursework.notebook_reset import dump
 from slamlab.coursework.originals import OriginalError
-from slamlab.coursework.reset import dump
 
 SWAPPED = ("slamlab", "labextension", "docs")  # folders that nobody writes in
 
