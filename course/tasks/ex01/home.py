@@ -37,7 +37,7 @@ WAYS = {
     "least squares, error by error": """
 def home(start, steps, docked):
     n = len(steps)
-    W = np.concatenate([np.full(n, 0.012**2), np.full(n, 0.015**2), [0.08**2]])
+    W = np.concatenate([np.full(n, 0.01**2), np.full(n, 0.015**2), [0.08**2]])
     x = np.zeros(2 * n + 1)
 
     def told_by(x):
@@ -167,7 +167,11 @@ SLIPS = (
     Slip(
         "factor turned",
         "You make the turns still larger where they are too large: the factor stands on the wrong side.",
-        _shared(LEARNT.replace("factor = ", "factor = 1 / ").replace("np.mean(told) / (2 * np.pi)", "(np.mean(told) / (2 * np.pi))")),
+        _shared(
+            LEARNT.replace("factor = ", "factor = 1 / ").replace(
+                "np.mean(told) / (2 * np.pi)", "(np.mean(told) / (2 * np.pi))"
+            )
+        ),
     ),
     Slip(
         "sides mixed up",
@@ -180,13 +184,15 @@ SLIPS = (
         "way beyond not mended",
         "The laps are mended, and the way after the last one is left as the wheels told it. The tyre is "
         "as worn there as it was before.",
-        [("steps = steps.copy()", "steps, told_by_wheels = steps.copy(), steps"),
-         ("track(start, steps[docked[-1] :])", "track(start, told_by_wheels[docked[-1] :])")],
+        [
+            ("steps = steps.copy()", "steps, told_by_wheels = steps.copy(), steps"),
+            ("track(start, steps[docked[-1] :])", "track(start, told_by_wheels[docked[-1] :])"),
+        ],
     ),
     Slip(
         "gap doubled",
         "The gap is shared out with the wrong sign, so that the lap ends twice as far from home.",
-        ("gap = start[:2] - told_lap[-1, :2]", "gap = told_lap[-1, :2] - start[:2]"),
+        _shared(places="-np.linspace(0, 1, len(told))"),
     ),
 )
 
@@ -197,7 +203,9 @@ STUMBLES = (
         ("return np.concatenate(poses)", "return np.concatenate(poses)[:, :2]"),
         ("return np.concatenate(poses)", "np.concatenate(poses)"),
     ),
-    Stumble("raised", "def home(start, steps, docked):\n    return track(start, steps[docked])[9000]\n"),
+    Stumble(
+        "raised", "def home(start, steps, docked):\n    return track(start, steps[docked])[9000]\n"
+    ),
     Stumble("not attempted", "def home(start, steps, docked):\n    raise NotImplementedError"),
 )
 

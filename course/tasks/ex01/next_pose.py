@@ -141,7 +141,11 @@ SLIPS = (
         "the wrong way round",
         "You place the pose in the frame of the step. Which of the two is given in the frame of the "
         "other?",
-        [_looking("np.cos(turn)", "np.sin(turn)"), (X, "forward + c * x - s * y"), (Y, "left + s * x + c * y")],
+        [
+            _looking("np.cos(turn)", "np.sin(turn)"),
+            (X, "forward + c * x - s * y"),
+            (Y, "left + s * x + c * y"),
+        ],
     ),
     Slip(
         "one sign",
@@ -201,7 +205,9 @@ SLIPS = (
     Slip(
         "wrapped on one side",
         "Headings beyond π come back, but not those below −π, or the other way round.",
-        Edit("the math module, wrapped by ifs", (("elif heading < -math.pi", "elif heading < -9"),)),
+        Edit(
+            "the math module, wrapped by ifs", (("elif heading < -math.pi", "elif heading < -9"),)
+        ),
         Edit("the math module, wrapped by ifs", (("if heading > math.pi", "if heading > 9"),)),
     ),
     Slip(

@@ -144,7 +144,12 @@ SLIPS = (
         Edit(BEARING, (("r * math.cos(beta), r * math.sin(beta)", "r, beta"),)),
         Edit(
             BEARING,
-            (("r * math.cos(beta), r * math.sin(beta)", "r, math.atan2(math.sin(beta), math.cos(beta))"),),
+            (
+                (
+                    "r * math.cos(beta), r * math.sin(beta)",
+                    "r, math.atan2(math.sin(beta), math.cos(beta))",
+                ),
+            ),
         ),
         [(XY, "np.hypot(dx, dy), 0.0")],
     ),
@@ -159,7 +164,15 @@ SLIPS = (
         "half the directions of a bearing",
         "The arcus tangent of a quotient cannot tell a place ahead from the one opposite, behind the "
         "robot. np.arctan2 takes both coordinates and can.",
-        Edit(BEARING, (("math.atan2(b[1] - a[1], b[0] - a[0])", "np.arctan((b[1] - a[1]) / (b[0] - a[0] + 1e-300))"),)),
+        Edit(
+            BEARING,
+            (
+                (
+                    "math.atan2(b[1] - a[1], b[0] - a[0])",
+                    "np.arctan((b[1] - a[1]) / (b[0] - a[0] + 1e-300))",
+                ),
+            ),
+        ),
     ),
     Slip(
         "heading not relative",

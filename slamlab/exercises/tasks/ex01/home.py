@@ -24,10 +24,12 @@ def _step(name, points, limit, asks):
     return Law(name, points, says, lambda i, o: off(i, o) < limit, why=_why, asks=asks)
 
 
+# over 60 seeds the solution errs by 0.08–0.13 m, without the common factor by 0.23 m at least; laps
+# begun anew in the dock err by 1.0–1.4 m, and dead reckoning by 2.7 m at least
 STEPS = (
-    _step("better", 0.5, 1.5, "Where is the robot each time it is docked, and what may follow?"),
-    _step("good", 2, 0.5, "A lap closes, in truth. How far is it from closing, and in what?"),
-    _step("right", 3, 0.17, "What do the gaps of all laps of one drive have in common?"),
+    _step("better", 0.5, 2.2, "Where is the robot each time it is docked, and what may follow?"),
+    _step("good", 2, 0.6, "A lap closes, in truth. How far is it from closing, and in what?"),
+    _step("right", 3, 0.19, "What do the gaps of all laps of one drive have in common?"),
 )
 
 HOME = Task(

@@ -68,11 +68,11 @@ NEXT_POSE = Task(
         "seen along the old heading, the robot moves forward and to the left as the step says",
         "the heading grows by the turn (full turns do not matter)",
         (
-            "A robot looks along +y and drives one metre forward. Which of x and y grows? And if it "
-            "is pushed one metre to its left?",
+            "A robot looks along +y and drives one metre forward. Which of x and y grows? And if "
+            "it is pushed one metre to its left?",
             "A robot looks to 30° and turns by 20° to the left: where does it look then?",
-            "A robot looks to 170° and turns by 20° to the left. Which angle between −180° and 180° "
-            "is that?",
+            "A robot looks to 170° and turns by 20° to the left. Which angle between −180° and "
+            "180° is that?",
         ),
         _on_the_way,
     ),
