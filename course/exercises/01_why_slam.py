@@ -18,6 +18,8 @@
 # arguments: whoever called it still needs them.
 
 # %%
+from itertools import pairwise
+
 import numpy as np
 
 from slamlab import views, worlds
@@ -441,8 +443,7 @@ def laps_of_a_house(seed):
         corners[1:-1] += rng.uniform(-0.6, 0.6, 4) + 1j * rng.uniform(-0.6, 0.6, 4)
         if side == 0:
             corners = corners[:-1] * 1.2  # the way beyond is not closed
-        walls = zip(corners[:-1], corners[1:], strict=True)
-        z = [np.linspace(p, q, round(2 * abs(q - p)), endpoint=False) for p, q in walls]
+        z = [np.linspace(p, q, round(2 * abs(q - p)), endpoint=False) for p, q in pairwise(corners)]
         ways = np.diff(np.append(np.concatenate(z), corners[-1]))
         turns = np.angle(np.roll(ways, -1) / ways)
         laps.append(np.column_stack([abs(ways), 0 * turns, turns if side >= 0 else -turns]))

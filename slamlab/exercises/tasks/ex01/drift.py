@@ -54,16 +54,6 @@ DRIFT = Task(
     shapes={"result": ()},
     laws=(
         equals(
-            "spread",
-            3,
-            "so far sideways a drive of several steps ends, one standard deviation",
-            _want,
-            tolerance=NEAR,
-            asks="How far sideways does the first error alone lead, and how far the last? How do "
-            "independent errors add up?",
-            step=_on_the_way,
-        ),
-        equals(
             "few",
             1,
             "so far sideways a drive of no step, of one, two or three ends",
@@ -72,6 +62,16 @@ DRIFT = Task(
             asks="A drive of one step: which of its errors was there before the robot moved?",
             step=_on_the_way,
             main=False,
+        ),
+        equals(
+            "spread",
+            3,
+            "so far sideways a drive of several steps ends, one standard deviation",
+            _want,
+            tolerance=NEAR,
+            asks="How far sideways does the first error alone lead, and how far the last? How do "
+            "independent errors add up?",
+            step=_on_the_way,
         ),
     ),
     probes=(
