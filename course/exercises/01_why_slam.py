@@ -1,19 +1,25 @@
 # %% [markdown]
 # # Exercise 01 · Why SLAM
 #
-# You write five short functions. With them a robot drives round a corridor, believes its wheels,
-# and draws a map that does not fit together. Nothing is drawn for you: every picture below is made
-# by **your** functions, so it is right as soon as they are.
+# **You will be able to** chain the steps that wheels report to a track, say how one pose looks from
+# another, and foretell how far a robot goes astray that only counts its steps. You will then derive
+# this for a drive of any shape, and mend the track of a robot that came home now and then.
 #
-# - Replace each `raise NotImplementedError(...)` by your code and run the cell.
-# - Run the cell with `check(...)` below it. It tries your function on random inputs and says which
-#   laws hold, and what the mistake is where it knows it.
-# - Cells marked `@attempt` draw. They say "not attempted yet" until your functions are there.
+# **60 minutes. Before:** lesson [01 · Why SLAM](../notebooks/01_why_slam.ipynb).
 #
-# About 40 minutes. You need the lesson [01 · Why SLAM](../notebooks/01_why_slam.ipynb) before.
-# Metres and radians everywhere; a pose is `[x, y, θ]` with θ counter-clockwise from +x.
+# Replace each `raise NotImplementedError(...)` by your code, run the cell, then run the check below
+# it, as often as you like. A check tries random inputs and inputs at the edges, says which law is
+# broken, shows the smallest case that breaks it, and names the mistake where it knows it. Cells
+# marked `@attempt` draw. They say "not attempted yet" until your functions are there, for every
+# picture below is made by **your** functions.
+#
+# Lengths are in metres and angles in radians. A pose is `[x, y, θ]`, an array of three numbers whose
+# heading θ is counter-clockwise from +x and lies between −π and π. No function may change its
+# arguments: whoever called it still needs them.
 
 # %%
+from itertools import pairwise
+
 import numpy as np
 
 from slamlab import views, worlds
@@ -25,11 +31,14 @@ from slamlab.simulation import RPLIDAR_A2
 # ## 1 · One step
 #
 # After each step the odometry reports what the robot did **as seen from where it was before**:
-# `[forward, left, turn]`, in metres, metres and radians. A robot at `[2, 1, π/2]` looks along +y;
+# `[forward, left, turn]`, in metres, metres and radians. A robot at `[2, 1, π/2]` looks along +y, so
 # after a step `[0.5, 0, 0]` it stands at `[2, 1.5, π/2]`.
 #
 # Return the new pose. Two things to think of: the step was measured in the frame of the *old* pose,
-# and a heading lies between −π and π.
+# and the new heading has to lie between −π and π again.
+#
+# A step may be of any length, forward or back, to the left or to the right, and it may be no step at
+# all. Its turn lies between −π and π.
 
 
 # %% name="next-pose"
@@ -59,41 +68,21 @@ def next_pose(pose, step):
 check("01-next-pose")
 
 # %% [markdown]
-# ## 2 · Dead reckoning
-#
-# Chain the steps: each begins where the one before ended. Return **all** poses, the start first, so
-# that n steps make n + 1 rows. Use your `next_pose`.
+# Dead reckoning chains such steps: each begins where the one before ended. Here it is, ready to use,
+# with your `next_pose` inside. `tour` gives the steps of one lap round a corridor, half a metre each,
+# with a quarter turn at each of the four corners. With `corner_error` the odometry reports every
+# quarter turn a little too large, as a robot with a worn tyre does.
 
 
-# %% name="track"
+# %% name="tour"
 def track(start, steps):
-    """The poses along a drive.
-
-    start : (3,) x [m], y [m], θ [rad]
-    steps : (n, 3) forward [m], left [m], turn [rad], each in the frame of the pose before
-    returns (n + 1, 3), the start in the first row
-    """
-    ### BEGIN SOLUTION
+    """The poses (n + 1, 3) along a drive of n steps; the start (3,) is the first."""
     poses = [start]
     for step in steps:
         poses.append(next_pose(poses[-1], step))
     return np.array(poses)
-    ### END SOLUTION
 
 
-# %%
-check("01-track")
-
-# %% [markdown]
-# Now drive round the corridor. `tour` gives the steps of one lap, half a metre each, with a quarter
-# turn at each of the four corners. With `corner_error` the odometry reports every quarter turn a
-# little too large, as a robot with a worn tyre does.
-#
-# **Before you run it:** with 3° too much at each corner, how far from its start will the robot
-# believe to be after the lap of 42 m? Write a number down.
-
-
-# %% name="tour"
 def tour(corner_error=0.0):
     """Steps (84, 3) of one lap round the corridor; corner_error in radians."""
     legs = [24, 16, 26, 16, 2]
@@ -106,7 +95,12 @@ def tour(corner_error=0.0):
 START = np.zeros(3)
 WALLS = Segments("walls", worlds.corridor().outline())
 
+# %% [markdown]
+# **Predict first.** With 3° too much at each corner, how far from its start will the robot believe to
+# be after the lap of 42 m? Write a number down.
 
+
+# %% name="lap"
 @attempt
 def _():
     fig, ax = views.axes("One lap, 3° too much at each corner")
@@ -120,42 +114,21 @@ def _():
 # %% [markdown]
 # The true lap closes. The odometry's lap runs through the walls: after four corners it is 12° off,
 # and it does not come back to where it began.
-
-# %% [markdown]
-# ## 3 · The map
 #
-# The lidar reports points in the robot's frame: x ahead, y to the left. Put them where they belong
-# in the world: turned by the robot's heading, then moved to where it stands. The points stand in
-# rows; mind that when you turn them by a matrix (the conventions in
-# [00](../notebooks/00_start_here.ipynb) say how).
-
-
-# %% name="place"
-def place(pose, points):
-    """A scan's points in the world.
-
-    pose : (3,) x [m], y [m], θ [rad]
-    points : (n, 2) in the robot's frame [m]
-    returns (n, 2) in the world [m]
-    """
-    ### BEGIN SOLUTION
-    x, y, theta = pose
-    c, s = np.cos(theta), np.sin(theta)
-    R = np.array([[c, -s], [s, c]])
-    return points @ R.T + np.array([x, y])
-    ### END SOLUTION
-
-
-# %%
-check("01-place")
-
-# %% [markdown]
-# The scans are taken where the robot *is*. The map is drawn where the robot *believes* to be.
-# **Before you run it:** what will the outer wall look like at the start, where the lap ends? Then
-# move the slider: which error is small enough for you to call the map good?
+# The scans are taken where the robot *is*, but the map is drawn where the robot *believes* to be.
+# `place` puts a scan's points into the world, as the lesson did. **Before you run it:** what will the
+# outer wall look like at the start, where the lap ends? Then move the slider: which error is small
+# enough for you to call the map good?
 
 
 # %% name="map"
+def place(pose, points):
+    """A scan's points (n, 2), given in the robot's frame, in the world."""
+    x, y, theta = pose
+    c, s = np.cos(theta), np.sin(theta)
+    return points @ np.array([[c, s], [-s, c]]) + np.array([x, y])
+
+
 @attempt
 def _():
     world, rng = worlds.corridor(), np.random.default_rng(1)
@@ -184,11 +157,14 @@ def _():
 # poses it is drawn from**.
 
 # %% [markdown]
-# ## 4 · The gap
+# ## 2 · The gap
 #
 # How well does the lap close? Ask from the start: where, seen from there, is the end? Return pose b
-# as seen from pose a: how far ahead of a, how far to the left of a, and how much a would have to
-# turn to look where b looks. It is the way back of `next_pose`.
+# as seen from pose a: how far ahead of a, how far to the left of a, and how much a would have to turn
+# to look where b looks. It is the way back of `next_pose`.
+#
+# The two poses may be anywhere, also in one place, and they may look anywhere. The turn has to lie
+# between −π and π.
 
 
 # %% name="seen-from"
@@ -227,15 +203,17 @@ def _():
 # number near?
 
 # %% [markdown]
-# ## 5 · How errors grow
+# ## 3 · How errors grow
 #
 # A constant error is bad luck; chance alone is bad enough. The robot drives **straight**: `n` steps
 # of `d` metres, and **after** each step its heading is off by a little more, each time by an
 # independent random angle with mean 0 and standard deviation `sigma`. How far sideways of the line
 # will it be at the end? Return the standard deviation in metres, for small angles (sin e ≈ e).
 #
-# Hint: number the errors. The first one bends n − 1 steps, the second n − 2, …, the last none. How
-# far sideways does one error lead, and how do the variances of independent errors add?
+# Number the errors: the first one bends n − 1 steps, the second n − 2, …, the last none. How far
+# sideways does one error lead, and how do the variances of independent errors add?
+#
+# There may be no step at all or a thousand of them, and `d` or `sigma` may be 0.
 
 
 # %% name="drift"
@@ -281,9 +259,226 @@ def _():
 
 # %% [markdown]
 # Nearly all tracks stay between your two curves: about 285 of 300 end there. The fan opens faster
-# than the way grows: twice the way, nearly three times the drift. No better wheel changes that, it
-# only delays it. Something must look at the **walls** and notice that they have been seen before.
-# That is SLAM, and the rest of the course.
+# than the way grows: twice the way, nearly three times the drift.
+
+# %% [markdown]
+# ## 4 · Any drive
 #
-# Save the notebook. The cell below then says what the grader will say about it; the grader draws
-# other inputs. Hand it in as it is.
+# No robot drives straight for long. Now it drives any way, and its wheels err in both manners of the
+# lesson:
+#
+# - each step is longer or shorter **in the direction in which the robot moved**, by an independent
+#   random share of its length with mean 0 and standard deviation `length_error` (0.02 is 2 %);
+# - after each step, also after the last one, all that follows is turned by an independent random
+#   angle with mean 0 and standard deviation `heading_error`, in radians.
+#
+# `poses` is the track as it was meant, the start first. By how much will the end err in x, and by how
+# much in y? Return both standard deviations, for small errors: sin e ≈ e, cos e ≈ 1, and products of
+# two errors count nothing.
+#
+# For the straight drive you asked what *one* error does to the end, and then added up the variances.
+# Do the same here. An error of heading at pose k turns the whole rest of the track about that pose, as
+# if it were cut from one piece of cardboard: which way does the end go, and how far? A robot may also
+# move sideways, so look at where its poses lie and not at where it looks.
+#
+# **Predict first.** In a lap that ends where it began, an error of heading is made once, at one of the
+# poses. Where along the lap does it do the greatest harm to the end: at its beginning, in the middle,
+# or shortly before the end? And where does it do none?
+#
+# A track has one pose or more. Poses may lie in one place, for a robot may turn on the spot, and the
+# errors may be 0.
+
+
+# %% name="miss"
+def miss(poses, length_error, heading_error):
+    """How far the end of a drive is off, one standard deviation in x and one in y.
+
+    poses : (n + 1, 3) the drive as it was meant, the start first [m, m, rad]
+    length_error : float, standard deviation of each step's error, as a share of its length
+    heading_error : float, standard deviation of the turn picked up after each step [rad]
+    returns (2,) in the world's x and in its y [m]
+    """
+    ### BEGIN SOLUTION
+    xy = poses[:, :2]
+    step = np.diff(xy, axis=0)
+    to_end = xy[-1] - xy[1:]
+    turned = to_end[:, ::-1] * [-1, 1]
+    variance = length_error**2 * np.sum(step**2, axis=0)
+    variance += heading_error**2 * np.sum(turned**2, axis=0)
+    return np.sqrt(variance)
+    ### END SOLUTION
+
+
+# %%
+check("01-miss")
+
+# %% [markdown]
+# Let 400 robots drive the lap, with 2 % and 1° a step, and lay a frame over where they end: twice your
+# standard deviations to all four sides of the start.
+
+
+# %% name="ends"
+@attempt
+def _():
+    rng, lap = np.random.default_rng(5), track(START, tour())
+    ends = []
+    for _ in range(400):
+        steps = tour()
+        steps[:, 0] *= 1 + 0.02 * rng.standard_normal(len(steps))
+        steps[:, 2] += np.radians(1) * rng.standard_normal(len(steps))
+        ends.append(track(START, steps)[-1])
+    x, y = 2 * np.asarray(miss(lap, 0.02, np.radians(1)))
+    sides = [[-x, -y, x, -y], [x, -y, x, y], [x, y, -x, y], [-x, y, -x, -y]]
+    fig, ax = views.axes("Where 400 laps end, and your ± 2 standard deviations", size=(6, 4.5))
+    views.draw(ax, Points("naive", np.array(ends)[:, :2]))
+    views.draw(ax, Segments("corrected", sides))
+    views.show(fig, alt="A cloud of ends round the start, in a frame that holds most of them.")
+
+
+# %% [markdown]
+# Some thirty of the 400 robots leave the frame: not quite one in twenty at its sides, and as many at
+# its top and its bottom. The cloud lies aslant, which two numbers cannot say; a covariance can, from lesson 03 on.
+#
+# And where did you expect the greatest harm? Here is what a single error of 1° does to the
+# end, made at each pose of the lap.
+
+
+# %% name="harm"
+@attempt
+def _():
+    n = len(tour())
+    harm = []
+    for k in range(n):
+        steps = tour()
+        steps[k, 2] += np.radians(1)
+        harm.append(100 * np.hypot(*track(START, steps)[-1, :2]))
+    fig, ax = views.chart("error of 1° made after [m]", "moves the end by [cm]", "One lap of 42 m")
+    ax.plot(0.5 * np.arange(1, n + 1), harm, color="black")
+    views.show(fig, alt="A curve that is zero at both ends of the lap and highest half way round.")
+
+
+# %% [markdown]
+# What counts is the straight line from the error to the end, not the way that was driven between
+# them. An error at the far side of the building is the worst. One that is made at the start turns the
+# whole lap, and the end of a lap about its own beginning stays where it is: **a lap that closes proves
+# little about its headings at the start, and much about those half way round**.
+
+# %% [markdown]
+# ## 5 · Make it better: home again
+#
+# No better wheel changes any of this, it only delays it. Something must notice that the robot **has
+# been here before**. The simplest such thing is a dock: it holds the robot in one place, and it
+# clicks. So whenever the robot is docked, its pose is known exactly: it is the pose at the start.
+#
+# A robot drives laps of a house, to the left or to the right, and each lap ends in the dock. After the
+# last one it may drive on. Its wheels err in three ways:
+#
+# - a worn tyre makes it report **every turn too large by one factor, or too small**, by 7 % to 12 %.
+#   The factor is the same for the whole drive, but each robot has its own, and nobody knows it;
+# - besides, each turn errs at random, with a standard deviation of 0.01 rad (0.6°);
+# - the length of each step errs at random, with a standard deviation of 1.5 %.
+#
+# Return the best track of the whole drive that you can. Any method goes. A few questions that may lead
+# on:
+#
+# - Where is the robot whenever it is docked? Is it enough to begin anew from there?
+# - The lap that the wheels tell does not close. By how much does it miss its start in place, and by
+#   how much in heading? Which of the steps in between are to blame, and how would you share out both?
+# - In a lap, by how much does a robot turn altogether? And by how much did this one say it did?
+# - What have the laps of one drive in common, and what does this say about the way after the last lap,
+#   which no dock corrects?
+#
+# Only places are scored: how far all poses of all tracks are off (rms). Sixteen robots drive one
+# route. The first step of the ladder asks for less than 2.2 m, the second for less than 0.6 m and the
+# third for less than 0.19 m. Dead reckoning is off by about 3 m.
+#
+# There is one lap at least. Each lap is a round trip to the left or to the right on steps of about half
+# a metre, and all its turns together, the one in the dock included, are one full turn. A house has four
+# corners, no corner need be right and no wall quite straight. The robot does not slip sideways. Drives
+# may have any number of laps, and perhaps nothing follows the last one.
+
+
+# %% name="home"
+def home(start, steps, docked):
+    """The best track of a drive that came back to its start now and then.
+
+    start : (3,) the known pose at the beginning, in the dock
+    steps : (n, 3) forward [m], left [m], turn [rad], as the wheels tell them
+    docked : list of int, rows of the track at which the robot was docked again, ascending
+    returns (n + 1, 3), the start first
+    """
+    ### BEGIN SOLUTION
+    steps = steps.copy()
+    laps = list(zip([0, *docked[:-1]], docked, strict=True))
+    told = np.array([steps[i:j, 2].sum() for i, j in laps])
+    truly = 2 * np.pi * np.sign(told)
+    steps[:, 2] /= told @ truly / (truly @ truly)  # the factor that fits all laps best
+    poses = [np.array([start])]
+    for (i, j), turned in zip(laps, truly, strict=True):
+        lap = steps[i:j].copy()
+        lap[:, 2] += (turned - lap[:, 2].sum()) / len(lap)
+        told_lap = track(start, lap)
+        gap = start[:2] - told_lap[-1, :2]
+        told_lap[:, :2] += np.linspace(0, 1, len(told_lap))[:, None] * gap
+        poses.append(told_lap[1:])
+    poses.append(track(start, steps[docked[-1] :])[1:])
+    return np.concatenate(poses)
+    ### END SOLUTION
+
+
+# %%
+check("01-home")
+
+# %% [markdown]
+# Here are drives of your own, with the truth beside them. Move the slider.
+
+
+# %% name="at-home"
+def laps_of_a_house(seed):
+    """The true steps of three laps and a way beyond, as the wheels tell them, and the dockings."""
+    rng, laps = np.random.default_rng(seed), []
+    for side in [*rng.permutation([1, 1, -1]), 0]:
+        a, b = rng.uniform(4, 6, 2)
+        corners = np.array([0, 2, 2 + 1j * b, 2 - a + 1j * b, 2 - a, 0])
+        corners[1:-1] += rng.uniform(-0.6, 0.6, 4) + 1j * rng.uniform(-0.6, 0.6, 4)
+        if side == 0:
+            corners = corners[:-1] * 1.2  # the way beyond is not closed
+        z = [np.linspace(p, q, round(2 * abs(q - p)), endpoint=False) for p, q in pairwise(corners)]
+        ways = np.diff(np.append(np.concatenate(z), corners[-1]))
+        turns = np.angle(np.roll(ways, -1) / ways)
+        laps.append(np.column_stack([abs(ways), 0 * turns, turns if side >= 0 else -turns]))
+    truly, docked = np.concatenate(laps), np.cumsum([len(lap) for lap in laps[:3]]).tolist()
+    told = truly * [1, 1, 1 + rng.choice([-1, 1]) * rng.uniform(0.07, 0.12)]
+    told[:, 0] *= 1 + 0.015 * rng.standard_normal(len(told))
+    told[:, 2] += 0.01 * rng.standard_normal(len(told))
+    return truly, told, docked
+
+
+@attempt
+def _():
+    def draw(drive):
+        truly, told, docked = laps_of_a_house(drive)
+        truth = track(START, truly)
+        tracks = {"dead reckoning": track(START, told), "your track": home(START, told, docked)}
+        shown = {}
+        for (title, poses), name in zip(tracks.items(), ("naive", "corrected"), strict=True):
+            off = np.sqrt(np.mean(np.sum((np.asarray(poses) - truth)[:, :2] ** 2, axis=1)))
+            title = f"{title}: {off:.2f} m off"
+            shown[title] = [Poses("truth", truth), Poses(name, np.asarray(poses))]
+        return views.side_by_side(shown, size=(9, 4))[0]
+
+    views.explore(
+        draw,
+        alt="Three laps as told by wheels, and as mended, over the true ones.",
+        drive=(0, 20, 3),
+    )
+
+
+# %% [markdown]
+# One click of a dock, which says nothing about wheels, has told you how worn a tyre is, and it has put
+# right hundreds of poses in the past. A robot has no dock in every room, but it sees **walls**, and it
+# can notice that it has seen them before. That is SLAM, and the rest of the course.
+#
+# **Next:** lesson [02 · Sensors and worlds](../notebooks/02_sensors_and_worlds.ipynb). Save the
+# notebook first. The cell below then says what the grader will say about it; the grader draws other
+# inputs. Hand it in as it is.

@@ -307,7 +307,7 @@ views.show(fig, alt="Left a tangle 80 m long; right a building 30 m across with 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## What comes next
 #
-# Now draw such maps with your own functions: [exercise 01](../exercises/ex01_why_slam.ipynb), 40 min.
+# Now draw such maps with your own functions: [exercise 01](../exercises/ex01_why_slam.ipynb), 60 min.
 #
 # After that, [04 · Models and Jacobians](04_models_and_jacobians.ipynb) writes motion and
 # observation as functions and derives how errors pass through them; [13 · Scan

@@ -1,8 +1,8 @@
-"""Drives of exercise 01: one call per input, but for the number of steps, which is an int."""
+"""Drives of exercise 01: one call per input; numbers of steps and of poses are whole numbers."""
 
 import numpy as np
 
-from slamlab.exercises.drives import Drive, StudentError, numbers
+from slamlab.exercises.drives import Drive, StudentError, numbers, rows, shaped
 
 
 def whole_steps(functions, inputs):
@@ -32,10 +32,20 @@ def whole_steps(functions, inputs):
     return {"result": np.array([r.item() for r in results])}
 
 
+def _tracks(functions, inputs):
+    """The track of each drive; where it was docked is a list of whole numbers."""
+    ((name, function),) = functions.items()
+    found = [
+        shaped(function(start, steps, docked.astype(int).tolist()), name, (len(steps) + 1, 3))
+        for start, steps, docked in rows(inputs)
+    ]
+    return {"result": np.array(found)}
+
+
 DRIVES = {
     "01-next-pose": Drive(("next_pose",)),
-    "01-track": Drive(("track",)),
-    "01-place": Drive(("place",)),
     "01-seen-from": Drive(("seen_from",)),
     "01-drift": Drive(("drift",), run=whole_steps),
+    "01-miss": Drive(("miss",)),
+    "01-home": Drive(("home",), run=_tracks),
 }
