@@ -429,7 +429,7 @@ def bowl(position_gain, speed_gain):
     title = f"trace P⁺ = {here:.3f}   (before: {np.trace(P_streak):.3f})"
     fig, ax = views.chart("k₁, gain of position [1]", "k₂, gain of speed [1/s]", title)
     lines = ax.contour(first, second, heights, np.arange(0.16, 1.5, 0.12), cmap="viridis")
-    ax.clabel(lines, fontsize="small")
+    ax.clabel(lines, fontsize=9)
     ax.plot(position_gain, speed_gain, "o", color=views.COLOURS["naive"], markersize=10)
     ax.plot(*(P_streak @ H.T / S_streak), "*", color=views.COLOURS["corrected"], markersize=14)
     return fig

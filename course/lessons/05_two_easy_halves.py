@@ -52,7 +52,7 @@ fig, ax = views.axes("One lap, counted by the wheels", size=(4.4, 4))
 views.draw(ax, Poses("truth", run.truth.poses))
 views.draw(ax, Poses("naive", by_odometry), label="odometry alone")
 views.draw(ax, Points("landmark", run.landmarks), label="landmarks", markersize=9)
-views.legend(ax, loc="center", fontsize="small")
+views.legend(ax, loc="center", fontsize=9)
 views.show(fig, "The true lap closes; odometry's lap ends more than two metres off.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
@@ -251,7 +251,7 @@ laps = {
 fig, both = views.side_by_side(laps, size=(8, 4))
 for ax in both:
     ax.lines[-1].set(markersize=8)
-    views.legend(ax, loc="center", fontsize="x-small")
+    views.legend(ax, loc="center", fontsize=9)
 views.show(fig, "Left, ellipses that grow and stay large; right, small ones on the true lap.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
@@ -274,7 +274,7 @@ looking = np.array([len(reading.observations.ids) > 0 for reading in run])
 ax.lines[2].set(color=ax.lines[1].get_color(), linestyle="dashed")
 ax.plot(steps[looking], np.full(looking.sum(), -0.4), "|", color="black", label="sees a landmark")
 ax.set_ylim(-0.45, 0.5)
-views.legend(ax, loc="upper right", fontsize="small", ncols=3)
+views.legend(ax, loc="upper right", fontsize=9, ncols=3)
 views.show(fig, "The error of y stays within a band that widens where no landmark is seen.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
@@ -345,7 +345,7 @@ for n, agreeing in ((1, one_agrees[:300]), (2, both_agree[:150])):
 fig, both = views.side_by_side(beliefs, size=(7.6, 3.6))
 for ax in both:
     ax.lines[-1].set(markersize=9)
-    views.legend(ax, loc="upper right", fontsize="small")
+    views.legend(ax, loc="upper right", fontsize=9)
 views.show(fig, "With one landmark the poses form an arc round it; with two, a small cloud.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
@@ -457,7 +457,7 @@ def against_band(values, runs, title, begin=0):
     fig, ax = views.curves(steps, values, "step", "mean NEES [1]", title, size=(5.4, 3.2))
     ax.axhspan(*band(3, runs), color=views.COLOURS["guide"], alpha=0.6, label="95 % band")
     ax.set(yscale="log", ylim=(2, 15 * max(map(np.max, values.values()))))
-    views.legend(ax, loc="upper right", fontsize="small", ncols=2)
+    views.legend(ax, loc="upper right", fontsize=9, ncols=2)
     return fig
 
 
@@ -582,7 +582,7 @@ def maps(layers_by_title, legend="center"):
     for ax in both:
         ax.lines[-1].set(marker="x", markersize=5, markeredgewidth=1, label="true landmark")
         ax.get_legend().remove()
-    both[0].legend(loc=legend, fontsize="x-small")
+    both[0].legend(loc=legend, fontsize=9)
     return fig, both
 
 

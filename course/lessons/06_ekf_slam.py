@@ -628,7 +628,7 @@ titles = [f"step {before}: about to close", f"step {after}: closed"]
 fig, all_axes = views.panels(titles, size=(9.6, 3.8))
 for ax, k in zip(all_axes, (before, after), strict=True):
     draw_map(ax, k)
-views.legend(all_axes[1], loc="upper left", bbox_to_anchor=(1, 1), fontsize="small")
+views.legend(all_axes[1], loc="upper left", bbox_to_anchor=(1, 1), fontsize=9)
 views.show(fig, "Before, the ellipses grow along the round; six scans later all of them are small.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}

@@ -645,7 +645,7 @@ fig, ax = views.curves(
 )
 ax.axhline(0.2, color=views.COLOURS["walls"], linewidth=1)
 ax.set_ylim(0, 0.47)
-ax.legend(ncols=2, fontsize="small", loc="upper center")
+ax.legend(ncols=2, fontsize=9, loc="upper center")
 views.show(
     fig,
     "With a compass the landmark falls to the line at 0.2 m, without one it stays above; vectors "

@@ -428,7 +428,7 @@ def drawn_guess(ax, points, line, rows, inside):
         (Points("in the window", points[rows]), {"markersize": 7}),
         (Points("agree", points[inside]), blue),
         (guessed, {"color": views.COLOURS["truth"]}),
-        fontsize="small",
+        fontsize=9,
         loc="upper left",
     )
 
@@ -770,7 +770,7 @@ draw_all(
     (Ellipses("corners, 95 %, ×10", *zip(*seen_to_end, strict=True)), {"linewidth": 2}),
     (Poses("robot", [HOME]), {}),
     loc="upper left",
-    fontsize="small",
+    fontsize=9,
 )
 views.show(fig, "The walls found in a scan of situation 2, with an ellipse round each corner.")
 

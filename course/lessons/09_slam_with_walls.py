@@ -373,7 +373,7 @@ for (name, one), dash in zip(good.items(), ("-", "--"), strict=True):
     ax.plot(astray, dash, color=views.COLOURS["naive"], label=f"{name}, odometry")
     ax.plot(corrected, dash, color=views.COLOURS["corrected"], label=f"{name}, corrected")
 ax.set(yscale="log", ylim=(0.002, 400))
-views.legend(ax, fontsize="small", loc="lower right", ncols=2)
+views.legend(ax, fontsize=9, loc="lower right", ncols=2)
 views.show(fig, "Odometry's error climbs to metres, the corrected one stays below 2 centimetres.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
@@ -390,7 +390,7 @@ fig, ax = views.chart("step", "NEES of the pose", "One run", (6, 2.6))
 ax.plot(good["situation-1"]["nees"], color=views.COLOURS["corrected"], label="situation 1")
 ax.axhspan(*band(3, 1), color=views.COLOURS["guide"], alpha=0.4, label="95 % of single steps")
 ax.set(yscale="log")
-views.legend(ax, fontsize="small")
+views.legend(ax, fontsize=9)
 views.show(fig, "NEES of the run stays mostly within the band of single steps.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
@@ -843,7 +843,7 @@ pictures = {
 fig, all_axes = views.panels(list(pictures), (11, 4.2), shared=False)
 for ax, (situation, steps, beams) in zip(all_axes, pictures.values(), strict=True):
     as_he_draws(ax, listing(situation, steps, beams, mends=estimators.MENDS)[0])
-views.legend(all_axes[1], loc="lower right", fontsize="small")
+views.legend(all_axes[1], loc="lower right", fontsize=9)
 views.show(
     fig,
     "Two maps of the irregular room and one of a room with its door: red points, blue feet of "
@@ -865,7 +865,7 @@ runs = {"as printed": (), "all mends": estimators.MENDS}
 fig, all_axes = views.panels(list(runs), (9.5, 4.2), shared=False)
 for ax, mends in zip(all_axes, runs.values(), strict=True):
     as_he_draws(ax, listing("situation-2", 60, mends=mends)[0])
-views.legend(all_axes[1], loc="upper left", bbox_to_anchor=(1, 1), fontsize="small")
+views.legend(all_axes[1], loc="upper left", bbox_to_anchor=(1, 1), fontsize=9)
 views.show(fig, "As printed the way jumps and the room is drawn many times; mended it is a room.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
@@ -1237,7 +1237,7 @@ for label, layer in drawn.items():
     views.draw(ax, layer, label=label)
 ax.set_aspect("equal", adjustable="box")
 ax.set(xlim=(0.2, 5.8), ylim=(-0.8, 2.2))
-views.legend(ax, loc="upper center", fontsize="small")
+views.legend(ax, loc="upper center", fontsize=9)
 views.show(fig, "Lines found on a round tower from two places: each place has its own.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}

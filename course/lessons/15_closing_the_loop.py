@@ -92,7 +92,7 @@ def maps(shown, size, where="center"):
     for ax, layers in zip(all_axes, shown.values(), strict=True):
         for layer in layers:
             views.draw(ax, layer, label=LABELS.get(type(layer)))
-        views.legend(ax, loc=where, fontsize="small")
+        views.legend(ax, loc=where, fontsize=9)
     return fig
 
 
@@ -306,7 +306,7 @@ for ax, found in zip(all_axes, matched_pairs.values(), strict=True):
         views.draw(ax, claimed, label=label)
     views.draw(ax, Points("scan", 1e3 * e[:, :2]), label="e", markersize=7)
     ax.set(xlabel="x of e [mm]", ylabel="y of e [mm]")
-views.legend(all_axes[0], loc="upper right", fontsize="small")
+views.legend(all_axes[0], loc="upper right", fontsize=9)
 views.show(
     fig,
     "Errors of 60 matches at four turns, and two ellipses: that of e turns with them, the other "

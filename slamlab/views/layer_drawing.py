@@ -82,8 +82,31 @@ def side_by_side(layers_by_title, size=(11, 5), shared=True):
     for ax, layers in zip(all_axes, layers_by_title.values(), strict=True):
         for layer in layers:
             draw(ax, layer)
-        legend(ax, loc="upper right", fontsize="small")
+    legend_below(fig)
     return fig, all_axes
+
+
+def legend_below(fig):
+    """Legend of all panels below them, where it covers nothing; one entry a label.
+
+    Parameters
+    ----------
+    fig : Figure, laid out by constraints, as all figures of the course
+
+    Returns
+    -------
+    Legend
+    """
+    entries = {}
+    for ax in fig.axes:
+        for handle, label in zip(*ax.get_legend_handles_labels(), strict=True):
+            entries.setdefault(label, handle)
+    columns = max(1, int(fig.get_figwidth() / 1.6))
+    made = fig.legend(
+        entries.values(), entries, loc="outside lower center", ncols=columns, frameon=False
+    )
+    _enlarge(made)
+    return made
 
 
 def legend(ax, **style):
@@ -99,10 +122,14 @@ def legend(ax, **style):
     Legend
     """
     made = ax.legend(**style)
-    for handle in made.legend_handles:
+    _enlarge(made)
+    return made
+
+
+def _enlarge(legend):
+    for handle in legend.legend_handles:
         if isinstance(handle, Line2D) and handle.get_marker() == ".":
             handle.set_markersize(8)
-    return made
 
 
 def _points(ax, layer, style):

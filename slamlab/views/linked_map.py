@@ -43,7 +43,7 @@ def linked(landmarks, rho, names, marked=0, layers=(), room=None, view=None, siz
     )
     left.scatter(*landmarks[marked], s=260, marker="s", facecolors="none", edgecolors="black")
     for name, place in zip(names, landmarks, strict=True):
-        left.annotate(str(name), place, xytext=(7, 5), textcoords="offset points", fontsize=8)
+        left.annotate(str(name), place, xytext=(7, 5), textcoords="offset points", fontsize=9)
     if view is not None:
         left.set(xlim=view[:2], ylim=view[2:])
     end = 3 + 2 * (len(names) if room is None else room) - 0.5

@@ -30,7 +30,7 @@ def wheel(weights, picks, title=None, size=(7, 2.4)):
     for k, (left, width, shade) in enumerate(zip(edges, weights, cycle(_SHADES), strict=False)):
         ax.barh(0, width, 0.6, left, color=shade, edgecolor=COLOURS["truth"], linewidth=0.6)
         if width > 0.03:
-            ax.text(left + width / 2, 0, str(k), ha="center", va="center", fontsize="small")
+            ax.text(left + width / 2, 0, str(k), ha="center", va="center", fontsize=9)
     for row, positions in zip(range(rows, 0, -1), picks.values(), strict=True):
         ax.vlines(positions, -0.3, row - 0.1, color=COLOURS["guide"], linewidth=0.6)
         colour = COLOURS["corrected"] if row == rows else COLOURS["naive"]

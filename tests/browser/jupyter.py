@@ -120,9 +120,10 @@ class Visit:
         path = notebook if "/" in notebook else f"notebooks/{notebook}"
         self.page.goto(self.address.format(path))
         self.page.wait_for_selector(".jp-NotebookPanel .jp-Cell")
-        self.page.wait_for_selector(".jp-Notebook-ExecutionIndicator[data-status=idle]")
+        idle = ".jp-Notebook-ExecutionIndicator[data-status=idle]"  # out of sight on a narrow page
+        self.page.wait_for_selector(idle, state="attached")
         # the indicator is idle before there is a kernel, too
-        self.page.get_by_text("| Idle").wait_for()
+        self.page.get_by_text("| Idle").wait_for(state="attached")
 
     def run_all(self):
         """Run all cells of the notebook that is open, by the menu."""

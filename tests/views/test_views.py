@@ -130,7 +130,9 @@ def test_side_by_side_draws_each_layer_in_its_panel():
     )
     assert [ax.get_title() for ax in fig.axes] == ["naive", "corrected"]
     assert [len(left.lines), len(right.lines)] == [1, 0]
-    assert [text.get_text() for text in left.get_legend().get_texts()] == ["walls", "naive"]
+    assert left.get_legend() is None
+    (legend,) = fig.legends
+    assert [text.get_text() for text in legend.get_texts()] == ["walls", "naive"]
 
 
 def test_a_figure_reaches_the_notebook_as_a_picture_with_its_text(stored):

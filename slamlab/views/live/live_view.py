@@ -5,7 +5,7 @@ import numpy as np
 
 from slamlab.layers import Points
 from slamlab.views.figures import COLOURS, UNIT, axes
-from slamlab.views.layer_drawing import draw, legend
+from slamlab.views.layer_drawing import draw, legend_below
 from slamlab.views.live.cell_views import loops_of_this_cell
 from slamlab.views.live.controls import Controls
 from slamlab.views.live.drive_commands import velocities
@@ -144,8 +144,8 @@ def still_picture(scene, title, size):
         style = {"markersize": 7} if few else {}
         draw(ax, layer, color=drawable.colour, label=label, **style)
     if named:
-        legend(ax, loc="upper right", fontsize="small")
-    fig.supxlabel(scene.status, fontsize="small")
+        legend_below(fig)
+    fig.suptitle(scene.status, fontsize=9)
     return fig
 
 
