@@ -4,6 +4,7 @@ Read in this order:
 
 - here: check, hint, ask, attempt, validate; ``time_limit``: their timeout
 - ``ladder``: what hint says; ``questions``: what ask shows
+- ``notebook_file``: where this notebook stands, what of it is not saved
 - ``validation``: a whole notebook judged as grading judges it
 - ``setup_check``: whether this machine has what the course needs
 """

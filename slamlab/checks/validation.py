@@ -1,10 +1,9 @@
 """Validate a notebook: run its file in a fresh process and judge it as grading will."""
 
-import os
 import textwrap
 from datetime import datetime
-from pathlib import Path
 
+from slamlab.checks.notebook_file import notebook_file, unsaved_functions
 from slamlab.coursework import progress_records
 from slamlab.exercises.report import WIDTH, coloured, format_verdict, number, points
 from slamlab.exercises.task import OPEN_SEED
@@ -65,13 +64,16 @@ def validate_current_notebook(names):
     ----------
     names : the notebook's names
     """
-    path = _file(names)
+    path = notebook_file(names)
     if path is None:
         print(
-            "The file of this notebook is not known here, or it was renamed: save it, then Kernel "
-            "→ Restart Kernel.\nIn a terminal `slamlab check NOTEBOOK` says the same."
+            "The file of this notebook is not known here: save it beside the other exercises, run "
+            "its cells from the top, then this one.\nIn a terminal `slamlab check NOTEBOOK` says "
+            "the same."
         )
         return
+    for name in unsaved_functions(path, names):
+        print(f"not saved: {name} as you ran it last; save (Ctrl+S), then run this cell again")
     saved = datetime.fromtimestamp(path.stat().st_mtime)
     print(f"{path.name} as saved at {saved:%H:%M:%S}, in a fresh process from top to bottom:")
     try:
@@ -80,14 +82,3 @@ def validate_current_notebook(names):
         print(f"✗ {error}")
     except KeyboardInterrupt:
         print("✗ stopped before it was done")
-
-
-def _file(names):
-    """Where the notebook stands, as Jupyter's server or Visual Studio Code tells its kernel."""
-    for told in (os.environ.get("JPY_SESSION_NAME"), names.get("__vsc_ipynb_file__")):
-        if told and told.endswith(".ipynb"):
-            # the server may name it from its own folder on; the kernel stands beside it
-            for path in (Path(told), Path(Path(told).name)):
-                if path.is_file():
-                    return path
-    return None

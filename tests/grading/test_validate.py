@@ -69,3 +69,23 @@ def test_under_nbgrader_and_in_a_worker_it_does_nothing(file, monkeypatch, capsy
     monkeypatch.setitem(os.environ, "NBGRADER_EXECUTION", "autograde")
     assert validate() is None
     assert capsys.readouterr().out == ""
+
+
+def test_where_no_program_tells_the_file_it_is_known_by_the_cells_that_ran(
+    file, monkeypatch, capsys
+):
+    monkeypatch.delenv("JPY_SESSION_NAME")
+    monkeypatch.chdir(file.parent)
+    (file.parent / "other.ipynb").write_text(notebook("import math", "x = 1", CELL), "utf-8")
+    (file.parent / "broken.ipynb").write_text("{", "utf-8")
+    text = said(capsys, In=["", fake.SOLUTION, CELL])
+    assert text.startswith("99 fake.ipynb as saved at ")
+    assert "save it" in said(capsys, In=["", "import math"])
+
+
+def test_a_function_that_was_run_in_another_form_than_the_saved_one_is_named(file, capsys):
+    changed = fake.SOLUTION.replace("return", "pass\n    return", 1)
+    text = said(capsys, In=["", fake.SOLUTION, changed, CELL])
+    assert text.startswith("not saved: ")
+    assert "8 of 8 points" in text
+    assert not said(capsys, In=["", changed, fake.SOLUTION, CELL]).startswith("not saved")

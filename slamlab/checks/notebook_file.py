@@ -1,0 +1,80 @@
+"""The file of the notebook whose kernel this is, and what of it is not saved."""
+
+import ast
+import json
+import os
+from pathlib import Path
+
+
+def notebook_file(names, folder="."):
+    """Find the file of the notebook whose kernel this is.
+
+    Jupyter's server and Visual Studio Code tell their kernels. Elsewhere it is the notebook in the
+    kernel's folder that holds most of the cells that were run.
+
+    Parameters
+    ----------
+    names : dict, the notebook's names
+    folder : Path, where the kernel stands
+
+    Returns
+    -------
+    Path, or None where no file fits
+    """
+    folder = Path(folder)
+    for told in (os.environ.get("JPY_SESSION_NAME"), names.get("__vsc_ipynb_file__")):
+        if told and told.endswith(".ipynb"):
+            # the server may name it from its own folder on; the kernel stands beside it
+            for path in (Path(told), folder / Path(told).name):
+                if path.is_file():
+                    return path
+    ran = {source.strip() for source in _history(names)} - {""}
+    found = {path: len(ran & set(_sources(path))) for path in sorted(folder.glob("*.ipynb"))}
+    best = max(found, key=found.get, default=None)
+    # one cell may be in many notebooks, as the imports are
+    return best if best is not None and found[best] >= 2 else None
+
+
+def unsaved_functions(path, names):
+    """List the functions that were run last in another form than the file holds.
+
+    Parameters
+    ----------
+    path : Path, of the notebook
+    names : dict, the notebook's names
+
+    Returns
+    -------
+    list of str, names of functions, in the file's order
+    """
+    last = {}
+    for source in _history(names):
+        last |= dict.fromkeys(_defined(source), source.strip())
+    saved = {}
+    for source in _sources(path):
+        saved |= dict.fromkeys(_defined(source), source)
+    return [name for name in saved if name in last and last[name] != saved[name]]
+
+
+def _history(names):
+    """The sources of the cells that were run, as IPython remembers them."""
+    ran = names.get("In", [])
+    return [source for source in ran if isinstance(source, str)] if isinstance(ran, list) else []
+
+
+def _sources(path):
+    """The sources of the code cells of a notebook's file; none where it cannot be read."""
+    try:
+        cells = json.loads(path.read_text(encoding="utf-8"))["cells"]
+        return ["".join(c["source"]).strip() for c in cells if c["cell_type"] == "code"]
+    except (OSError, ValueError, KeyError, TypeError):
+        return []
+
+
+def _defined(source):
+    """The names of the functions that a cell defines."""
+    try:
+        body = ast.parse(source).body
+    except (SyntaxError, ValueError):
+        return []
+    return [node.name for node in body if isinstance(node, ast.FunctionDef)]
