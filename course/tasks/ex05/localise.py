@@ -25,15 +25,6 @@ WAYS = {
         beliefs.append([x.tolist(), P.tolist()])
     return [b[0] for b in beliefs], [b[1] for b in beliefs]
 """,
-    "recursion": HEAD
-    + """    if len(ids) == 0:
-        return np.zeros((0, 3)), np.zeros((0, 3, 3))
-    x, P = predict(x, P, drives[0], C)
-    if ids[0] >= 0:
-        x, P = locate(x, P, zs[0], landmarks[ids[0]], R)
-    xs, Ps = localise(x, P, drives[1:], ids[1:], zs[1:], landmarks, C, R)
-    return np.vstack([x[None], xs]), np.concatenate([P[None], Ps])
-""",
     "all in one, in copies": HEAD
     + """    x, P, history = x.copy(), P.copy(), []
     for u, id, z in zip(drives, ids, zs):
@@ -98,7 +89,6 @@ SLIPS = (
         "never-driven",
         "The drives are not used, or not all of what they say: predict moves x and P in every step.",
         (PREDICT, "pass"),
-        (PREDICT, "x, P = f_odometry(x, u), P"),
         (PREDICT, "x, P = predict(x, P, u, 0 * C)"),
         (PREDICT, "x, P = x, predict(x, P, u, C)[1]"),
     ),
@@ -182,7 +172,6 @@ SLIPS = (
         "drive-keeps-P",
         "The drive moves x, and its P is thrown away: who drives is less sure.",
         (PREDICT, "x, _ = predict(x, P, u, C)"),
-        before=("never-driven",),
     ),
     Slip(
         "sighted-at-the-old-belief",

@@ -227,7 +227,7 @@ SLIPS = (
         "half-of-joseph",
         "(I − K H) P (I − K H)ᵀ alone leaves out the sight's own noise: Joseph's form adds a term of R.",
         (P_AFTER, "(np.eye(3) - K @ H) @ P @ (np.eye(3) - K @ H).T"),
-        Edit("Joseph's form", ((" + K @ R @ K.T", " + K @ R**0.5 @ K.T"),)),
+        Edit("Joseph's form", ((" + K @ R @ K.T", " + K @ R @ R @ K.T"),)),
     ),
     Slip(
         "H-after-the-update",

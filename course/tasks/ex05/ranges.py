@@ -60,15 +60,16 @@ WAYS = {
     x[2] = wrap(x[2])
     return [x, P - K @ S @ K.T]
 """,
-    "least squares": HEAD
+    "least squares by QR": HEAD
     + ANTENNA
     + """    d = q - beacons
     r = np.sqrt((d**2).sum(axis=1))
     H = np.stack([d[:, 0] / r, d[:, 1] / r, (d[:, 1] * (q - x[:2])[0] - d[:, 0] * (q - x[:2])[1]) / r], 1)
     root = np.linalg.cholesky(np.linalg.inv(P)).T
     M = np.vstack([root, H / sigma])
-    step = np.linalg.lstsq(M, np.append(np.zeros(3), (rs - r) / sigma), rcond=None)[0]
-    return x + step, np.linalg.inv(M.T @ M)
+    Q, U = np.linalg.qr(M)
+    step = np.linalg.solve(U, Q.T @ np.append(np.zeros(3), (rs - r) / sigma))
+    return x + step, np.linalg.inv(U.T @ U)
 """,
 }
 
@@ -121,7 +122,6 @@ SLIPS = (
     Slip(
         "H-turned",
         "H has the wrong sign: when the robot moves away from a beacon, the range grows.",
-        (H, "H = -np.column_stack([d, d @ swing]) / r[:, None]"),
         (H, "H = np.column_stack([-d, d @ swing]) / r[:, None]"),
     ),
     Slip(
