@@ -326,7 +326,7 @@ def locate_by_ranges(x, P, rs, beacons, a, sigma):
 check("05-ranges")
 
 # %% [markdown]
-# A robot in a corridor that is 12 m long hears one beacon, then two, then three. **Before you run
+# A robot in a hall that is 12 m long hears one beacon, then two, then three. **Before you run
 # it:** which shape has what is left of its doubt after one range?
 
 
@@ -344,13 +344,16 @@ def _():
             layers.Points("landmark", beacons[:m]),
             layers.Ellipses("robot", [x[:2], at[:2]], [P[:2, :2], left[:2, :2]]),
         ]
-    fig, _ = views.side_by_side(shown, size=(9, 3.4))
+    fig, three = views.side_by_side(shown, size=(9, 3.4))
+    for ax in three:
+        views.legend(ax, loc="lower left", fontsize="small")
     views.show(fig, alt="Three maps: a robot's doubt after one, two and three ranges.")
 
 
 # %% [markdown]
-# One range cuts the large ellipse to a strip across the line to the beacon, two ranges to a spot. The
-# heading profits only through the arm, a third of a metre long: it takes many ranges and a drive.
+# One range cuts the large ellipse to a strip across the line to the beacon. A second beacon, not quite
+# opposite, shortens the strip, and a third from below leaves a spot. The heading profits only
+# through the arm, a third of a metre long, and hardly at all.
 #
 # ## 5 · Make it better: lost, and lied to
 #

@@ -265,9 +265,13 @@ STUMBLES = (
         (OUT, "return dict(enumerate(beliefs.values()))"),
         (OUT, "return {str(i): b for i, b in beliefs.items()}"),
         (OUT, "return beliefs | {-1: (np.zeros(2), np.eye(2))}"),
+    ),
+    Stumble(
+        "raised",
+        (KNOWN, "if True:"),
+        (OUT, "return undefined"),
         (FIRST, "beliefs[id] = J @ R @ J.T, g(x, z)"),
     ),
-    Stumble("raised", (KNOWN, "if True:"), (OUT, "return undefined")),
 )
 
 EQUIVALENT = {}

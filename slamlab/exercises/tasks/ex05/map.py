@@ -10,7 +10,7 @@ from slamlab import models
 from slamlab.exercises.drives.ex05 import DRIVES
 from slamlab.exercises.law import Law
 from slamlab.exercises.task import Probe, Task
-from slamlab.exercises.tasks.ex05.sights import T, covariances, each, either_sign
+from slamlab.exercises.tasks.ex05.sights import T, covariances, each
 from slamlab.geometry import wrap
 from slamlab.models import jacobians
 
@@ -51,9 +51,10 @@ def _course(rng, often, far, ids, behind):
 
 
 def _measured(rng, xs, places, R):
-    """Sights (n, 2) that err by 0.5 to 1.5 standard deviations."""
-    errors = either_sign(rng, 0.5, 1.5, (len(xs), 2)) @ np.linalg.cholesky(R).T
-    zs = models.h(xs, places) + errors
+    """Sights (n, 2) that err by 0.5 to 1.5 standard deviations, to one side and to the other."""
+    sides = rng.choice([-1.0, 1.0], 2) * (-1.0) ** np.arange(len(xs))[:, None]
+    errors = sides * rng.uniform(0.5, 1.5, (len(xs), 2))
+    zs = models.h(xs, places) + errors @ np.linalg.cholesky(R).T
     zs[:, 1] = wrap(zs[:, 1])
     return zs
 
