@@ -297,14 +297,6 @@ PASTED = {
         x, P = locate(x, P, np.array([r, h(x, p)[1]]), p, np.diag([sigma**2, 1e6]))
     return x, P
 """,
-    "locate, at the antenna": HEAD
-    + """    c, s = np.cos(x[2]), np.sin(x[2])
-    arm = np.array([c * a[0] - s * a[1], s * a[0] + c * a[1], 0])
-    for r, p in zip(rs, beacons):
-        at, P = locate(x + arm, P, np.array([r, h(x + arm, p)[1]]), p, np.diag([sigma**2, 1e6]))
-        x = at - arm
-    return x, P
-""",
 }
 
 EQUIVALENT = {}
