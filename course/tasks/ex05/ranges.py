@@ -130,7 +130,6 @@ SLIPS = (
         "longer, however far it is.",
         (H, "H = np.column_stack([d, d @ swing])"),
         (H, "H = np.column_stack([d, d @ swing]) / r[:, None] ** 2"),
-        (H, "H = 2 * np.column_stack([d, d @ swing])"),
     ),
     Slip(
         "H-by-what-was-measured",
@@ -183,7 +182,6 @@ SLIPS = (
         "averaged",
         "The beacons are lumped together: each range is an observation of its own, with its own row of H.",
         (H, H + "\n    H[:] = H.mean(axis=0)"),
-        (X, "x + K @ np.full(len(rs), (rs - r).mean() if len(rs) else 0)"),
     ),
     Slip(
         "sign",
