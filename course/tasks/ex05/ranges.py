@@ -274,9 +274,7 @@ SLIPS = (
 )
 
 STUMBLES = (
-    Stumble(
-        "malformed", (OUT, "return x"), (OUT, "return x + K * (rs - r), P"), (OUT, "return None")
-    ),
+    Stumble("malformed", (OUT, "return x"), (OUT, "return None")),
     Stumble("raised", (H, "H = np.column_stack([d, d @ swing]) / r"), (R, "r = np.linalg.norm(d)")),
 )
 

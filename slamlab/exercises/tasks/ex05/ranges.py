@@ -8,7 +8,7 @@ from slamlab.exercises.task import Probe, Task
 from slamlab.exercises.tasks.ex05.sights import T, beliefs, either_sign, with_wrapped_heading
 
 
-def heard(rng, rows=6, count=4, far=(2.0, 6.0)):
+def heard(rng, rows=6, count=2, far=(2.0, 6.0)):
     """Poses in doubt, with an antenna beside the axle, and the ranges of so many beacons."""
     x, P = beliefs(rng, rows)
     inputs = {"x": x, "P": P, "rs": np.zeros((rows, count)), "beacons": np.zeros((rows, count, 2))}
