@@ -150,8 +150,8 @@ SLIPS = (
     ),
     Slip(
         "noise-forgotten",
-        "S lacks the ranges' own noise, or holds it for each beacon anew: each range errs by σ, once.",
-        (NOISE, "1e-12 * np.eye(len(rs))"),
+        "S lacks the ranges' own noise, or holds it once for each beacon: each range errs by σ, once.",
+        (S, "S = H @ P @ H.T"),
         (NOISE, "len(rs) * sigma**2 * np.eye(len(rs))"),
     ),
     Slip(

@@ -3,7 +3,7 @@
 import numpy as np
 
 from slamlab.exercises.drives.ex05 import DRIVES
-from slamlab.exercises.law import equals
+from slamlab.exercises.law import Diagnosis, equals
 from slamlab.exercises.task import Probe, Task
 from slamlab.exercises.tasks.ex05.sights import T, beliefs, either_sign, with_wrapped_heading
 
@@ -88,6 +88,14 @@ def _on_the_way(inputs):
     return {"antenna": _antenna(inputs)[0], "v": v, "H": H}
 
 
+def _ranges_exact(inputs, outputs):
+    """Whether P says that the ranges expected are known exactly; S without noise may be singular,
+    so that what comes of it in probes is no fingerprint."""
+    H, _ = _linearised(inputs)
+    left = np.diagonal(H @ outputs["P"] @ T(H), axis1=1, axis2=2)
+    return bool((np.abs(left) < 1e-6 * inputs["sigma"][:, None] ** 2).all())
+
+
 RANGES = Task(
     id="05-ranges",
     title="Beacons that tell only how far they are",
@@ -124,6 +132,13 @@ RANGES = Task(
             lambda inputs: {"P": want(inputs)["P"]},
             asks="How many rows and columns has H, with m beacons? And S?",
             step=_on_the_way,
+        ),
+    ),
+    diagnoses=(
+        Diagnosis(
+            "noise-forgotten",
+            "S lacks the ranges' own noise: they were taken for exact.",
+            _ranges_exact,
         ),
     ),
 )
