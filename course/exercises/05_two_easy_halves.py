@@ -2,16 +2,20 @@
 # # Exercise 05 · Two easy halves
 #
 # **You will be able to** find a robot in a map that is known, and draw a map from poses that are
-# known: all that an EKF needs, written by you.
+# known: all that an EKF needs, written by you. Then a sensor that the lesson has not met, and a robot
+# that is lost and lied to.
 #
-# **40 minutes. Before:** lesson [05 · Two easy halves](../notebooks/05_two_easy_halves.ipynb).
+# **60 minutes. Before:** lesson [05 · Two easy halves](../notebooks/05_two_easy_halves.ipynb).
 #
 # Replace each `raise NotImplementedError(...)` by your code, run the cell, then run the check below
-# it, as often as you like. A check tries random inputs, says which law is broken, and what the
-# mistake is where it knows it.
+# it, as often as you like. A check tries random inputs and others that are as special as the text
+# allows; where a law is broken it shows a small input that breaks it, and `hint("05-locate")` in a cell
+# of your own leads on.
 #
-# Metres and radians. A pose is `[x, y, θ]`, a drive `u = [d, Δθ]`, a sighting `z = [r, β]`. A
-# belief is a mean and a covariance; functions return both: `return x, P`.
+# Metres and radians. A pose is `[x, y, θ]`, a drive `u = [d, Δθ]`, a sight `z = [r, β]`. Angles count
+# modulo 2π. A belief is a mean and a covariance; functions return both: `return x, P`. All covariances
+# you are given are positive definite, and need not be diagonal. No function may change the arrays it
+# is given: whoever called it still needs them.
 
 # %%
 import numpy as np
@@ -23,6 +27,8 @@ from slamlab.models import A_odometry, H_landmark, H_robot, J_z, W_odometry
 from slamlab.models import f_odometry, g, h
 
 # %% [markdown]
+# ## What you are given
+#
 # What lesson 04 derived is there, ready to use:
 #
 # | model | its Jacobians |
@@ -31,59 +37,22 @@ from slamlab.models import f_odometry, g, h
 # | `h(x, p)`: range and bearing of landmark p | `H_robot(x, p)`, `H_landmark(x, p)` |
 # | `g(x, z)`: the landmark seen at z | `J_z(x, z)` |
 #
-# and `wrap(angle)`, which brings an angle into (−π, π].
+# and `wrap(angle)`, which brings an angle into (−π, π]. `h` takes one pose or a stack of them, `(k, 3)`.
 #
-# ## 1 · Predict: drive, and doubt more
-#
-# The robot drives u, and its wheels err: d and Δθ have the covariance C (2, 2).
+# And the drive, which needs no more than that. The wheels err: d and Δθ have the covariance C (2, 2).
 #
 # $$x \leftarrow f(x, u), \qquad P \leftarrow A P A^{\mathsf T} + W C W^{\mathsf T}$$
-#
-# f is lesson 04's `f_odometry`: along the old heading, then turn. It is *not* the arc of lesson 05's
-# lap, so A and W are not that arc's, either: take those of the table.
-#
-# **Predict first.** A and W are computed at a pose: the one before the drive, or the one after?
 
 
 # %%
 def predict(x, P, u, C):
-    """The belief of the pose after a drive.
-
-    x : (3,) pose;  P : (3, 3) its covariance;  u : (2,) d [m], Δθ [rad];  C : (2, 2) covariance of u
-    returns x (3,), P (3, 3)
-    """
-    ### BEGIN SOLUTION
+    """The belief of the pose after a drive u that errs with covariance C; returns x, P."""
     A, W = A_odometry(x, u), W_odometry(x, u)
     return f_odometry(x, u), A @ P @ A.T + W @ C @ W.T
-    ### END SOLUTION
-
-
-# %%
-check("05-predict")
-
-# %% [markdown]
-# A robot drives ten steps with its eyes shut. **Before you run it:** which way will the ellipses
-# be long, along the way or across it? And at the end?
-
-
-# %%
-@attempt
-def _():
-    x, P, C = np.zeros(3), np.zeros((3, 3)), np.diag([0.05, 0.08]) ** 2
-    xs, Ps = [], []
-    for _ in range(10):
-        x, P = predict(x, P, np.array([0.5, 0.15]), C)
-        xs.append(x)
-        Ps.append(P[:2, :2])
-    fig, ax = views.axes("ten drives, nothing seen", size=(6, 4))
-    views.draw(ax, layers.Poses("corrected", xs), label="the way, as believed")
-    views.draw(ax, layers.Ellipses("robot", np.array(xs)[:, :2], Ps))
-    ax.legend()
-    views.show(fig, alt="The way of ten drives with ellipses that grow, most of all across it.")
 
 
 # %% [markdown]
-# ## 2 · Locate: one landmark that is known
+# ## 1 · Locate: one landmark that is known
 #
 # The landmark at p was seen at z, and its place is known exactly. The innovation v is what was
 # measured minus what was to be expected, and H says how that changes with the pose. Then, as in
@@ -94,6 +63,9 @@ def _():
 #
 # **Predict first.** The landmark is right behind the robot. It is expected at 179° and seen at
 # −179°. What is v?
+#
+# **Your task.** The belief after the sight. The landmark may be anywhere but under the robot, near or
+# far, and the sight may contradict the belief. The range is a length, and is not wrapped.
 
 
 # %%
@@ -138,14 +110,15 @@ def _():
 # The distance to the landmark is known now, x. Across the line of sight, y, much less: moving round
 # the landmark while turning towards it changes nothing that the robot sees.
 #
-# ## 3 · Localise: a whole run
+# ## 2 · Localise: a whole run
 #
 # Drive, look, drive, look. After drive k (from 0) the robot saw landmark `ids[k]` at `zs[k]`, or
 # nothing: then `ids[k]` is −1 and `zs[k]` means nothing. `landmarks[id]` is where it stands.
 #
-# **Your task.** The belief after every step, with your `predict` and `locate`. The check lets forty
-# robots drive the same way, each with errors of its own, and looks whether these are as large as
-# your P says.
+# **Predict first.** How many beliefs are there after n steps? Is the start one of them?
+#
+# **Your task.** The belief after every step, with `predict` and your `locate`. There is at least one
+# step and one landmark; perhaps nothing is ever seen. The robot may stand or drive backwards.
 
 
 # %%
@@ -153,7 +126,7 @@ def localise(x, P, drives, ids, zs, landmarks, C, R):
     """The belief of the pose after every drive of a run and what was seen after it.
 
     x : (3,), P : (3, 3) at the start;  drives : (n, 2);  ids : (n,) int, -1: nothing seen
-    zs : (n, 2);  landmarks : (N, 2), row id;  C : (2, 2) of a drive;  R : (2, 2) of a sighting
+    zs : (n, 2);  landmarks : (N, 2), row id;  C : (2, 2) of a drive;  R : (2, 2) of a sight
     returns xs (n, 3), Ps (n, 3, 3)
     """
     ### BEGIN SOLUTION
@@ -224,54 +197,42 @@ def _():
 # On the left they grow, and nothing makes them small again. On the right they grow where no
 # landmark is near, and shrink where one is seen.
 #
-# ## 4 · Now the map: one landmark from a known pose
+# ## 3 · The whole map
 #
-# The other half. The pose x is known exactly; the landmark's place p is a belief with the
-# covariance P (2, 2). It is seen at z.
-#
-# **Predict first.** What in `locate` must change, and what stays? Does P of the *robot* come in?
+# The other half. Now the poses are known exactly, and each landmark's place is a belief with a
+# covariance (2, 2) of its own. What a sight does to one of them is ready below, in the form that
+# adds up *information*, the inverse of a covariance. The robot's P does not come in: it is zero.
 
 
 # %%
 def update_landmark(p, P, x, z, R):
-    """The belief of a landmark after it was seen from a known pose.
-
-    p : (2,) landmark;  P : (2, 2) its covariance;  x : (3,) pose;  z : (2,) range, bearing
-    R : (2, 2) of z;  returns p (2,), P (2, 2)
-    """
-    ### BEGIN SOLUTION
+    """The belief of a landmark after it was seen at z from the known pose x; returns p, P."""
     v = z - h(x, p)
     v[1] = wrap(v[1])
-    H = H_landmark(x, p)
-    S = H @ P @ H.T + R
-    K = P @ H.T @ np.linalg.inv(S)
-    return p + K @ v, P - K @ S @ K.T
-    ### END SOLUTION
+    H, weight = H_landmark(x, p), np.linalg.inv(R)
+    P = np.linalg.inv(np.linalg.inv(P) + H.T @ weight @ H)
+    return p + P @ H.T @ weight @ v, P
 
-
-# %%
-check("05-landmark")
 
 # %% [markdown]
-# ## 5 · The whole map
-#
-# A robot that knows its poses, `xs[k]`, sees landmark `ids[k]` at `zs[k]`. An id is any number. A
-# new landmark is placed where it is seen, with what the sighting's noise means there:
+# From the pose `xs[k]`, landmark `ids[k]` was seen at `zs[k]`. An id is any whole number from 0 on. A
+# new landmark is placed where it is seen, with what the sight's noise means there:
 #
 # $$p = g(x, z), \qquad P = J_z R J_z^{\mathsf T}$$
 #
-# One that is in the map already is corrected by your `update_landmark`.
+# One that is in the map already is corrected by `update_landmark`.
 #
-# **Predict first.** Does a sighting of landmark 7 change anything for landmark 12?
+# **Predict first.** Does a sight of landmark 7 change anything for landmark 12?
 #
-# **Your task.** A dict: id to the pair `(p, P)`.
+# **Your task.** A dict: id to the pair `(p, P)`, of the landmarks seen and no others. Perhaps nothing
+# was seen (`n = 0`). The check's sensor is a surveyor's, good to a third of a millimetre.
 
 
 # %%
 def build_map(xs, ids, zs, R):
     """The beliefs of all landmarks seen in a run with known poses.
 
-    xs : (n, 3) poses;  ids : (n,) int;  zs : (n, 2);  R : (2, 2) of a sighting
+    xs : (n, 3) poses;  ids : (n,) int;  zs : (n, 2);  R : (2, 2) of a sight
     returns dict: id -> (p (2,), P (2, 2))
     """
     ### BEGIN SOLUTION
@@ -319,6 +280,175 @@ def _():
 # They are as small, and they miss. A filter believes what it is told, and here it was told that the
 # poses are exact.
 #
+# ## 4 · Beacons that tell only how far they are
+#
+# A radio in the robot asks beacons on the walls how far they are. It hears no bearing, and its antenna
+# is not where the pose is: it is at `a = [forward, left]` of it, fixed to the robot, so that it swings
+# round when the robot turns. Beacon i stands at `beacons[i]`, known exactly, and was measured at
+#
+# $$r_i = |\text{antenna} - b_i| + \text{noise}$$
+#
+# with the standard deviation `sigma`, the same for all and independent of each other. The lesson has
+# coded another sensor; its derivation covers this one. What changes is h, and with it H: one row a
+# beacon, (m, 3).
+#
+# **Predict first.** Can a robot learn its *heading* from one range? From two? What if the antenna
+# stands right on the axle, a = 0? Does the heading change even then?
+#
+# **Your task.** The belief after the m ranges, which are heard all at once: H is taken at the pose
+# you are given, for all of them. `m` may be 0, then nothing was learned, or larger than 3, and a
+# beacon may be heard twice. The robot may stand right over a beacon; the antenna may come within
+# centimetres of one, never to the very point. Ranges may contradict each other and the belief.
+
+
+# %%
+def locate_by_ranges(x, P, rs, beacons, a, sigma):
+    """The belief of the pose after ranges from the antenna to known beacons.
+
+    x : (3,) pose;  P : (3, 3);  rs : (m,) ranges [m];  beacons : (m, 2)
+    a : (2,) the antenna in the robot's frame, forward and left [m];  sigma : float [m], of each range
+    returns x (3,), P (3, 3)
+    """
+    ### BEGIN SOLUTION
+    c, s = np.cos(x[2]), np.sin(x[2])
+    arm = np.array([[c, -s], [s, c]]) @ a
+    d = x[:2] + arm - beacons
+    r = np.linalg.norm(d, axis=1)
+    swing = np.array([-arm[1], arm[0]])  # of the antenna, for each radian that the robot turns
+    H = np.column_stack([d, d @ swing]) / r[:, None]
+    S = H @ P @ H.T + sigma**2 * np.eye(len(rs))
+    K = P @ H.T @ np.linalg.inv(S)
+    return x + K @ (rs - r), P - K @ S @ K.T
+    ### END SOLUTION
+
+
+# %%
+check("05-ranges")
+
+# %% [markdown]
+# A robot in a hall that is 12 m long hears one beacon, then two, then three. **Before you run
+# it:** which shape has what is left of its doubt after one range?
+
+
+# %% name="beacons"
+@attempt
+def _():
+    beacons = np.array([[6.0, 1.0], [-5.0, 2.0], [1.0, -4.0]])
+    x, P, a = np.zeros(3), np.diag([0.6, 0.6, 0.3]) ** 2, np.array([0.3, 0.1])
+    rs = np.linalg.norm(x[:2] + a - beacons, axis=1)
+    shown = {}
+    for m in (1, 2, 3):
+        at, left = locate_by_ranges(x, P, rs[:m], beacons[:m], a, 0.05)
+        sigma = np.degrees(np.sqrt(left[2, 2]))
+        shown[f"{m} heard: heading ±{sigma:.0f}°"] = [
+            layers.Points("landmark", beacons[:m]),
+            layers.Ellipses("robot", [x[:2], at[:2]], [P[:2, :2], left[:2, :2]]),
+        ]
+    fig, three = views.side_by_side(shown, size=(9, 3.4))
+    for ax in three:
+        views.legend(ax, loc="lower left", fontsize=9)
+    views.show(fig, alt="Three maps: a robot's doubt after one, two and three ranges.")
+
+
+# %% [markdown]
+# One range cuts the large ellipse to a strip across the line to the beacon. A second beacon, not quite
+# opposite, shortens the strip, and a third from below leaves a spot. The heading profits only
+# through the arm, a third of a metre long, and hardly at all.
+#
+# ## 5 · Make it better: lost, and lied to
+#
+# Somebody switches the robot on near a known place, with `P` as always, but turned *any way at all*:
+# `x[2]` tells nothing, and the deviation of θ in `P` is 1.8 rad. What is worse, three sights in ten are
+# false: range and bearing of something else under the landmark's id, anywhere around the robot. Of the
+# first four sights, every second one is.
+#
+# **Predict first.** What does `localise` do with a heading that is wrong by 120°? What does it do with a
+# sight that cannot be true, and how would it notice while its own heading is in doubt? If you were given
+# the heading, how would you tell after ten steps that it was wrong?
+#
+# **Your task.** Beliefs after every step, called as `localise` is, as good as you can make them; they
+# may use the whole run, from its start to its end. The check drives thirty robots through forty steps
+# and looks at the last ten: how far off they are, and whether P knows how far (NEES, 3 on average).
+# Other runs have at least 25 steps. Points come in four steps; `localise` reaches the lowest at most.
+# The thirty runs must be done in ten seconds.
+
+
+# %%
+def find_yourself(x, P, drives, ids, zs, landmarks, C, R):
+    """Beliefs after every step, from any heading, among false sights; arguments as localise's."""
+    ### BEGIN SOLUTION
+    headings = np.linspace(-np.pi, np.pi, 72, endpoint=False)
+    poses = np.column_stack([np.tile(x[:2], (72, 1)), headings])
+    # with which heading do most of the first sights agree? By wheels alone: roughly will do
+    costs = []
+    for u, id, z in list(zip(drives, ids, zs, strict=True))[:20]:
+        poses = f_odometry(poses.T, u).T
+        if id >= 0:
+            v = z - h(poses, landmarks[id])
+            costs.append(np.minimum((v[:, 0] / 0.4) ** 2 + (wrap(v[:, 1]) / 0.15) ** 2, 9))
+    x = np.array([x[0], x[1], headings[np.argmin(np.sum(costs, axis=0))]])
+    P = P * [[1, 1, 0], [1, 1, 0], [0, 0, 0]] + np.diag([0, 0, 0.12**2])
+    xs, Ps = [], []
+    for u, id, z in zip(drives, ids, zs, strict=True):
+        x, P = predict(x, P, u, C)
+        if id >= 0:
+            v = z - h(x, landmarks[id])
+            v[1] = wrap(v[1])
+            H = H_robot(x, landmarks[id])
+            # χ² of two: one true sight in a hundred is farther off
+            if v @ np.linalg.solve(H @ P @ H.T + R, v) < 9.2:
+                x, P = locate(x, P, z, landmarks[id], R)
+        xs.append(x)
+        Ps.append(P)
+    return np.array(xs), np.array(Ps)
+    ### END SOLUTION
+
+
+# %%
+check("05-lost")
+
+# %% [markdown]
+# To try your method, here is such a run, whose truth is known. **Before you run it:** on the left is
+# your `localise`. Where will it be led?
+
+
+# %% name="lost"
+def lost(seed, steps=40):
+    """A run of a robot that is turned any way and lied to; true poses, then localise's arguments."""
+    rng = np.random.default_rng(seed)
+    C, R = np.diag([0.03, 0.02]) ** 2, np.diag([0.08, 0.03]) ** 2
+    landmarks = np.array([[3, -1.5], [5, 3], [2, 6], [-2.5, 5.5], [-4, 1.5], [-2, -2]])
+    x, told = np.zeros(3), []
+    for _ in range(steps):
+        u = np.array([0.4, 2 * np.pi / steps])
+        x, id = f_odometry(x, u), int(rng.integers(-1, 6))
+        true = h(x, landmarks[id]) + rng.multivariate_normal([0, 0], R)
+        false = np.array([rng.uniform(1, 6), rng.uniform(-np.pi, np.pi)])
+        told.append((x, rng.multivariate_normal(u, C), id, false if rng.random() < 0.3 else true))
+    way, drives, ids, zs = (np.array(part) for part in zip(*told, strict=True))
+    start = np.array([*rng.normal(0, 0.2, 2), rng.uniform(-np.pi, np.pi)])
+    return way, start, np.diag([0.2, 0.2, 1.8]) ** 2, drives, ids, zs, landmarks, C, R
+
+
+# %% name="found"
+@attempt
+def _():
+    way, *told = lost(seed=3)
+    shown = {}
+    for title, method in {"localise": localise, "yours": find_yourself}.items():
+        xs, Ps = map(np.array, method(*told))
+        off = np.hypot(*(xs - way)[-10:, :2].T)
+        shown[f"{title}: {np.sqrt(np.mean(off**2)):.2f} m off at the end"] = [
+            layers.Poses("truth", way),
+            layers.Poses("corrected", xs),
+            layers.Ellipses("robot", xs[::6, :2], Ps[::6, :2, :2]),
+            layers.Points("landmark", told[5]),
+        ]
+    fig, _ = views.side_by_side(shown, size=(9, 4.5))
+    views.show(fig, alt="The true way and a robot's beliefs, by localise and by a better method.")
+
+
+# %% [markdown]
 # ## Done?
 #
 # Save the notebook. The cell below then says what the grader will say about it;

@@ -453,7 +453,6 @@ for title, device in devices.items():
 fig, panels = views.side_by_side(layers, size=(11, 3.8))
 for panel in panels:
     panel.lines[0].set_markersize(6)
-    panel.get_legend().remove()
 views.show(fig, "The lidar sees most walls sharply, infrared only the near ones, sound round arcs.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}

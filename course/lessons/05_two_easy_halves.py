@@ -576,19 +576,18 @@ def drawn(beliefs, poses):
     return [Poses("way", poses), Ellipses("landmark", p, P), Points("truth", run.landmarks)]
 
 
-def maps(layers_by_title, legend="center"):
+def maps(layers_by_title):
     """Maps side by side, true landmarks as crosses."""
     fig, both = views.side_by_side(layers_by_title, size=(7.6, 3.7))
     for ax in both:
         ax.lines[-1].set(marker="x", markersize=5, markeredgewidth=1, label="true landmark")
-        ax.get_legend().remove()
-    both[0].legend(loc=legend, fontsize=9)
+    views.legend_below(fig)
     return fig, both
 
 
 titles = {"after first sight": first, "after the whole lap": whole}
 layers = {title: drawn(beliefs, run.truth.poses) for title, beliefs in titles.items()}
-fig, both = maps(layers, legend="upper right")
+fig, both = maps(layers)
 both[0].set(xlim=(-3, -1.3), ylim=(3.4, 5.1))  # two of the eight
 views.show(fig, "At first sight the ellipses are half a metre long; after the lap they are small.")
 

@@ -453,9 +453,7 @@ def pictures(source, matcher):
         errors = [told(p, q) for p, q in zip(poses, truth, strict=True)]
         print(f"{name:>9}: " + " | ".join(errors[1:]))
         shown[f"{name}: {errors[-1]} at the end"] = laid(name, poses, scans)
-    fig, all_axes = views.side_by_side(shown, size=(7.2, 3.3))
-    for ax in all_axes:
-        ax.get_legend().set_loc("upper left")
+    fig, _ = views.side_by_side(shown, size=(7.2, 3.3))
     return fig
 
 
@@ -705,15 +703,13 @@ for name, (x, y, heading) in poses.items():
     print(f"{name:>10}: {x:.2f} m, {y:.2f} m, {np.degrees(heading):.0f}°")
 
 # %% slideshow={"slide_type": "subslide"}
-fig, all_axes = views.side_by_side(
+fig, _ = views.side_by_side(
     {
         "as printed": [Points("naive", printed_map), Poses("pose", [printed])],
         "mended": laid("corrected", mended, scans),
     },
     size=(6.4, 3),
 )
-for ax in all_axes:
-    ax.get_legend().set_loc("upper left")
 views.show(fig, "As printed: two polygons, turned against each other by 45°. Mended: one polygon.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}

@@ -259,9 +259,7 @@ for name, sign in {"clockwise": -1, "counter-clockwise": 1}.items():
     at = sign * np.radians(angles[turn])
     xy = mm[turn, None] / 1000 * np.column_stack([np.cos(at), np.sin(at)])
     pictures[f"angles read as {name}"] = [Points("scan", xy[mm[turn] > 0])]
-fig, both = views.side_by_side(pictures, size=(7, 3.6))
-for ax in both:
-    ax.get_legend().set_loc("lower right")
+fig, _ = views.side_by_side(pictures, size=(7, 3.6))
 views.show(fig, "The same turn of the lidar twice, the right picture the mirror image of the left.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
@@ -358,9 +356,7 @@ for name, read in {"program": capsule_points, "document": as_documented}.items()
     at, r = robot_frame(*np.hstack([read(*two) for two in pairwise(capsules[16:30])]))
     xy = np.column_stack([r * np.cos(at), r * np.sin(at)])
     pictures[f"as the {name} reads it"] = [Segments("walls", polygon.outline()), Points("scan", xy)]
-fig, both = views.side_by_side(pictures, size=(7, 3.7))
-for ax in both:
-    ax.get_legend().set_loc("lower right")
+fig, _ = views.side_by_side(pictures, size=(7, 3.7))
 views.show(fig, "Left, the points lie on the walls; right, all are turned by some ten degrees.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}

@@ -18,7 +18,7 @@ from slamlab.views.figures import COLOURS, axes, chart, panels
 from slamlab.views.frame_sketches import frames
 from slamlab.views.heatmap import cells
 from slamlab.views.interval_plot import shares
-from slamlab.views.layer_drawing import draw, legend, side_by_side
+from slamlab.views.layer_drawing import draw, legend, legend_below, side_by_side
 from slamlab.views.linked_map import linked
 from slamlab.views.live import apart, live
 from slamlab.views.loglog_plot import growth
@@ -43,6 +43,7 @@ __all__ = [
     "frames",
     "growth",
     "legend",
+    "legend_below",
     "linked",
     "live",
     "overlay",

@@ -87,7 +87,7 @@ def side_by_side(layers_by_title, size=(11, 5), shared=True):
 
 
 def legend_below(fig):
-    """Legend of all panels below them, where it covers nothing; one entry a label.
+    """Legend of all panels below them, where it covers nothing; one entry a label, made anew.
 
     Parameters
     ----------
@@ -97,6 +97,8 @@ def legend_below(fig):
     -------
     Legend
     """
+    for old in list(fig.legends):
+        old.remove()
     entries = {}
     for ax in fig.axes:
         for handle, label in zip(*ax.get_legend_handles_labels(), strict=True):

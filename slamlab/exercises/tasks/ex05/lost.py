@@ -1,0 +1,145 @@
+"""Task 05-lost: a known map, a start of unknown heading and sights that lie; any method goes.
+
+The truth is in no array: what the robots are told of start and wheels is off by 0 on average.
+"""
+
+import numpy as np
+
+from slamlab import models
+from slamlab.evaluation import nees
+from slamlab.exercises.drives.ex05 import DRIVES
+from slamlab.exercises.law import Diagnosis, Law
+from slamlab.exercises.task import Probe, Task
+from slamlab.exercises.tasks.ex05.sights import driven, either_sign, with_wrapped_heading
+from slamlab.geometry import wrap
+
+ROBOTS, STEPS, LANDMARKS = 30, 40, 6
+LIES, AT_FIRST = 0.3, 4  # share of false sights; of so many at the beginning every second is false
+PLACE, WHEELS, EYES = 0.2, np.array([0.03, 0.02]), np.array([0.08, 0.03])  # standard deviations
+LATE = 10  # steps at the end that are judged
+
+
+def robots(rng, count=ROBOTS, steps=STEPS, landmarks=LANDMARKS, lies=LIES):
+    """Robots on one way, switched on with any heading; each has its own errors and its own lies."""
+    turns = either_sign(rng, 1, 1) * rng.uniform(0.1, 0.3, steps)
+    drives = np.column_stack([rng.uniform(0.3, 0.6, steps), turns])
+    start = np.array([*rng.uniform(-3, 3, 2), rng.uniform(-2.5, 2.5)])
+    way = driven(start, drives)
+    around = rng.uniform(-np.pi, np.pi) + np.arange(landmarks) * 2 * np.pi / landmarks
+    around += rng.uniform(-0.25, 0.25, landmarks)
+    far = rng.uniform(3, 5, (landmarks, 1)) * np.column_stack([np.cos(around), np.sin(around)])
+    places, seen = way[:, :2].mean(axis=0) + far, rng.random(steps) < 0.8
+    ids = np.where(seen, rng.integers(landmarks, size=steps), -1)
+    zs = models.h(way, places[ids]) + EYES * rng.standard_normal((count, steps, 2))
+    lie = rng.random((count, steps)) < lies
+    for step in np.flatnonzero(seen)[:AT_FIRST]:
+        lie[:, step] = rng.permutation(np.arange(count) % 2 == 0) & (lies > 0)
+    lie |= ~seen  # means nothing
+    zs[lie] = np.stack([rng.uniform(1, 6, lie.sum()), rng.uniform(-4, 4, lie.sum())], axis=-1)
+    zs[..., 1] = wrap(zs[..., 1])
+    # not wrapped, so that their mean is the true one: who is off by a half-turn is off either way
+    headings = start[2] + rng.permutation(((np.arange(count) + 0.5) / count * 2 - 1) * np.pi)
+    x = np.column_stack([start[:2] + PLACE * _errors(rng, count, 2), headings])
+    told = drives + WHEELS * _errors(rng, count, 2 * steps).reshape(count, steps, 2)
+    P = np.diag([PLACE**2, PLACE**2, np.pi**2 / 3])
+    inputs = {
+        "x": x, "P": P, "drives": told, "ids": ids, "zs": zs, "landmarks": places,
+        "C": np.diag(WHEELS**2), "R": np.diag(EYES**2),
+    }  # fmt: skip
+    own = "x", "drives", "zs"
+    return {n: a if n in own else np.repeat(a[None], count, axis=0) for n, a in inputs.items()}
+
+
+def _errors(rng, count, size):
+    """(count, size) errors of variance 1 that are 0 on average."""
+    errors = rng.standard_normal((count, size))
+    return (errors - errors.mean(axis=0)) * np.sqrt(count / (count - 1))
+
+
+def _late(inputs, outputs):
+    """(k, LATE, 3) errors of the last poses, and their covariances."""
+    way = driven(inputs["x"].mean(axis=0), inputs["drives"].mean(axis=0))
+    off = (outputs["xs"] - way)[:, -LATE:]
+    off[..., 2] = wrap(off[..., 2])
+    return off, outputs["Ps"][:, -LATE:]
+
+
+def offs(inputs, outputs):
+    """(k,) how far each robot is off its place at the end: rms of the last steps [m]."""
+    off, _ = _late(inputs, outputs)
+    return np.sqrt(np.square(off[..., :2]).sum(axis=-1).mean(axis=-1))
+
+
+def honest(inputs, outputs):
+    """(k,) whether a robot knows how far it is off, and that is not far."""
+    off, P = _late(inputs, outputs)
+    fits = nees(off.reshape(-1, 3), P.reshape(-1, 3, 3)).reshape(off.shape[:2]).mean(axis=1)
+    sigma = np.sqrt((P[..., 0, 0] + P[..., 1, 1]).mean(axis=1))
+    # 3 is right; ten steps in a row share their errors
+    return (fits > 0) & (fits < 15) & (sigma < 0.3)
+
+
+def _why(inputs, outputs):
+    off = offs(inputs, outputs)
+    return (
+        f"At the end, {np.sum(off < 0.4)} of {len(off)} robots are off by less than 0.4 m, and "
+        f"{np.sum(honest(inputs, outputs))} know how far; in the middle they are off by "
+        f"{np.median(off):.2f} m, at the worst by {off.max():.2f} m."
+    )
+
+
+def _step(name, points, share, says, asks, knows=False):
+    def holds(inputs, outputs):
+        found = offs(inputs, outputs) < 0.4
+        return np.mean(found & honest(inputs, outputs) if knows else found) >= share
+
+    return Law(name, points, says, holds, why=_why, asks=asks)
+
+
+STEPS_UP = (
+    _step(
+        "better", 0.5, 0.3, "at the end, three robots in ten are off by less than 0.4 m",
+        "Which sights would you rather not have believed?",
+    ),
+    _step(
+        "good", 1.5, 0.65, "thirteen in twenty are",
+        "Suppose a robot's heading were right, by luck. How would you notice, some steps later?",
+    ),
+    _step(
+        "found", 1.5, 0.8, "sixteen in twenty are",
+        "May a heading that was chosen by one sight be wrong?",
+    ),
+    _step(
+        "honest", 1.5, 0.8,
+        "sixteen in twenty also know how far they are off (NEES below 15, σ below 0.3 m)",
+        "What does P say of a sight that is believed though it is false?", knows=True,
+    ),
+)  # fmt: skip
+
+
+def _short(rng):
+    return robots(rng, count=6, steps=25, landmarks=4, lies=0.0)
+
+
+LOST = Task(
+    id="05-lost",
+    title="Make it better: lost, and lied to",
+    drive=DRIVES["05-lost"],
+    inputs=robots,
+    shapes=lambda inputs: {
+        "xs": (*inputs["ids"].shape, 3),
+        "Ps": (*inputs["ids"].shape, 3, 3),
+    },
+    laws=STEPS_UP,
+    diagnoses=(
+        Diagnosis(
+            "heading-of-the-start",
+            "Most robots are metres off: they still head where they did when they were switched "
+            "on, or where a false sight sent them. Several headings may be tried.",
+            lambda inputs, outputs: np.median(offs(inputs, outputs)) > 1.5,
+        ),
+    ),
+    probes=(Probe("four landmarks, and no lies", _short, ("better",)),),
+    parts=with_wrapped_heading("xs"),
+    rounds=False,
+)

@@ -1,0 +1,171 @@
+"""Task 05-map: N little filters, judged by the least squares of each landmark's own sights.
+
+The sensor is a surveyor's: with errors of a third of a millimetre, h is straight wherever a filter
+may take its H, so that every way to weigh all sights of a landmark ends at the same place.
+"""
+
+import numpy as np
+
+from slamlab import models
+from slamlab.exercises.drives.ex05 import DRIVES
+from slamlab.exercises.law import Law
+from slamlab.exercises.task import Probe, Task
+from slamlab.exercises.tasks.ex05.sights import T, covariances, each
+from slamlab.geometry import wrap
+from slamlab.models import jacobians
+
+OFTEN = (1, 1, 2, 3, 4)  # how often each landmark is seen
+SIGMA = np.array([3e-4, 1e-4])  # of r [m] and β [rad]
+TOLERANCE = 5e-3
+"""In standard deviations: an H taken 3 σ off moves a place by some 10 σ²/r, 1e-3 of σ."""
+
+
+def courses(rng, rows=3, often=OFTEN, far=(3.0, 5.0), ids=None, behind=False):
+    """Known poses all over a room, each of which sees one landmark.
+
+    Parameters
+    ----------
+    rng : numpy.random.Generator
+    rows : int, courses
+    often : how often each landmark is seen
+    far : (low, high) distance of the landmarks from the middle of the room [m]
+    ids : (N,) names of the landmarks; None: drawn, and no row numbers
+    behind : bool, whether landmarks are right behind the robot
+    """
+    made = [_course(rng, np.array(often, dtype=int), far, ids, behind) for _ in range(rows)]
+    return {name: np.array([one[name] for one in made]) for name in made[0]}
+
+
+def _course(rng, often, far, ids, behind):
+    count, steps = len(often), often.sum()
+    ids = rng.choice(np.arange(5, 90), count, replace=False) if ids is None else np.array(ids)
+    angle = (np.arange(count) + 0.7 * rng.random(count)) * 2 * np.pi / max(count, 1)
+    places = rng.uniform(*far, (count, 1)) * np.column_stack([np.cos(angle), np.sin(angle)])
+    rows = rng.permutation(np.repeat(np.arange(count), often))
+    xs = np.column_stack([rng.uniform(-0.9, 0.9, (steps, 2)), rng.uniform(-3, 3, steps)])
+    if behind:
+        away = places[rows] - xs[:, :2]
+        xs[:, 2] = wrap(np.arctan2(away[:, 1], away[:, 0]) + np.pi)
+    R = covariances(rng, SIGMA[None])[0]
+    return {"xs": xs, "ids": ids[rows], "zs": _measured(rng, xs, places[rows], R), "R": R}
+
+
+def _measured(rng, xs, places, R):
+    """Sights (n, 2) that err by 0.5 to 1.5 standard deviations, to one side and to the other."""
+    sides = rng.choice([-1.0, 1.0], 2) * (-1.0) ** np.arange(len(xs))[:, None]
+    errors = sides * rng.uniform(0.5, 1.5, (len(xs), 2))
+    zs = models.h(xs, places) + errors @ np.linalg.cholesky(R).T
+    zs[:, 1] = wrap(zs[:, 1])
+    return zs
+
+
+def _standing_still(rng):
+    inputs = courses(rng, 1, (3, 1))
+    xs, ids = inputs["xs"][0, :1].repeat(4, axis=0), inputs["ids"][0]
+    places = np.where(ids[:, None] == ids[0], [[4.0, 1.0]], [[-2.0, 3.0]])
+    zs = _measured(rng, xs, places, inputs["R"][0])
+    return inputs | {"xs": xs[None], "zs": zs[None]}
+
+
+def batch(xs, zs, R):
+    """The place that fits all sights of one landmark best, and its covariance: Gauss and Newton."""
+    p, weight = models.g(xs[0], zs[0]), np.linalg.inv(R)
+    for _ in range(3):
+        H = each(lambda x, p=p: jacobians.H_landmark(x, p), xs)
+        v = zs - models.h(xs, p)
+        v[:, 1] = wrap(v[:, 1])
+        P = np.linalg.inv((T(H) @ weight @ H).sum(axis=0))
+        p = p + P @ (T(H) @ weight @ v[..., None]).sum(axis=0)[:, 0]
+    return p, P
+
+
+def fitted(inputs):
+    """Places p (m, N, 2), covariances P (m, N, 2, 2) and (m, N) how often seen; ids ascending."""
+    found = []
+    for xs, ids, zs, R in zip(*inputs.values(), strict=True):
+        rows = [ids == id for id in np.unique(ids)]
+        found.append([(*batch(xs[at], zs[at], R), at.sum()) for at in rows])
+    shapes = (2,), (2, 2), ()
+    return [
+        np.array([[one[k] for one in course] for course in found]).reshape(len(found), -1, *shape)
+        for k, shape in enumerate(shapes)
+    ]
+
+
+def in_sigmas(inputs, outputs):
+    """How far p is off (m, N, 2), and P's excess (m, N, 2, 2), in standard deviations."""
+    p, P, often = fitted(inputs)
+    sigma = np.sqrt(np.diagonal(P, axis1=-2, axis2=-1))
+    units = sigma[..., :, None] * sigma[..., None, :]
+    return (outputs["p"] - p) / sigma, (outputs["P"] - P) / units, often
+
+
+def _holds(which):
+    def holds(inputs, outputs):
+        p, P, often = in_sigmas(inputs, outputs)
+        off = np.maximum(np.abs(p).max(axis=-1), np.abs(P).max(axis=(-1, -2)))
+        return (np.where(which(often), off, 0) <= TOLERANCE).all(axis=1)
+
+    return holds
+
+
+def _want(inputs):
+    p, P, _ = fitted(inputs)
+    return {"p": p, "P": P}
+
+
+def _parts(inputs, outputs):
+    p, P, often = in_sigmas(inputs, outputs)
+    once = often == 1
+    return {"p once": p[once], "P once": P[once], "p again": p[~once], "P again": P[~once]}
+
+
+def _placed(inputs):
+    x, z, R = inputs["xs"][0, 0], inputs["zs"][0, 0], inputs["R"][0]
+    J = jacobians.J_z(x, z)
+    return {"p of the first sight": models.g(x, z)[None], "its P": (J @ R @ J.T)[None]}
+
+
+MAP = Task(
+    id="05-map",
+    title="The whole map",
+    drive=DRIVES["05-map"],
+    inputs=courses,
+    probes=(
+        Probe("nothing seen", lambda rng: courses(rng, 2, ()), ("again",)),
+        Probe("one sight", lambda rng: courses(rng, 2, (1,)), ("first",)),
+        Probe("one landmark, seen twice", lambda rng: courses(rng, 2, (2,)), ("again",)),
+        Probe("one landmark, seen eight times", lambda rng: courses(rng, 1, (8,)), ("again",)),
+        Probe("landmarks 0, 1 and 4000", lambda rng: courses(rng, 2, (1, 2, 2), ids=[1, 0, 4000])),
+        Probe("thirty landmarks, seen once", lambda rng: courses(rng, 1, [1] * 30), ("first",)),
+        Probe("landmarks right behind", lambda rng: courses(rng, 2, (1, 4), behind=True)),
+        Probe("landmarks fifty metres away", lambda rng: courses(rng, 2, (1, 2), far=(45, 55))),
+        Probe("a robot that stands still", _standing_still),
+    ),
+    shapes=lambda inputs: {
+        "p": (len(inputs["ids"]), len(np.unique(inputs["ids"][0])), 2),
+        "P": (len(inputs["ids"]), len(np.unique(inputs["ids"][0])), 2, 2),
+    },
+    parts=_parts,
+    laws=(
+        Law(
+            "first",
+            2,
+            "a landmark seen once is where it was seen, as unsure as the sight",
+            _holds(lambda often: often == 1),
+            want=_want,
+            asks="The sensor errs in r and β. What does that mean in x and y, far away and near?",
+            step=_placed,
+        ),
+        Law(
+            "again",
+            3,
+            "a landmark seen again is where all its sights together put it, and as sure",
+            _holds(lambda often: often > 1),
+            want=_want,
+            asks="What does a second sight change, for the landmark seen and for the others?",
+            step=_placed,
+        ),
+    ),
+    rounds=False,
+)
