@@ -161,9 +161,10 @@ check("02-echo")
 @attempt
 def _():
     walls = np.array(
-        [[-2, -1, 3, -1], [3, -1, 3, 2], [-2, 2, -2, -1], [-2, 3.5, 3, 3.5]]
-        + [[3, 2, 0.5, 2], [-0.5, 2, -2, 2]],  # between these two: the door
-        dtype=float,
+        [
+            *[(-2, -1, 3, -1), (3, -1, 3, 2), (-2, 2, -2, -1), (-2, 3.5, 3, 3.5)],
+            *[(3, 2, 0.5, 2), (-0.5, 2, -2, 2)],  # between these two: the door
+        ]
     )
     p, directions = np.array([0.2, 0.0]), np.linspace(0, np.pi, 91)
 

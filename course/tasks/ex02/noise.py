@@ -42,7 +42,10 @@ def noisy(ranges, error, dropouts, rng):
 }
 
 DRAW, SIGMA = "rng.standard_normal(len(ranges))", "error * ranges * "
-LOST, LOSE = "rng.random(len(ranges)) < dropouts", "measured[rng.random(len(ranges)) < dropouts] = np.nan"
+LOST, LOSE = (
+    "rng.random(len(ranges)) < dropouts",
+    "measured[rng.random(len(ranges)) < dropouts] = np.nan",
+)
 SUM = "measured = ranges + error * ranges * rng.standard_normal(len(ranges))"
 PROGRAMS = {
     "another-generator": (
@@ -94,7 +97,10 @@ SLIPS = (
         "The same number decides how much a beam errs and whether it is lost: then the large errors "
         "never come back. Draw twice.",
         [
-            (SUM, "q = rng.standard_normal(len(ranges))\n    measured = ranges + error * ranges * q"),
+            (
+                SUM,
+                "q = rng.standard_normal(len(ranges))\n    measured = ranges + error * ranges * q",
+            ),
             (LOST, "abs(q) > np.quantile(abs(q), 1 - dropouts)"),
         ],
     ),
@@ -157,7 +163,9 @@ STUMBLES = (
         ("return measured", "return measured, dropouts"),
         ("return measured", "return measured[:, None]"),
     ),
-    Stumble("raised", (DRAW, "rng.standard_normal(ranges)"), (LOSE, LOSE.replace("np.nan", "None"))),
+    Stumble(
+        "raised", (DRAW, "rng.standard_normal(ranges)"), (LOSE, LOSE.replace("np.nan", "None"))
+    ),
 )
 
 EQUIVALENT = {}

@@ -251,7 +251,10 @@ SLIPS = (
 STUMBLES = (
     Stumble(
         "malformed",
-        [(BACK, "back = degrees >= 0"), (R, "np.where(millimetres > 0, millimetres, np.nan) / 1000")],
+        [
+            (BACK, "back = degrees >= 0"),
+            (R, "np.where(millimetres > 0, millimetres, np.nan) / 1000"),
+        ],
         (RESULT, RESULT + ".T"),
         (RESULT, "carry(pose, carry(mount, in_sensor))"),
         (Q, "np.column_stack([r * np.cos(beta), r * np.sin(beta)]) + 0j"),

@@ -2,7 +2,8 @@
 
 - ``walls``: beams and walls in general; ``ray``: how far a beam flies to a wall
 - ``echo``: the nearest place in a cone of sound; ``points``: a device's readings in the world
-- ``noise``: readings as a real sensor makes them; ``busy``: how noisy a sensor in a busy room is
+- ``readings``, ``noise``, ``noise_mistakes``: readings as a real sensor makes them
+- ``busy``: how noisy a sensor in a busy room is
 """
 
 from slamlab.exercises.exercise import Exercise

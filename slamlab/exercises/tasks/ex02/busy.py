@@ -45,7 +45,7 @@ def truth(inputs):
 
 
 def offs(inputs, outputs):
-    """(n, 2) how far off they are: the factor's logarithm of error, and the difference of blocked."""
+    """(n, 2) how far off: the logarithm of the factor of error, the difference of blocked."""
     right, (error, blocked) = truth(inputs), outputs["result"].T
     with np.errstate(all="ignore"):
         factor = abs(np.log(np.where(error > 0, error, 0) / right[:, 0]))
@@ -68,8 +68,8 @@ def _typical(name, points, factor, share, asks):
         return error < np.log(factor) and blocked < share
 
     says = (
-        f"in the middle of all sensors error is off by a factor of {factor} at most, and blocked by "
-        f"{share}"
+        f"in the middle of all sensors error is off by a factor of {factor} at most, and "
+        f"blocked by {share}"
     )
     return Law(name, points, says, holds, why=_why, asks=asks)
 
@@ -137,8 +137,8 @@ MISTAKES = (
     ),
     Diagnosis(
         "too-small",
-        "Your error is far too small for most sensors: is too much cut off, or do beams count whose "
-        "readings all fall on one step?",
+        "Your error is far too small for most sensors: is too much cut off, or do beams count all "
+        "of whose readings fall on one step?",
         lambda inputs, outputs: np.median(_far_off(inputs, outputs)) < -0.3,
     ),
     Diagnosis(
