@@ -378,7 +378,7 @@ def _():
         fig, ax = views.chart("beam", "reading [m]", told, (9, 4))
         beam = np.tile(np.arange(24), (24, 1))
         ax.plot(beam[people], scans[people], ".", color=views.COLOURS["naive"], label="people")
-        ax.plot(beam[~people], scans[~people], ".", color=views.COLOURS["scan"], label="wall")
+        ax.plot(beam[~people], scans[~people], ".", color=views.COLOURS["corrected"], label="wall")
         ax.legend()
         return fig
 

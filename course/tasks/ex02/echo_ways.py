@@ -79,23 +79,4 @@ def echo(p, phi, half, walls):
                     best = min(best, normal @ a / share if share > 1e-12 else np.inf)
     return best
 """,
-    "halving": """
-def echo(p, phi, half, walls):
-    axis, heard = np.array([np.cos(phi), np.sin(phi)]), []
-    for wall in walls:
-        place = lambda s: wall[:2] - p + s * (wall[2:] - wall[:2])
-        for rim in (phi - half, phi + half):
-            heard.append(ray_wall(p, rim, wall))
-        low, high = 0.0, 1.0
-        for _ in range(25):
-            one, other = low + (high - low) / 3, high - (high - low) / 3
-            if place(one) @ place(one) < place(other) @ place(other):
-                high = other
-            else:
-                low = one
-        for q in (place(0), place(1), place((low + high) / 2)):
-            if np.dot(q, axis) > np.cos(half) * np.linalg.norm(q):
-                heard.append(np.linalg.norm(q))
-    return np.min(heard, initial=np.inf)
-""",
 }

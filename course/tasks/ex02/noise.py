@@ -168,4 +168,21 @@ STUMBLES = (
     ),
 )
 
-EQUIVALENT = {}
+DRAWN_ANEW = "numbers that are drawn once more are as random as before"
+SYMMETRIC = "noise has no sign: what is subtracted is as likely as what is added"
+NAN_STAYS = "NaN plus anything is NaN: the line spares work only"
+
+EQUIVALENT = {
+    f" -> {SUM}": DRAWN_ANEW,
+    " -> lost = rng.random(ranges.shape) < dropouts": DRAWN_ANEW,
+    " -> measured[k] = np.nan if rng.uniform() < dropouts else r + rng": DRAWN_ANEW,
+    " -> back = rng.choice([1.0, np.nan], size=ranges.size, p=[1 - d": DRAWN_ANEW,
+    " -> measured = rng.normal(ranges, sigma)": DRAWN_ANEW,
+    " -> measured[there] = ranges[there] + rng.normal(scale=error * ranges[there])": DRAWN_ANEW,
+    "measured = ranges - error * ranges": SYMMETRIC,
+    "else r - rng.normal": SYMMETRIC,
+    "(1 - error * rng": SYMMETRIC,
+    "ranges[there] - rng.normal": SYMMETRIC,
+    "ranges / (1 + error * rng": "the same but for error², which is less than chance shows",
+    "if not np.isnan(r): -> ": NAN_STAYS,
+}

@@ -108,7 +108,7 @@ STEPS = (
     Law(
         "nearly all",
         2,
-        f"of {ENOUGH:.0%} of the sensors error is off by a factor of {ALL[0]:.2f} at most, and "
+        f"for four sensors in five error is off by a factor of {ALL[0]:.2f} at most, and "
         f"blocked by {ALL[1]}",
         _nearly_all,
         why=_why,
