@@ -165,7 +165,7 @@ TO_POINTS = Task(
         Probe("a single reading", _of(scans=3, readings=1, empty=0)),
         Probe("two readings, one of them empty", _of(scans=3, readings=2, empty=1)),
         Probe("a long scan", _of(scans=1, readings=200, empty=20)),
-        Probe("readings of a few millimetres", _of(scans=2, metres=(0.001, 0.02))),
+        Probe("readings of one millimetre", _of(scans=2, metres=(0.001, 0.001))),
         Probe("readings of 40 m", _of(scans=2, metres=(20, 40))),
         Probe("robot and sensor at the origin", _of(scans=2, offset=0.0)),
         Probe("frames that turn by more than π", _of(scans=3, turn=(3.3, 6))),
