@@ -147,19 +147,13 @@ SLIPS = (
         (ROUNDING, ROUNDING.replace(" / 12", " / 4")),
     ),
     Slip(
-        "rounding-added",
-        "The readings hold noise and rounding: to be left with the noise alone, which way must the "
-        "rounding go?",
-        (ROUNDING, ROUNDING.replace(" - ", " + ")),
-    ),
-    Slip(
         "all-beams-alike",
-        "Each beam has the same weight, and from near beams rounding takes more than there is. Sum up "
-        "first, and divide then.",
+        "Each beam has the same weight, and for near walls it is the rounding that you see, not the "
+        "noise. Which beams tell more of the noise?",
         (
             "error = max(np.sqrt(max(noise, 0) / np.sum(freedom * r**2)), 0.001)",
             "each = (wall * (scans - r) ** 2).sum(axis=0) / np.maximum(freedom, 1)\n"
-            "        error = max(np.mean(np.sqrt(np.maximum(each - step**2 / 12, 0)) / r), 0.001)",
+            "        error = np.sqrt(np.mean(each / r**2))",
         ),
     ),
     Slip(
@@ -169,7 +163,7 @@ SLIPS = (
     ),
     Slip(
         "wall-share",
-        "blocked is the share of people; you return the share of the wall, or a number of readings.",
+        "blocked is the share of people, and yours is that of the wall, or a number of readings.",
         (RETURN, "return error, wall.mean()"),
         (RETURN, "return error, np.sum(~wall)"),
     ),
@@ -182,7 +176,6 @@ SLIPS = (
         "order-swapped",
         "The two numbers have changed places: error comes first.",
         (RETURN, "return 1 - wall.mean(), error"),
-        before=(),
     ),
     Slip(
         "narrow-gate",
@@ -207,8 +200,7 @@ SLIPS = (
     ),
     Slip(
         "guess-returned",
-        "These are guesses: what do the readings say?",
-        "def busy_fit(scans, step):\n    return 0.01, 0.2\n",
+        "This is a guess: what do the readings say?",
         "def busy_fit(scans, step):\n    return step / 4, 0.2\n",
     ),
 )

@@ -210,7 +210,7 @@ SLIPS = (
     ),
     Slip(
         "first-wall",
-        "You return after the first wall that is heard, or after the first of all: a later one may be "
+        "You stop at the first wall that is heard, or at the first of all: a later one may be "
         "nearer.",
         (RIM, RIM + "\n        if nearest < np.inf:\n            return nearest"),
         (RETURN, "    " + RETURN),
@@ -229,7 +229,7 @@ SLIPS = (
     ),
     Slip(
         "zero-for-nothing",
-        "Where nothing is heard you return a number: an echo at 0 m, or at 10 m, is a wall there.",
+        "Where nothing is heard you give a number: an echo at 0 m, or at 10 m, is a wall there.",
         (RETURN, "return nearest if nearest < np.inf else 0.0"),
         (RETURN, "return min(nearest, 10.0)"),
     ),

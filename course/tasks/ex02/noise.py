@@ -124,7 +124,7 @@ SLIPS = (
     ),
     Slip(
         "noise-without-range",
-        "You return the noise alone: it is added to the true range.",
+        "That is the noise alone: it is added to the true range.",
         (SUM, SUM.replace("ranges + ", "")),
     ),
     Slip(
@@ -163,9 +163,7 @@ STUMBLES = (
         ("return measured", "return measured, dropouts"),
         ("return measured", "return measured[:, None]"),
     ),
-    Stumble(
-        "raised", (DRAW, "rng.standard_normal(ranges)"), (LOSE, LOSE.replace("np.nan", "None"))
-    ),
+    Stumble("raised", (DRAW, "rng.standard_normal(ranges)")),
 )
 
 DRAWN_ANEW = "numbers that are drawn once more are as random as before"

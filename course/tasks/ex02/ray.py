@@ -1,6 +1,7 @@
 """Right ways and slips of 02-ray-wall."""
 
 from course.tasks import Edit, Slip, Stumble
+from slamlab.exercises.tasks.ex02.ray import NEVER_MET
 
 TASK = "02-ray-wall"
 
@@ -98,15 +99,14 @@ SLIPS = (
     ),
     Slip(
         "lines-only",
-        "You return where the two lines cross, wherever that is: the beam begins at p, and the wall has "
+        "That is where the two lines cross, wherever that is: the beam begins at p, and the wall has "
         "two ends.",
         (HIT, "return t"),
         (HIT, "return abs(t)"),
     ),
     Slip(
-        "never-met",
-        "You return inf even for walls that stand right before the sensor. Look at the signs: the way "
-        "to the wall's beginning leads from p to (x1, y1).",
+        NEVER_MET.name,
+        NEVER_MET.hint,
         (D, "d_x, d_y = p[0] - wall[0], p[1] - wall[1]"),
         (DETERMINANT, "determinant = u_y * w_x - u_x * w_y"),
     ),
@@ -124,7 +124,7 @@ SLIPS = (
     ),
     Slip(
         "share-returned",
-        "You return where on the wall the beam meets it (a share from 0 to 1), not how far it flew to "
+        "That is where on the wall the beam meets it (a share from 0 to 1), not how far it flew to "
         "get there.",
         hit("t >= 0 and 0 <= s <= 1", "s"),
     ),
@@ -216,7 +216,7 @@ SLIPS = (
     ),
     Slip(
         "place-returned",
-        "You return one coordinate of the place that is met, not the way to it.",
+        "That is one coordinate of the place that is met, not the way to it.",
         hit("t >= 0 and 0 <= s <= 1", "t * u_x"),
         hit("t >= 0 and 0 <= s <= 1", "p[0] + t * u_x"),
     ),
@@ -248,7 +248,7 @@ SLIPS = (
     ),
     Slip(
         "zero-for-nothing",
-        "Where nothing is met you return 0: that is a wall at the sensor itself.",
+        "Where nothing is met you give 0: that is a wall at the sensor itself.",
         (HIT, "return t if t >= 0 and 0 <= s <= 1 else 0.0"),
     ),
     Slip(

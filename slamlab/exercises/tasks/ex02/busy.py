@@ -126,7 +126,7 @@ def _far_off(inputs, outputs):
 MISTAKES = (
     Diagnosis(
         "swapped",
-        "The two numbers have changed places: return error, blocked.",
+        "The two numbers have changed places: error comes first.",
         lambda inputs, outputs: (offs(inputs, {"result": outputs["result"][:, ::-1]}) < 0.3).all(),
     ),
     Diagnosis(

@@ -3,7 +3,7 @@
 import numpy as np
 
 from slamlab.exercises.drives.ex02 import DRIVES
-from slamlab.exercises.law import Law
+from slamlab.exercises.law import Diagnosis, Law
 from slamlab.exercises.task import Probe, Task
 from slamlab.exercises.tasks.ex02.walls import as_outputs, crossing, distance_is, unit
 
@@ -105,6 +105,13 @@ def _parts(inputs, outputs):
     return {name: both[kind == name] for name in KINDS}
 
 
+NEVER_MET = Diagnosis(
+    "never-met",
+    "You say inf even of walls that stand right before the sensor. Look at the signs: the way to "
+    "the wall's beginning leads from p to (x1, y1).",
+    lambda inputs, outputs: not outputs["met"].any(),
+)
+
 RAY_WALL = Task(
     id="02-ray-wall",
     title="A beam and a wall",
@@ -147,5 +154,6 @@ RAY_WALL = Task(
         Probe("long walls far away", lambda rng: beams(rng, (40, 90), (50, 99), (6, 3, 4, 2))),
         Probe("a direction beyond a whole turn", lambda rng: beams(rng, turns=-2)),
     ),
+    diagnoses=(NEVER_MET,),
     parts=_parts,
 )
