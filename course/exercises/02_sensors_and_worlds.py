@@ -1,16 +1,19 @@
 # %% [markdown]
 # # 02 · Sensors and worlds: exercise
 #
-# **You will be able to** cast the rays of a range sensor, place what a real device says in the
-# world, simulate noise, and find its size again in recordings.
+# **You will be able to** cast the ray of a lidar and the cone of an ultrasonic sensor, place what a
+# real device says in the world, simulate its noise, and find the size of that noise in recordings of
+# a room in which people walk about.
 #
-# **40 minutes. Before:** lesson [02](../notebooks/02_sensors_and_worlds.ipynb).
+# **60 minutes. Before:** lesson [02](../notebooks/02_sensors_and_worlds.ipynb).
 #
 # Replace each `raise NotImplementedError(...)` by your code, run the cell, then run the check below
-# it, as often as you like. A check tries random inputs and tells you which law is broken. Cells
-# marked `@attempt` show your functions at work.
+# it, as often as you like. A check tries random inputs, and inputs at the edge of what the task
+# promises, and tells you which law is broken. When you are stuck, `hint("02-ray-wall")` asks a
+# question that leads on. Cells marked `@attempt` show your functions at work.
 #
 # Metres and radians, counter-clockwise from +x, unless a task says otherwise. A pose is `[x, y, θ]`.
+# A function may not change its arguments: whoever called it still needs them.
 
 # %%
 import numpy as np
@@ -19,7 +22,7 @@ from slamlab import layers, views
 from slamlab.checks import attempt, check
 
 # %% [markdown]
-# ## 1 · A beam and a wall
+# ## A beam and a wall
 #
 # A beam leaves the point **p** in the direction φ. A wall is a row `[x1, y1, x2, y2]`: it goes from
 # (x1, y1) to (x2, y2) and ends there.
@@ -29,9 +32,13 @@ from slamlab.checks import attempt, check
 #
 # **Your task.** How far does the beam fly until it meets the wall? `np.inf` where it does not: the
 # wall lies behind, or the beam passes beside it, or runs parallel to it.
+#
+# The wall has a length, of centimetres or of a hundred metres, and φ may be any number, also beyond
+# a whole turn. Beams and walls may run along x or y, and a wall that lies on the beam's own line is
+# parallel to it, too. No beam just touches the end of a wall.
 
 
-# %%
+# %% name="ray-wall"
 def ray_wall(p, phi, wall):
     """How far a beam flies to a wall.
 
@@ -55,56 +62,19 @@ def ray_wall(p, phi, wall):
 check("02-ray-wall")
 
 # %% [markdown]
-# One beam turns past one wall: the dots are where your function says that it meets it.
+# A beam that crosses three walls reports the nearest, and one that meets nothing within
+# `range_max` reports NaN. With your `ray_wall` that takes two lines, and they are ready. Move the
+# sensor about in Smolec's second situation, and watch what it cannot see.
 
 
-# %%
-@attempt
-def _():
-    p, wall = np.array([0.3, 0.2]), np.array([1.0, -1.2, 2.2, 1.6])
-    directions = np.radians(np.arange(-180, 180, 4))
-    ranges = np.array([ray_wall(p, phi, wall) for phi in directions])
-    hit = np.isfinite(ranges)
-    ends = p + ranges[hit, None] * np.column_stack([np.cos(directions), np.sin(directions)])[hit]
-    fig, ax = views.axes(f"{hit.sum()} of {len(hit)} beams meet the wall", size=(5, 4))
-    views.draw(ax, layers.Segments("walls", [wall]))
-    views.draw(ax, layers.Points("scan", ends), markersize=7)
-    views.draw(ax, layers.Poses("robot", [[*p, 0]]))
-    views.show(fig, alt="Dots where the beams of your function meet the wall.")
-
-
-# %% [markdown]
-# ## 2 · A scan
-#
-# **Predict first.** A beam crosses three walls. Which distance does the sensor report? And if the
-# nearest of them is farther than it can see?
-#
-# **Your task.** The range of each beam: the nearest wall, and NaN where there is none within
-# `range_max`. Use your `ray_wall`.
-
-
-# %%
+# %% name="scan"
 def scan(p, directions, walls, range_max):
-    """What a range sensor reports.
-
-    p : (2,) where it stands [m];  directions : (n,) of its beams [rad]
-    walls : (w, 4) rows x1, y1, x2, y2 [m];  range_max : how far it sees [m]
-    returns (n,) ranges [m]; NaN where nothing came back
-    """
-    ### BEGIN SOLUTION
+    """What a range sensor at p (2,) reports of walls (w, 4): ranges (n,), NaN for nothing."""
     nearest = np.array([min(ray_wall(p, phi, wall) for wall in walls) for phi in directions])
     return np.where(nearest <= range_max, nearest, np.nan)
-    ### END SOLUTION
 
 
-# %%
-check("02-scan")
-
-# %% [markdown]
-# Your sensor in Smolec's second situation. Move it about, and watch what it cannot see.
-
-
-# %%
+# %% name="situation"
 @attempt
 def _():
     from slamlab.worlds import situation_2
@@ -131,7 +101,92 @@ def _():
 
 
 # %% [markdown]
-# ## 3 · What the device says
+# ## The first echo
+#
+# An ultrasonic sensor has no beam but a **cone**: it hears all that is less than `half` away from
+# its axis φ, to either side, and reports the nearest place of all, because its echo is the first to
+# come back. The lesson showed what this does to a door. Now compute it.
+#
+# Fire a thousand beams into the cone, and you come close to the answer, but a thin post may stand
+# between two of them. The nearest place can be found exactly, for there are only three kinds of it.
+# A wall's places are $\mathbf{a} + s\,\mathbf{w}$ with $0 \le s \le 1$, as in the lesson, and their
+# distance from **p** has one least value along the line.
+#
+# **Predict first.** Draw a cone, and a wall whose nearest place to the sensor lies (1) between its
+# ends and in the cone, (2) between its ends and beside the cone, (3) at one end. Which place of
+# the wall is heard first in each case?
+#
+# **Your task.** How far is the nearest place of all walls that lies in the cone? `np.inf` where there
+# is none. A wall sends an echo from each of its places, at whatever slant it is hit.
+#
+# `half` lies between 1° and 80°, and φ may be any number. There may be many walls, or none at all
+# (`walls` has the shape (0, 4) then). They may run along x or y, point straight at the sensor, cross
+# the whole cone, reach behind the sensor, or be as thin as a post; but each has a length, none comes
+# nearer to **p** than 10 cm, and none just touches the rim of the cone.
+
+
+# %% name="echo"
+def echo(p, phi, half, walls):
+    """How far an ultrasonic sensor hears.
+
+    p : (2,) where it stands [m];  phi : the axis of its cone [rad]
+    half : half of the cone's angle [rad];  walls : (w, 4) rows x1, y1, x2, y2 [m]
+    returns a distance [m], or np.inf
+    """
+    ### BEGIN SOLUTION
+    nearest = np.inf
+    axis = np.array([np.cos(phi), np.sin(phi)])
+    for wall in walls:
+        a, w = wall[:2] - p, wall[2:] - wall[:2]
+        for s in (0, 1, np.clip(-(a @ w) / (w @ w), 0, 1)):
+            place = a + s * w
+            distance = np.hypot(place[0], place[1])
+            if place @ axis >= np.cos(half) * distance:
+                nearest = min(nearest, distance)
+        for rim in (phi - half, phi + half):
+            nearest = min(nearest, ray_wall(p, rim, wall))
+    return nearest
+    ### END SOLUTION
+
+
+# %%
+check("02-echo")
+
+# %% [markdown]
+# The door of the lesson, heard by your cone in 91 directions. Choose another width of the cone: when
+# does the door close?
+
+
+# %% name="door"
+@attempt
+def _():
+    walls = np.array(
+        [
+            *[(-2, -1, 3, -1), (3, -1, 3, 2), (-2, 2, -2, -1), (-2, 3.5, 3, 3.5)],
+            *[(3, 2, 0.5, 2), (-0.5, 2, -2, 2)],  # between these two: the door
+        ]
+    )
+    p, directions = np.array([0.2, 0.0]), np.linspace(0, np.pi, 91)
+
+    def draw(cone_in_degrees):
+        half = np.radians(cone_in_degrees / 2)
+        ranges = np.array([echo(p, phi, half, walls) for phi in directions])
+        ends = p + ranges[:, None] * np.column_stack([np.cos(directions), np.sin(directions)])
+        fig, ax = views.axes(f"a cone of {cone_in_degrees:.0f}°", size=(6, 4.2))
+        views.draw(ax, layers.Segments("walls", walls))
+        views.draw(ax, layers.Points("scan", ends[np.isfinite(ranges)]), markersize=7)
+        views.draw(ax, layers.Poses("robot", [[*p, np.pi / 2]]))
+        return fig
+
+    views.explore(
+        draw,
+        alt="What your ultrasonic sensor draws in front of a door, which a wide cone closes.",
+        cone_in_degrees=(2, 40, 25),
+    )
+
+
+# %% [markdown]
+# ## What the device says
 #
 # An RPLIDAR reports rows of **degrees**, counted **clockwise** from its front, and
 # **millimetres**; 0 mm means that nothing came back. Its front looks along its own +x. It is
@@ -143,9 +198,12 @@ def _():
 # reports at 90° and 1000 mm?
 #
 # **Your task.** The points in the world, one row for each reading that came back.
+#
+# A scan may have any number of readings, also none, and perhaps none of them came back: then there
+# are no rows. What came back may be as near as a millimetre or as far as 40 m.
 
 
-# %%
+# %% name="to-points"
 def to_points(degrees, millimetres, mount, pose):
     """A device's readings as points in the world.
 
@@ -174,7 +232,7 @@ check("02-to-points")
 # all is right, five scans make one room.
 
 
-# %%
+# %% name="five-scans"
 @attempt
 def _():
     from slamlab.geometry import compose
@@ -192,7 +250,7 @@ def _():
 
 
 # %% [markdown]
-# ## 4 · Noise
+# ## Noise
 #
 # A real range errs by a share of itself: its standard deviation is `error * r`. And some beams
 # return nothing: each is lost with the probability `dropouts`, whatever the others do.
@@ -202,9 +260,12 @@ def _():
 #
 # **Your task.** Noisy ranges, all chance from the generator `rng`: with the same seed the same
 # result. What was NaN already stays NaN.
+#
+# A scan may have any number of beams, also none; `error` may be 0, and `dropouts` anything from 0 to
+# 1, both included.
 
 
-# %%
+# %% name="noisy"
 def noisy(ranges, error, dropouts, rng):
     """Ranges as a real sensor would report them.
 
@@ -223,52 +284,111 @@ def noisy(ranges, error, dropouts, rng):
 check("02-noise")
 
 # %% [markdown]
-# ## 5 · How noisy was it?
+# ## A busy room
 #
-# Now the way back. A sensor stands still and scans k times: an array of shape (k, n), a row a scan,
-# a column a beam. Each column holds repeated readings of *one* distance, which you do not know.
+# Now the way back: how large is a sensor's `error`, if all that one has is its readings? A sensor
+# stands still and scans k times, which makes an array of shape (k, n): a row a scan, a column a beam.
+# Each column holds repeated readings of *one* wall, at a distance that you do not know.
 #
-# Some beams look into the open and **never** return anything: that is no dropout but the room.
-# Leave these columns out. Every other NaN is a dropout.
-#
-# **Predict first.** `scans.std()` of the whole array: what does it measure, mostly?
-#
-# **Your task.** Estimate the error (standard deviation as a share of the range) and the share of
-# dropouts. Use all the beams: one alone says little.
+# In a quiet room that is a matter of one line, the standard deviation of each column as a share of
+# its mean:
 
 
-# %%
-def fit(scans):
-    """How noisy a sensor is, from repeated scans at rest.
+# %% name="quiet-fit"
+def quiet_fit(scans):
+    """The error of a sensor in a quiet room: standard deviation / range, over all beams."""
+    share = scans / scans.mean(axis=0) - 1
+    return np.sqrt(np.sum(share**2) / (share.size - scans.shape[1]))  # a mean for each beam
 
-    scans : (k, n) ranges [m], a row a scan; NaN where nothing came back
-    returns error (standard deviation / range) [1] and dropouts (share of readings lost) [1]
+
+# %% [markdown]
+# This room is not quiet, and the sensor is cheap:
+#
+# - **People** walk about. Each reading is blocked with the probability `blocked`, from 0 to 0.4, and
+#   then it is anywhere between the sensor and the wall, each distance being as likely.
+# - Otherwise the reading is $r\,(1 + \text{error} \cdot q)$, where r is the distance of the beam's
+#   wall and q a standard normal number.
+# - The sensor **rounds** what it reports to whole multiples of `step`, which is 1 to 8 cm. For near
+#   walls that is more than the noise, and all readings may be the same.
+#
+# The walls are 1 to 9 m away, and `error` lies between 0.002 and 0.03. There are 24 scans or more, and
+# twelve beams or more; no reading is missing.
+#
+# **Predict first.** Twenty readings of a wall at 5 m err by 5 cm, and one person is read at 0.5 m. How
+# large is the standard deviation of all 21, roughly?
+#
+# **Your task.** Estimate `error` and `blocked`, as well as you can. Any method goes. A few questions
+# that may lead on:
+#
+# - How can a person be told from the wall, when the spread of the wall's readings is what you look
+#   for? May you guess it, and do better in a second round?
+# - A number that is rounded to steps errs by up to half a step, each error being as likely. What is
+#   the variance of such an error, and what is the variance of noise and rounding together?
+# - Which beams tell most of `error`: those of near walls or those of far ones? Does each of them
+#   deserve the same weight?
+#
+# Forty sensors are tried. An answer is judged by the factor that `error` is off, and by the
+# difference of `blocked`. In the middle of all sensors the first three steps of the ladder allow a
+# factor of 1.35, 1.17 and 1.09 (and 0.04, 0.03, 0.03); the last one wants 80 % of the sensors to
+# be within a factor of 1.16 (and 0.06).
+
+
+# %% name="busy-fit"
+def busy_fit(scans, step):
+    """How noisy a sensor in a busy room is.
+
+    scans : (k, n) ranges [m], a row a scan, a column a beam; whole multiples of step
+    step : what the sensor rounds to [m]
+    returns error (standard deviation / range) [1] and blocked (share of readings of people) [1]
     """
     ### BEGIN SOLUTION
-    seen = scans[:, ~np.isnan(scans).all(axis=0)]
-    lost = np.isnan(seen)
-    share = seen / np.nanmean(seen, axis=0) - 1
-    freedom = (~lost).sum() - seen.shape[1]  # a mean was fitted for each beam
-    return np.sqrt(np.nansum(share**2) / freedom), lost.mean()
+    r, error = np.median(scans, axis=0), 0.03
+    for _ in range(12):
+        wall = abs(scans - r) <= 2.5 * error * r + step / 2  # the others are people
+        count = wall.sum(axis=0)
+        r = np.where(count > 0, (wall * scans).sum(axis=0) / np.maximum(count, 1), r)
+        freedom = np.maximum(count - 1, 0)  # a mean was fitted for each beam
+        # the sum of squares is expected to be the sum of freedom · ((error r)² + step² / 12)
+        noise = np.sum(wall * (scans - r) ** 2) - np.sum(freedom) * step**2 / 12
+        error = max(np.sqrt(max(noise, 0) / np.sum(freedom * r**2)), 0.001)
+    return error, 1 - wall.mean()
     ### END SOLUTION
 
 
 # %%
-check("02-fit")
+check("02-busy-room")
 
 # %% [markdown]
-# There and back: your `noisy` makes scans, your `fit` looks at them.
+# To try your method, here is a sensor whose truth is known. Choose another number, more people, or
+# coarser steps, and look where your method goes wrong, and by how much.
 
 
-# %%
+# %% name="readings"
 @attempt
 def _():
-    rng, truth = np.random.default_rng(3), np.linspace(0.5, 9.0, 60)
-    truth[20:25] = np.nan
-    for error, dropouts in [(0.004, 0.03), (0.01, 0.1), (0.03, 0.3)]:
-        scans = np.array([noisy(truth, error, dropouts, rng) for _ in range(40)])
-        found = fit(scans)
-        print(f"made with {error:.3f} and {dropouts:.2f}, found {found[0]:.4f} and {found[1]:.3f}")
+    def draw(number, blocked, step_in_cm):
+        rng, step, error = np.random.default_rng(int(number)), step_in_cm / 100, 0.01
+        walls = np.sort(rng.uniform(1, 9, 24))
+        scans = walls * (1 + error * rng.standard_normal((24, 24)))
+        people = rng.random(scans.shape) < blocked
+        scans = step * np.rint(np.where(people, walls * rng.random(scans.shape), scans) / step)
+        found = busy_fit(scans, step)
+        told = f"error {found[0]:.4f} instead of {error}, quiet_fit says {quiet_fit(scans):.2f};"
+        told += f"  blocked {found[1]:.2f} instead of {people.mean():.2f}"
+        fig, ax = views.chart("beam", "reading [m]", told, (9, 4))
+        beam = np.tile(np.arange(24), (24, 1))
+        ax.plot(beam[people], scans[people], ".", color=views.COLOURS["naive"], label="people")
+        ax.plot(beam[~people], scans[~people], ".", color=views.COLOURS["corrected"], label="wall")
+        ax.legend()
+        return fig
+
+    views.explore(
+        draw,
+        alt="Readings of 24 beams: those of walls lie close together, those of people below them.",
+        number=(0, 20, 3),
+        blocked=(0.0, 0.4, 0.2),
+        step_in_cm=(1, 8, 4),
+    )
 
 
 # %% [markdown]

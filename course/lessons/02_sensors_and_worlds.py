@@ -944,4 +944,4 @@ editor = edit_world(
 # does each deserve? [03 · The Kalman filter](03_kalman_filter.ipynb) derives it.
 #
 # **Exercise:** [cast rays, place a scan, make noise and find its size
-# again](../exercises/ex02_sensors_and_worlds.ipynb), about 40 minutes.
+# again](../exercises/ex02_sensors_and_worlds.ipynb), about 60 minutes.

@@ -2,58 +2,40 @@
 
 import numpy as np
 
-from slamlab.exercises.drives import Drive, StudentError, numbers, rows
+from slamlab.exercises.drives import Drive, StudentError, numbers, rows, shaped
 
 FAR = 1e6  # a line nearly along the beam may be met anywhere; farther than this says no more [m]
 NOTHING, FINITE, INFINITE = 0, 1, 2  # NaN, a number, infinity
+NAMES = ("error", "blocked")
 
 
-def one_beam(functions, inputs):
-    """Call ray_wall once per beam.
-
-    Parameters
-    ----------
-    functions : "ray_wall"
-    inputs : places p (n, 2), directions phi (n,), walls (n, 4)
-
-    Returns
-    -------
-    {"met": (n,) whether a number came back, "distance": (n,) it, else 0}
-
-    Raises
-    ------
-    StudentError : "malformed" when a call does not return one number, or returns NaN
-    """
-    results = [numbers(functions["ray_wall"](*row), "ray_wall") for row in rows(inputs)]
-    wrong = next((r.shape for r in results if r.size != 1), None)
-    if wrong is not None:
-        raise StudentError("malformed", f"ray_wall returned shape {wrong}, expected one number")
-    distance = np.array([r.item() for r in results])
-    if np.isnan(distance).any():
-        raise StudentError("malformed", "ray_wall returned NaN: a beam that meets nothing is inf")
-    met = np.isfinite(distance)
-    distance = np.where(met, np.clip(distance, -FAR, FAR), 0.0)
-    return {"met": met.astype(float), "distance": distance}
-
-
-def whole_scan(functions, inputs):
-    """Call scan once per scene.
+def distances(function):
+    """Drive of a function that returns one distance, or infinity.
 
     Parameters
     ----------
-    functions : "scan"
-    inputs : p (n, 2), directions (n, k), walls (n, w, 4), range_max (n,)
+    function : str, its name
 
     Returns
     -------
-    {"state": (n, k) of NOTHING, FINITE, INFINITE, "ranges": (n, k), 0 where not finite}
-
-    Raises
-    ------
-    StudentError : "malformed" when a call does not return one number for each beam
+    run : (functions, inputs) -> {"met": (n,) whether a number came back, "distance": (n,) it, or 0}
     """
-    beams = inputs["directions"].shape[1]
-    return _flagged([_row(functions["scan"](*row), "scan", beams) for row in rows(inputs)])
+
+    def run(functions, inputs):
+        results = [numbers(functions[function](*row), function) for row in rows(inputs)]
+        wrong = next((r.shape for r in results if r.size != 1), None)
+        if wrong is not None:
+            raise StudentError("malformed", f"{function} returned shape {wrong}, not one number")
+        distance = np.array([r.item() for r in results])
+        if np.isnan(distance).any():
+            raise StudentError(
+                "malformed", f"{function} returned NaN: a beam that meets nothing is inf"
+            )
+        met = distance != np.inf  # −inf would be nearer than any wall
+        distance = np.where(met, np.clip(distance, -FAR, FAR), 0.0)
+        return {"met": met.astype(float), "distance": distance}
+
+    return run
 
 
 def placed(functions, inputs):
@@ -76,6 +58,8 @@ def placed(functions, inputs):
     points, count = np.zeros((len(inputs["degrees"]), most, 2)), []
     for i, row in enumerate(rows(inputs)):
         found = numbers(functions["to_points"](*row), "to_points")
+        if not found.size:  # a list to which nothing was appended
+            found = found.reshape(0, 2)
         if found.ndim != 2 or found.shape[1] != 2 or len(found) > most:
             turned = " (transposed?)" if found.ndim == 2 and found.shape[0] == 2 else ""
             raise StudentError(
@@ -117,43 +101,28 @@ def thrice(functions, inputs):
 
 
 def fitted(functions, inputs):
-    """Call fit on every set of scans, and on the first few once more in millimetres.
+    """Call busy_fit on the scans of every sensor.
 
     Parameters
     ----------
-    functions : "fit"
-    inputs : scans (n, k, beams) [m], again (m,), of which only the length counts
+    functions : "busy_fit"
+    inputs : scans (n, k, beams) [m], step (n,) [m]
 
     Returns
     -------
-    {"fit": (n, 2) error and dropouts, "in_mm": (m, 2)}
+    {"result": (n, 2) error and blocked}
 
     Raises
     ------
-    StudentError : "malformed" when a call does not return two numbers, or returns NaN
+    StudentError : "malformed" when a call does not return two numbers
     """
-    scans, call = inputs["scans"], functions["fit"]
-    few = scans[: len(inputs["again"])]
-    return {
-        "fit": np.array([_two(call(each.copy())) for each in scans]),
-        "in_mm": np.array([_two(call(1000 * each)) for each in few]),
-    }
+    return {"result": np.array([_two(functions["busy_fit"](*row)) for row in rows(inputs)])}
 
 
 def _two(result):
     if not isinstance(result, tuple | list | np.ndarray) or len(result) != 2:
-        raise StudentError("malformed", "fit must end with: return error, dropouts")
-    parts = [numbers(part, "fit") for part in result]
-    if any(part.size != 1 for part in parts):
-        shapes = " and ".join(str(part.shape) for part in parts)
-        raise StudentError("malformed", f"fit returned shapes {shapes}, expected two numbers")
-    values = [part.item() for part in parts]
-    if np.isnan(values).any():
-        raise StudentError(
-            "malformed",
-            "fit returned NaN: the scans hold NaN, and a sum or a mean with a NaN in it is NaN",
-        )
-    return values
+        raise StudentError("malformed", "busy_fit must end with: return error, blocked")
+    return [shaped(part, f"busy_fit's {n}", ()) for part, n in zip(result, NAMES, strict=True)]
 
 
 def _row(result, function, length):
@@ -173,9 +142,9 @@ def _flagged(results):
 
 
 DRIVES = {
-    "02-ray-wall": Drive(("ray_wall",), run=one_beam),
-    "02-scan": Drive(("scan",), run=whole_scan),
+    "02-ray-wall": Drive(("ray_wall",), run=distances("ray_wall")),
+    "02-echo": Drive(("echo",), run=distances("echo")),
     "02-to-points": Drive(("to_points",), run=placed),
     "02-noise": Drive(("noisy",), run=thrice),
-    "02-fit": Drive(("fit",), run=fitted),
+    "02-busy-room": Drive(("busy_fit",), run=fitted),
 }

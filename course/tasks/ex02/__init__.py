@@ -1,0 +1,1 @@
+"""Programs of exercise 02, sensors and worlds."""
