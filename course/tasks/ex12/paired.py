@@ -1,0 +1,3 @@
+"""x"""
+TASK = "12-paired"
+WAYS = {}

@@ -1,0 +1,3 @@
+"""x"""
+TASK = "12-relocalise"
+WAYS = {}
