@@ -16,6 +16,7 @@
 # change its arguments: whoever called it still needs them.
 
 # %%
+from itertools import pairwise
 from math import comb
 
 import numpy as np
@@ -270,10 +271,11 @@ def _():
 # ## 5 · Make it better: lost, and found again
 #
 # A robot drives through a hall of three bays, 4 m by 4 m each, side by side: the hall is 12 m long
-# and 4 m wide. Each bay has six posts, five of them in the same places in every bay. The robot has a
-# map of all 18. It sees posts within 2 m all round, but misses one in five. A sight is a range and a
-# bearing (σ = 0.03 m and 0.02 rad) and has **no name**: it does not say which post it is. Besides, a
-# scan holds 0.7 *phantoms* on average, which are no posts at all. The scan may also be empty.
+# and 4 m wide. Each bay has six posts. Five of them stand in the same places in every bay, and look the
+# same from behind (turned by half a round) as well; the sixth is the bay's own. The robot has a map of all
+# 18. It sees posts within 2 m all round, but misses one in five. A sight is a range and a bearing
+# (σ = 0.03 m and 0.02 rad) and has **no name**: it does not say which post it is. Besides, a scan holds
+# 0.7 *phantoms* on average, which are no posts at all. A scan may also be empty.
 #
 # At some time somebody lifts the robot and sets it down elsewhere in the hall, turned however. The
 # wheels notice nothing of it.
@@ -344,7 +346,7 @@ def track(start, motions, sights, posts):
 
 # %% [markdown]
 # **Predict first.** After the lift, one scan fits a place in the left bay. In how many other places
-# does it fit as well? What tells them apart, and when?
+# does it fit as well, with which headings? What tells them apart, and when?
 #
 # **Your task.** A filter that notices it and finds itself again, given the pose at the start, which is
 # exact, the motions that the wheels tell, and the scans, each after a motion. Any method goes: try
@@ -352,8 +354,8 @@ def track(start, motions, sights, posts):
 #
 # The check lets it follow 24 drives of 30 readings in six halls. A reading strays if the position is
 # off by more than 0.3 m. As long as nobody lifts the robot, hardly any reading may stray. After that,
-# readings count from the third sight on of a post that no other bay has in this place, since nobody
-# can know the bay before; and the fewer of them stray, the more points there are.
+# readings count from the third sight on of a bay's own post, since nobody can know the bay before; and
+# the fewer of them stray, the more points there are. The numbers of this hall hold in all drives.
 
 
 # %% name="relocalise"
@@ -363,12 +365,13 @@ def relocalise(start, motions, sights, posts):
     start : (3,);  motions : (steps, 3);  sights : list of (k, 2) ranges and bearings, k may be 0
     posts : (n, 2);  returns (steps, 3), the pose after each motion and its scan
     """
+
     ### BEGIN SOLUTION
     def distinct(poses, scores):
         """Which poses are best, one of each place: some may have become one."""
         order = np.argsort(-scores)
         cells = np.round(5 * poses[order])
-        return order[np.sort(np.unique(cells, axis=0, return_index=True)[1])][:30]
+        return order[np.sort(np.unique(cells, axis=0, return_index=True)[1])][:20]
 
     poses, scores, found = start[None], np.zeros(1), []  # the best one first
     for motion, z in zip(motions, sights, strict=True):
@@ -400,16 +403,16 @@ check("12-relocalise")
 @attempt
 def _():
     rng = np.random.default_rng(3)
-    alike = np.array([[0.7, 0.6], [2.2, 0.9], [3.4, 2.0], [1.1, 3.2], [1.9, 2.1]])
-    own = [[0.5, 1.9], [7.3, 3.5], [10.6, 0.5]]
-    posts = np.concatenate([alike, alike + [4, 0], alike + [8, 0], own])
+    alike = np.array([[2.0, 2.0], [0.7, 0.6], [3.3, 3.4], [1.1, 2.9], [2.9, 1.1]])
+    own = [[0.5, 1.9], [6.0, 3.5], [11.6, 1.2]]
+    posts = np.concatenate([*(alike + np.array([x, 0]) for x in (0, 4, 8)), own])
     angle = np.linspace(np.pi, -np.pi / 2, 31)
     place = np.column_stack([6 + 5 * np.cos(angle), 2 + 1.2 * np.sin(angle)])
     ahead = np.diff(place, axis=0)
     truth = np.column_stack([place[:-1], np.arctan2(*ahead.T[::-1])])
     truth = np.concatenate([truth[:8], truth[15:]])
     motions, scans = [], []
-    for before, pose in zip(truth[:-1], truth[1:], strict=True):
+    for before, pose in pairwise(truth):
         c, s = np.cos(before[2]), np.sin(before[2])
         x, y = (pose - before)[:2]
         usual = len(motions) != 7  # in that step it was carried, and its wheels rolled on

@@ -1,7 +1,7 @@
-"""A hall of three bays that look alike, and drives in it, in which the robot is lifted away.
+"""A hall of bays that look alike, from behind as well, and drives in it: the robot is lifted away.
 
-Where it was is in no array. Two drives change places: one goes on where the other was when both were
-lifted. Each has a twin with the opposite errors of the wheels, so the judge knows all four ways.
+Where it was is in no array. Two drives change places: one goes on where the other was when both
+were lifted. Each has a twin with the opposite errors of the wheels, so the judge knows all four ways.
 """
 
 import numpy as np
@@ -9,7 +9,7 @@ import numpy as np
 from slamlab.geometry import between, compose, wrap
 
 BAYS, BAY = 3, 4.0  # how many, and how wide and deep each is [m]
-POSTS, OWN, APART = 6, 1, 1.1  # posts of a bay, how many of them no other has; least distance [m]
+ALIKE, APART, EDGE = 5, 0.7, 0.2  # posts that all bays have; least distances [m]
 REACH, SEEN, PHANTOMS = 2.0, 0.8, 0.7  # range [m], share seen of what is near, phantoms of a scan
 EYES, WHEELS = np.array([0.03, 0.02]), np.array([0.02, 0.01, 0.02])  # σ of a sight, of a step
 MOST = 14  # sights of a scan
@@ -73,17 +73,20 @@ def truth(i):
 
 
 def _posts(rng):
-    """The posts of all bays, in a random order: most stand in the same places in each of them."""
-    alike = _bay(rng, [], POSTS - OWN)
-    bays = [np.array(_bay(rng, alike, POSTS)) + [k * BAY, 0] for k in range(BAYS)]
+    """The posts of all bays, in a random order: all but one of each stand alike in every bay, and
+    look alike from behind.
+    """
+    pairs = [np.full(2, BAY / 2)]  # in the middle; then pairs, opposite each other
+    for place in rng.uniform(EDGE, BAY - EDGE, (2000, 2)):
+        if len(pairs) < ALIKE + 2 * BAYS and _apart(place, [*pairs, BAY - place]):
+            pairs += [place, BAY - place]
+    own = pairs[ALIKE::2]  # none is where another is, nor where it would be from behind
+    bays = [np.array([*pairs[:ALIKE], own[k]]) + np.array([k * BAY, 0]) for k in range(BAYS)]
     return rng.permutation(np.concatenate(bays))
 
 
-def _bay(rng, posts, count):
-    for place in rng.uniform(0.2, BAY - 0.2, (1000, 2)):
-        if len(posts) < count and all(np.hypot(*(place - post)) > APART for post in posts):
-            posts = [*posts, place]
-    return posts
+def _apart(place, others):
+    return all(np.hypot(*(place - other)) > APART for other in others)
 
 
 def _way(rng):

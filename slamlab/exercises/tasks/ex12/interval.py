@@ -43,7 +43,7 @@ def _chances(n):
 
 def coverage(bounds):
     """(shares,) probability that the interval of what is counted holds the true share."""
-    held = (bounds[:, :1] <= SHARES) & (SHARES <= bounds[:, 1:])
+    held = (bounds[:, :1] <= SHARES) & (bounds[:, 1:] >= SHARES)
     return np.sum(held * _chances(len(bounds) - 1), axis=0)
 
 
@@ -58,7 +58,7 @@ def _most(n):
 def _inside(i, o):
     low, high = o["result"].T
     share = i["k"] / i["n"]
-    return (-SLACK <= low) & (low <= share + SLACK) & (share - SLACK <= high) & (high <= 1 + SLACK)
+    return (low >= -SLACK) & (low <= share + SLACK) & (share - SLACK <= high) & (high <= 1 + SLACK)
 
 
 def _doubtful(i, o):
@@ -92,8 +92,8 @@ def _why_covers(i, o):
     found = {n: coverage(bounds) for n, bounds in _tables(i, o).items()}
     n, c = max(found.items(), key=lambda pair: abs(pair[1].mean() - 0.95) + 0.95 - pair[1].min())
     return (
-        f"With {n} run{'s' * (n > 1)} it holds the true share in {c.mean():.1%} of the studies on average, and "
-        f"in {c.min():.1%} if that share is {SHARES[np.argmin(c)]:.1%}."
+        f"With {n} run{'s' * (n > 1)} it holds the true share in {c.mean():.1%} of the studies on "
+        f"average, and in {c.min():.1%} if that share is {SHARES[np.argmin(c)]:.1%}."
     )
 
 

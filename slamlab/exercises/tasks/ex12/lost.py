@@ -21,7 +21,9 @@ def runs(rng, count=26, steps=40):
     dict of errors (count, steps), limit (count,)
     """
     limit = rng.uniform(0.08, 0.3, count)
-    near, far = (limit[:, None] * rng.uniform(*of, (count, steps)) for of in ((0.1, 0.95), (1.05, 4)))
+    near, far = (
+        limit[:, None] * rng.uniform(*of, (count, steps)) for of in ((0.1, 0.95), (1.05, 4))
+    )
     away, kinds = np.zeros((count, steps), dtype=bool), rng.permutation(np.arange(count) % 5)
     for row, kind in zip(away, kinds, strict=True):
         begin, length = rng.integers(steps // 10, steps // 3), rng.integers(2, steps // 5)
@@ -64,8 +66,13 @@ PROBES = (
     Probe("one reading", _of([0.5], [2.0], [0.3])),
     Probe("two readings", _of([0.5, 0.6], [2.0, 3.0], [0.3, 2.0], [2.0, 0.4])),
     Probe("a run that is lost with its last reading", _of([0.2, 0.3, 0.5, 2], [2, 3, 0.5, 4])),
-    Probe("a run that is near at the begin only", _of([0.2, 3.1, 2.2, 1.5, 2], [0.1, 2, 4, 3, 2.5])),
-    Probe("an error that equals the limit", _of([2, 1, 3, 4], [1, 1, 1, 1], [2, 3, 4, 1], [1, 2, 2, 3])),
+    Probe(
+        "a run that is near at the begin only", _of([0.2, 3.1, 2.2, 1.5, 2], [0.1, 2, 4, 3, 2.5])
+    ),
+    Probe(
+        "an error that equals the limit",
+        _of([2, 1, 3, 4], [1, 1, 1, 1], [2, 3, 4, 1], [1, 2, 2, 3]),
+    ),
     Probe("whole numbers", _of([1, 3, 2, 3, 4], [3, 3, 4, 5, 3], [0, 4, 1, 0, 2], whole=True)),
     Probe("a long run", lambda rng: runs(rng, 5, 400)),
 )

@@ -54,13 +54,18 @@ def _with(rng, **changes):
 
 
 PROBES = (
-    Probe("as many ticks left as right", lambda r: _with(r, right=lambda g: g["left"]), ("straight",)),
+    Probe(
+        "as many ticks left as right", lambda r: _with(r, right=lambda g: g["left"]), ("straight",)
+    ),
     Probe(
         "one tick more on one side",
         lambda r: _with(r, right=lambda g: g["left"] + np.resize([1, -1], 6)),
         ("straight",),
     ),
-    Probe("wheels that stand still", lambda r: _with(r, left=lambda g: 0 * g["left"], right=lambda g: 0 * g["left"])),
+    Probe(
+        "wheels that stand still",
+        lambda r: _with(r, left=lambda g: 0 * g["left"], right=lambda g: 0 * g["left"]),
+    ),
     Probe("ticks against each other", lambda r: _with(r, right=lambda g: -g["left"])),
     Probe("one wheel that stands still", lambda r: _with(r, left=lambda g: 0 * g["left"])),
     Probe("more than a whole round", lambda rng: encoders(rng, 6, turn=(6.5, 15))),

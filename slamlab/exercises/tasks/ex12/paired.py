@@ -98,7 +98,11 @@ def _whole(rng):
 COIN, OUT = ("coins",), ("left out",)
 PROBES = (
     *(
-        Probe(f"{n} drives on which nobody strays", lambda rng, n=n: studies(rng, n, 6, 0, rows=3), COIN)
+        Probe(
+            f"{n} drives on which nobody strays",
+            lambda rng, n=n: studies(rng, n, 6, 0, rows=3),
+            COIN,
+        )
         for n in (6, 7, 8, 9, 11, 12, 14, 17, 18, 25, 40, 80, 101)
     ),
     Probe("one reading a drive", lambda rng: studies(rng, 13, 1), COIN),

@@ -1,4 +1,4 @@
-"""Task 12-relocalise: a filter that notices that it is lost and finds itself again; any method goes.
+"""Task 12-relocalise: a filter that notices that it is lost and finds itself again, in any way.
 
 What counts after the robot was lifted is what a filter can know: from the third sight on of a post
 that no other bay has in this place.
@@ -73,7 +73,8 @@ def _step(name, points, most, asks):
     )
 
 
-# TAIL: the share that is lost: see the numbers of the solution and of weaker ways below
+# Behind each limit, what was reached: the usual filter loses all; one that goes where a single scan
+# fits 0.13 to 0.5, mostly 0.25; the solution TAIL.
 STEPS = (
     _step(
         "notices",
@@ -92,9 +93,9 @@ STEPS = (
     _step(
         "decides",
         2,
-        0.07,
-        "The bays look alike. If two places explain all that was seen so far, what should be known "
-        "of both of them when the first post comes that only one of them explains?",
+        0.05,
+        "The bays look alike, and alike from behind. If two places explain all that was "
+        "seen so far, what should be known of both of them when the first post comes that only one of them explains?",
     ),
 )
 
@@ -111,29 +112,29 @@ RELOCALISE = Task(
             f"as long as nobody lifts the robot, 98 % of the readings are within {LIMIT} m",
             kept,
             why=_why_kept,
-            asks="What does the ready track do with a sight that is near no post? What would happen "
-            "if each such sight made a filter look elsewhere?",
+            asks="What does the ready track do with a sight that is near no post? What would "
+            "happen if each such sight made a filter look elsewhere?",
         ),
         *STEPS,
     ),
     diagnoses=(
         Diagnosis(
             "never-notices",
-            "After the lift the filter goes on as if nothing had happened: nearly all it sees is near "
-            "no post, and it does not mind.",
+            "After the lift the filter goes on as if nothing had happened: nearly all it sees is "
+            "near no post, and it does not mind.",
             lambda i, o: kept(i, o) and lost(i, o) > 0.9,
         ),
         Diagnosis(
             "jumps",
-            "It loses its place although nobody lifts the robot: a scan with some phantoms is enough "
-            "to make it jump. How much better must another place be, and for how long?",
+            "It loses its place although nobody lifts the robot: a scan with some phantoms is "
+            "enough to make it jump. How much better must another place be, and for how long?",
             lambda i, o: not kept(i, o) and lost(i, o) < 0.9,
         ),
         Diagnosis(
             "wrong-bay",
             "In some drives it settles in the wrong bay, which looks like the right one, and stays "
             "there. One scan cannot decide this: what do you know of the other places that fitted?",
-            lambda i, o: kept(i, o) and lost(i, o) > 0.07,
+            lambda i, o: kept(i, o) and lost(i, o) > 0.05,
         ),
     ),
     rounds=False,
