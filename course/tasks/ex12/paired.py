@@ -31,7 +31,6 @@ def compare(errors_a, errors_b, limit):
 """,
     "the p-value between neighbours": """
 def compare(errors_a, errors_b, limit):
-    from scipy.stats import binomtest
     d = []
     for a, b in zip(errors_a.tolist(), errors_b.tolist()):
         x = y = n = 0
@@ -42,11 +41,10 @@ def compare(errors_a, errors_b, limit):
         if n:
             d.append((x / n) ** 0.5 - (y / n) ** 0.5)
     d.sort()
-    right = [
-        (low, high)
-        for low, high in zip(d, d[1:])
-        if binomtest(sum(e < (low + high) / 2 for e in d), len(d)).pvalue > 0.05
-    ]
+    from scipy.stats import binom
+    below = np.arange(1, len(d))
+    p = 2 * binom.cdf(np.minimum(below, len(d) - below), len(d), 0.5)
+    right = [(low, high) for low, high, each in zip(d, d[1:], p) if each > 0.05]
     return [right[0][0], right[-1][1]]
 """,
     "by drives in whole numbers": """

@@ -145,11 +145,6 @@ SLIPS = (
         (PENALTY, "0.0"),
     ),
     Slip(
-        "newcomers-hopeless",
-        "A newcomer can never catch up with the old place: how many scans that do not fit should be enough?",
-        (PENALTY, "scores[0] - 1000"),
-    ),
-    Slip(
         "one-rival",
         "Too few of the guesses are followed: the right one is often not among the very best of one scan.",
         (BEST, "[:1]"),

@@ -1,7 +1,7 @@
 """A hall of bays that look alike, from behind as well, and drives in it: the robot is lifted away.
 
 Where it was is in no array. Two drives change places: one goes on where the other was when both
-were lifted. Each has a twin with the opposite errors of the wheels, so the judge knows all four ways.
+were lifted. Each has a twin with the opposite errors of the wheels, so the judge knows both ways.
 """
 
 import numpy as np

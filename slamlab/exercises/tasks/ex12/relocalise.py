@@ -14,7 +14,7 @@ from slamlab.exercises.tasks.ex12 import hall
 LIMIT = 0.3  # beyond it a filter strays [m]
 CERTAIN = 3  # sights of posts that no other bay has
 NEAR = 0.2  # of a post: its sight [m]
-KEPT = 0.02
+KEPT = 0.05  # the solution: mostly 0, 0.033 at most
 
 
 def strayed(i, o):
@@ -73,8 +73,8 @@ def _step(name, points, most, asks):
     )
 
 
-# Behind each limit, what was reached: the usual filter loses all; one that goes where a single scan
-# fits 0.13 to 0.5, mostly 0.25; the solution TAIL.
+# What is reached, with 150 seeds: the usual filter loses all; filters that go where a single scan
+# fits best lose 7 to 50 %, mostly 25 %; the solution loses 0, and 4.4 % at most.
 STEPS = (
     _step(
         "notices",
@@ -93,9 +93,9 @@ STEPS = (
     _step(
         "decides",
         2,
-        0.05,
-        "The bays look alike, and alike from behind. If two places explain all that was "
-        "seen so far, what should be known of both of them when the first post comes that only one of them explains?",
+        0.08,
+        "The bays look alike, from behind as well. If two places explain all that was seen so far, "
+        "what should be known of both when the first post comes that only one of them explains?",
     ),
 )
 
@@ -109,7 +109,7 @@ RELOCALISE = Task(
         Law(
             "keeps",
             0.5,
-            f"as long as nobody lifts the robot, 98 % of the readings are within {LIMIT} m",
+            f"as long as nobody lifts the robot, 95 % of the readings are within {LIMIT} m",
             kept,
             why=_why_kept,
             asks="What does the ready track do with a sight that is near no post? What would "
@@ -134,7 +134,7 @@ RELOCALISE = Task(
             "wrong-bay",
             "In some drives it settles in the wrong bay, which looks like the right one, and stays "
             "there. One scan cannot decide this: what do you know of the other places that fitted?",
-            lambda i, o: kept(i, o) and lost(i, o) > 0.05,
+            lambda i, o: kept(i, o) and lost(i, o) > 0.08,
         ),
     ),
     rounds=False,
