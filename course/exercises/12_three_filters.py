@@ -371,7 +371,7 @@ def relocalise(start, motions, sights, posts):
         """Which poses are best, one of each place: some may have become one."""
         order = np.argsort(-scores)
         cells = np.round(5 * poses[order])
-        return order[np.sort(np.unique(cells, axis=0, return_index=True)[1])][:20]
+        return order[np.sort(np.unique(cells, axis=0, return_index=True)[1])][:30]
 
     poses, scores, found = start[None], np.zeros(1), []  # the best one first
     for motion, z in zip(motions, sights, strict=True):

@@ -100,7 +100,7 @@ PASTED = {
 }
 
 PENALTY = "scores[0] - 12"
-BEST = "[:20]"
+BEST = "[:30]"
 
 SLIPS = (
     Slip(
@@ -148,11 +148,6 @@ SLIPS = (
         "one-rival",
         "Too few of the guesses are followed: the right one is often not among the very best of one scan.",
         (BEST, "[:1]"),
-    ),
-    Slip(
-        "never-corrected",
-        "The sights only choose among the places, and do not correct them: each drifts off with the wheels.",
-        ("poses = corrected(compose(poses, motion), z, posts)", "poses = compose(poses, motion)"),
     ),
     Slip(
         "worst-first",

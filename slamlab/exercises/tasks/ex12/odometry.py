@@ -68,7 +68,7 @@ PROBES = (
     ),
     Probe("ticks against each other", lambda r: _with(r, right=lambda g: -g["left"])),
     Probe("one wheel that stands still", lambda r: _with(r, left=lambda g: 0 * g["left"])),
-    Probe("more than a whole round", lambda rng: encoders(rng, 6, turn=(6.5, 15))),
+    Probe("more than a whole round", lambda rng: encoders(rng, 6, turn=(6.5, 10))),
     Probe("a large robot", lambda rng: encoders(rng, 6, (4, 9), tick=(0.01, 0.03), base=(1, 2))),
     Probe("one drive", lambda rng: encoders(rng, 1)),
 )
