@@ -1,24 +1,30 @@
 # %% [markdown]
 # # Exercise 12 · Three filters, one robot
 #
-# **You will be able to** turn the ticks of two encoders into a motion, follow a wall with one
-# infrared eye, say from when on a run is lost, and say how sure a share of lost runs is.
+# **You will be able to** turn the ticks of two encoders into a motion, say from when on a run is
+# lost, say how sure a share of lost runs is, compare two filters drive by drive, and write a filter
+# that notices that it is lost and finds itself again.
 #
 # **60 minutes. Before:** lesson [12 · Three filters, one robot](../notebooks/12_three_filters.ipynb).
 #
 # Replace each `raise NotImplementedError(...)` by your code, run the cell, then run the check below
-# it, as often as you like. A check tries random inputs and says which law is broken, and what the
-# mistake is where it knows it.
+# it, as often as you like. A check draws random inputs, tells you which law is broken, and what the
+# mistake is where it knows it. When you are stuck, `hint("12-odometry")` asks a question that leads
+# on.
 #
-# Metres and radians; a motion is `[x, y, θ]` in the frame of the pose before it.
+# Metres and radians; a motion is `[x, y, θ]` in the frame of the pose before it. A function may not
+# change its arguments: whoever called it still needs them.
 
 # %%
+from itertools import pairwise
+from math import comb
+
 import numpy as np
 
-from slamlab import views, worlds
+from slamlab import views
 from slamlab.checks import attempt, check
-from slamlab.geometry import compose
-from slamlab.layers import Poses, Segments
+from slamlab.geometry import compose, wrap
+from slamlab.layers import Points, Poses
 
 # %% [markdown]
 # ## 1 · From ticks to a motion
@@ -27,8 +33,14 @@ from slamlab.layers import Poses, Segments
 # evenly: `left` and `right` ticks, each of `tick` metres. Its middle then drives an arc of length
 # $d = (l + r)/2$ and turns by $\Delta\theta = (r - l)/\text{base}$, all the while.
 #
-# Where is it at the end? The lesson has the chord of that arc: how long it is, and where it points.
-# **Mind** the robot that drives straight on: what is sin 0 / 0 to your computer?
+# The lesson has the chord of that arc: how long it is, and where it points.
+#
+# **Predict first.** The robot turns by a quarter of a round while it drives one metre. Does it end
+# up one metre from where it was? And what is sin 0 / 0 to your computer, when it drives straight on?
+#
+# **Your task.** Where is it at the end, and by how much has it turned? Ticks are whole numbers, negative
+# for a wheel that rolls backwards, and any of them may be zero. One tick more on one side counts. The
+# robot may turn by more than a whole round; whether you wrap θ is up to you.
 
 
 # %% name="odometry"
@@ -70,75 +82,17 @@ def _():
 # It winds itself up to the left: each step turns a little more than the one before.
 
 # %% [markdown]
-# ## 2 · The follower decides
+# ## 2 · Lost, and since when
 #
-# The robot keeps a wall on its left. Its scanner looks 45° to the left and reads a range (`inf`
-# where nothing comes back). The rules of the thesis' listing, mended:
+# You know how far a filter's position was off, reading by reading. A run **strays** where that is
+# beyond a limit; an error that equals the limit is not beyond it. A run is **lost** if it is beyond
+# the limit at the end, and it was lost *from the first reading on from which it never came back*.
 #
-# 1. After a **scan**: turn **left** as long as the reading is beyond 0.25 m.
-# 2. Then turn **right** as long as it is below 0.18 m.
-# 3. Then **drive** as long as less than 0.04 m are driven *and* the reading is beyond 0.18 m.
-# 4. Then stop and **scan**.
+# **Predict first.** A run strays three times and comes back twice. Which of its readings beyond the
+# limit says since when it is lost?
 #
-# The loops stand one behind the other: what was left is not entered again before the next scan.
-# Write this as a decision: what is being done now, what is read, how far the present drive has
-# come; what is to be done next?
-
-
-# %% name="decide"
-def decide(doing, reading, driven):
-    """What the robot does next: "scan", "left", "right" or "drive".
-
-    doing : what it has been doing, one of these four;  reading : 45° to the left [m], maybe inf
-    driven : since the present drive began [m], 0 when it does not drive
-    """
-    ### BEGIN SOLUTION
-    if doing in ("scan", "left") and reading > 0.25:
-        return "left"
-    if doing != "drive":
-        return "right" if reading < 0.18 else "drive"
-    return "drive" if driven < 0.04 and reading > 0.18 else "scan"
-    ### END SOLUTION
-
-
-# %%
-check("12-decide")
-
-# %% [markdown]
-# Your decisions at the wheel, in the arena of cardboard boxes. The sensor here is perfect.
-# **Before you run it:** which way round will the robot go?
-
-
-# %% name="drive"
-@attempt
-def _():
-    arena, doing, driven, poses = worlds.arena(), "scan", 0.0, [np.zeros(3)]
-    for _ in range(700):
-        x, y, theta = poses[-1]
-        reading = arena.cast((x, y), [theta + np.pi / 4])[0]
-        doing = decide(doing, reading if reading < 0.28 else np.inf, driven)
-        step = {"left": [0, 0, 0.1], "right": [0, 0, -0.1], "drive": [0.01, 0, 0]}
-        poses.append(compose(poses[-1], step.get(doing, [0, 0, 0])))
-        driven = driven + 0.01 if doing == "drive" else 0.0
-    fig, ax = views.axes("Along the left wall", size=(6, 4.6))
-    views.draw(ax, Segments("walls", arena.outline()))
-    views.draw(ax, Poses("truth", poses), label="your robot")
-    views.legend(ax)
-    views.show(fig, alt="The arena of boxes and the track of the robot in it.")
-
-
-# %% [markdown]
-# Clockwise, about 15 cm off the wall and round its corners. If it turns on the spot or runs into a
-# wall, the check above says why.
-
-# %% [markdown]
-# ## 3 · Lost, and since when
-#
-# How far a filter's position is off, reading by reading. A run **strays** where that is beyond a
-# limit. It is **lost** if it is beyond the limit at the end, and it was lost *from the first
-# reading on from which it never came back*.
-#
-# Return the number of that reading, counted from 0, or −1 if the run is not lost.
+# **Your task.** Return the number of that reading, counted from 0, or −1 if the run is not lost. A run
+# has at least one reading.
 
 
 # %% name="lost-since"
@@ -182,24 +136,29 @@ def _():
 # on that it crosses the limit.
 
 # %% [markdown]
-# ## 4 · How sure is a share?
+# ## 3 · How sure is a share?
 #
 # Of n runs, k were lost. The share k/n is only an estimate of the true share p. Return an interval
-# that holds p in 95 % of all studies.
+# that holds p in about 95 % of all studies.
 #
 # If p is the true share, k/n scatters by $\sqrt{p\,(1-p)/n}$ about it. So hold every p for possible
-# whose k/n is at most z = 1.96 such deviations off:
+# for which k/n is at most z = 1.96 such deviations off:
 #
 # $$\Big(\frac kn - p\Big)^2 \le z^2\,\frac{p\,(1-p)}{n}$$
 #
-# It is a quadratic inequality: its two ends are what is asked for.
+# It is a quadratic inequality, and its two ends are what is asked for.
+#
+# **Predict first.** None of six runs was lost. Is p = 0 then?
+#
+# **Your task.** The two ends, the lower one first. There is at least one run and there may be hundreds of
+# thousands; none of them may be lost, or all. (Another interval will do as well, if it is as honest.)
 
 
 # %% name="interval"
 def interval(k, n):
     """The 95 % interval of a share of which k in n were counted.
 
-    k, n : whole numbers, 0 ≤ k ≤ n;  returns low, high
+    k, n : whole numbers, 0 ≤ k ≤ n, 1 ≤ n;  returns low, high
     """
     ### BEGIN SOLUTION
     z = 1.96
@@ -228,3 +187,253 @@ def _():
 # %% [markdown]
 # "Once in six" may be anything from one in thirty to more than half. That is why the thesis' author
 # says himself that six sets are too few, and why the lesson drives eighty times.
+
+# %% [markdown]
+# ## 4 · Two filters on the same drives
+#
+# Which filter is the nearer one? The lesson compares two on the *same* drive until either of them
+# strays, and takes differences. The median of these differences is known as badly as a share is: you
+# have some drives, not all. How sure is it?
+#
+# Take up the idea of task 3. Suppose that the true median is m. Then on each drive the difference
+# falls below m as a coin falls on heads: with probability ½, whatever the differences look like. Of n
+# coins, K are heads, and
+#
+# $$P(K = k) = \binom nk \frac 1{2^n}$$
+#
+# Count how many of your n differences lie below m. Hold m for possible unless so few of them, or
+# fewer, happen in at most 2.5 % of all studies, or so many, or more.
+#
+# **Predict first.** Of six differences none lies below m. Is such an m possible? And if one does? As
+# m grows from the smallest difference to the largest, where can the answer change at all?
+#
+# **Your task.** The ends of all m that are possible, the lower one first.
+#
+# 1. On each drive, compare both filters up to the reading *before* the first one at which either of
+#    them is beyond the limit (an error that equals it is not). What comes later does not count, even
+#    if they come back.
+# 2. The difference of a drive is the root mean square (RMS) of A's errors in these readings less that
+#    of B's.
+# 3. A drive on which one of them is beyond the limit at the first reading says nothing: leave it out.
+#
+# There is at least one reading a drive, and at least six drives are left. No two differences are equal.
+
+
+# %% name="compare"
+def compare(errors_a, errors_b, limit):
+    """The 95 % interval of the median difference of two filters on the same drives.
+
+    errors_a, errors_b : (drives, readings) [m];  limit : [m];  returns low, high [m]
+    """
+    ### BEGIN SOLUTION
+    differences = []
+    for a, b in zip(errors_a, errors_b, strict=True):
+        strayed = np.flatnonzero((a > limit) | (b > limit))
+        end = strayed[0] if len(strayed) else len(a)
+        if end > 0:
+            differences.append(np.sqrt(np.mean(a[:end] ** 2)) - np.sqrt(np.mean(b[:end] ** 2)))
+    d, n = np.sort(differences), len(differences)
+    chances = np.cumsum([comb(n, k) / 2**n for k in range(n + 1)])
+    few = np.sum(chances <= 0.025)  # so many numbers of heads, from 0 on, are too few
+    return d[few - 1], d[n - few]
+    ### END SOLUTION
+
+
+# %%
+check("12-paired")
+
+# %% [markdown]
+# Two made-up filters on the same drives, some of which are hard for both. **Before you run it:** B is
+# better by 1 cm on a typical drive. How many drives will it take until you can tell?
+
+
+# %% name="how-many-drives"
+@attempt
+def _():
+    rng, counts, ends = np.random.default_rng(7), [6, 10, 20, 40, 80, 160], []
+    hard = rng.uniform(0.02, 0.12, (160, 1))
+    errors_b = hard * rng.uniform(0.5, 1.5, (160, 50))
+    errors_a = errors_b + 0.01 + rng.normal(0, 0.025, (160, 1)).clip(-0.015)
+    for n in counts:
+        ends.append([100 * end for end in compare(errors_a[:n], errors_b[:n], 1.0)])
+    low, high = np.transpose(ends)
+    shown = {"upper end": high, "lower end": low, "zero": np.zeros(len(counts))}
+    fig, ax = views.curves(counts, shown, "drives", "A less B [cm]", "Your interval of the median")
+    ax.set_xscale("log")
+    views.show(fig, alt="The interval narrows as drives are added; its lower end rises above zero.")
+
+
+# %% [markdown]
+# Both errors vary by ten centimetres from drive to drive, but that has dropped out: each drive was
+# hard for both filters, or easy for both.
+
+# %% [markdown]
+# ## 5 · Make it better: lost, and found again
+#
+# A robot drives through a hall of three bays, 4 m by 4 m each, side by side: the hall is 12 m long
+# and 4 m wide. Each bay has six posts. Five of them stand in the same places in every bay, and look the
+# same from behind (turned by half a round) as well; the sixth is the bay's own. The robot has a map of all
+# 18. It sees posts within 2 m all round, but misses one in five. A sight is a range and a bearing
+# (σ = 0.03 m and 0.02 rad) and has **no name**: it does not say which post it is. Besides, a scan holds
+# 0.7 *phantoms* on average, which are no posts at all. A scan may also be empty.
+#
+# At some time somebody lifts the robot and sets it down elsewhere in the hall, turned however. The
+# wheels notice nothing of it.
+#
+# These tools are ready. They take many poses at once, (n, 3), since who is lost has to look at more
+# than one.
+
+# %% name="tools"
+HALL = np.array([12.0, 4.0])  # [m]
+
+
+def offsets(poses, sights, posts):
+    """From each pose to where each sight lies, and from there to the nearest post: (2, n, k) both."""
+    turned = poses[:, 2:] + sights[:, 1]
+    arm = np.stack([sights[:, 0] * np.cos(turned), sights[:, 0] * np.sin(turned)])
+    place = arm + poses.T[:2, :, None]
+    dx, dy = posts.T[:, None, None] - place[..., None]
+    nearest = np.argmin(dx * dx + dy * dy, axis=2)
+    return arm, posts.T[:, nearest] - place
+
+
+def fit(poses, sights, posts):
+    """How well a scan fits each pose (n,): the logarithm of its likelihood, 0 at the best.
+
+    A sight counts 0 where it hits a post, and −4.6 where it is far from any, as a phantom is.
+    """
+    _, (dx, dy) = offsets(poses, sights, posts)
+    return np.log(0.01 + np.exp(-(dx * dx + dy * dy) / 2 / 0.08**2)).sum(axis=1)
+
+
+def corrected(poses, sights, posts):
+    """Each pose (n, 3) after an update with those sights that are within 0.3 m of a post."""
+    (ax, ay), (dx, dy) = offsets(poses, sights, posts)
+    w = 400.0 * (dx * dx + dy * dy < 0.3**2)
+    L, b = np.zeros((len(poses), 3, 3)), np.zeros((len(poses), 3, 1))
+    L[:, 0, 0] = L[:, 1, 1] = 400 + w.sum(axis=1)
+    L[:, 0, 2] = L[:, 2, 0] = -(w * ay).sum(axis=1)
+    L[:, 1, 2] = L[:, 2, 1] = (w * ax).sum(axis=1)
+    L[:, 2, 2] = 900 + (w * (ax * ax + ay * ay)).sum(axis=1)
+    b[:, 0, 0], b[:, 1, 0] = (w * dx).sum(axis=1), (w * dy).sum(axis=1)
+    b[:, 2, 0] = (w * (ax * dy - ay * dx)).sum(axis=1)
+    return poses + np.linalg.solve(L, b)[:, :, 0]
+
+
+def guesses(sights, posts):
+    """All poses in the hall (n, 3) from which some two of the sights would be two posts."""
+    x, y = sights[:, 0] * np.cos(sights[:, 1]), sights[:, 0] * np.sin(sights[:, 1])
+    i, j = np.triu_indices(len(sights), 1)
+    a, b = np.nonzero(~np.eye(len(posts), dtype=bool))
+    (sx, sy), (px, py) = (x[j] - x[i], y[j] - y[i]), (posts[b] - posts[a]).T
+    seen, real = np.nonzero(np.abs(np.hypot(sx, sy)[:, None] - np.hypot(px, py)) < 0.1)
+    theta = wrap(np.arctan2(py[real], px[real]) - np.arctan2(sy[seen], sx[seen]))
+    c, s = np.cos(theta), np.sin(theta)
+    mx, my = (x[i] + x[j])[seen] / 2, (y[i] + y[j])[seen] / 2
+    middle = (posts[a] + posts[b])[real] / 2
+    at = middle - np.column_stack([c * mx - s * my, s * mx + c * my])
+    return np.column_stack([at, theta])[((at > 0) & (at < HALL)).all(axis=1)]
+
+
+def track(start, motions, sights, posts):
+    """The usual filter: it believes each sight to be the nearest post, if one is near."""
+    pose, found = start[None], []
+    for motion, z in zip(motions, sights, strict=True):
+        pose = corrected(compose(pose, motion), z, posts)
+        found.append(pose[0])
+    return np.array(found)
+
+
+# %% [markdown]
+# **Predict first.** After the lift, one scan fits a place in the left bay. In how many other places
+# does it fit as well, with which headings? What tells them apart, and when?
+#
+# **Your task.** A filter that notices it and finds itself again, given the pose at the start, which is
+# exact, the motions that the wheels tell, and the scans, each after a motion. Any method goes: try
+# again from many poses, follow several at once, weigh samples, look back.
+#
+# The check lets it follow 24 drives of 30 readings in six halls. A reading strays if the position is
+# off by more than 0.3 m. As long as nobody lifts the robot, hardly any reading may stray. After that,
+# readings count from the third sight on of a bay's own post, since nobody can know the bay before; and
+# the fewer of them stray, the more points there are. The numbers of this hall hold in all drives.
+
+
+# %% name="relocalise"
+def relocalise(start, motions, sights, posts):
+    """The poses of a drive in which the robot is lifted and set down elsewhere.
+
+    start : (3,);  motions : (steps, 3);  sights : list of (k, 2) ranges and bearings, k may be 0
+    posts : (n, 2);  returns (steps, 3), the pose after each motion and its scan
+    """
+
+    ### BEGIN SOLUTION
+    def distinct(poses, scores):
+        """Which poses are best, one of each place: some may have become one."""
+        order = np.argsort(-scores)
+        cells = np.round(5 * poses[order])
+        return order[np.sort(np.unique(cells, axis=0, return_index=True)[1])][:30]
+
+    poses, scores, found = start[None], np.zeros(1), []  # the best one first
+    for motion, z in zip(motions, sights, strict=True):
+        poses = corrected(compose(poses, motion), z, posts)
+        fits = fit(poses, z, posts)
+        if fits[0] < -1.5 * len(z):  # many phantoms, or elsewhere: other places may be as good
+            others = guesses(z, posts)
+            others = corrected(others[distinct(others, fit(others, z, posts))], z, posts)
+            poses = np.concatenate([poses, others])
+            scores = np.append(scores, np.full(len(others), scores[0] - 12))  # lifts are rare
+            fits = np.append(fits, fit(others, z, posts))
+        scores = scores + fits
+        best = distinct(poses, scores)
+        poses, scores = poses[best], scores[best]
+        found.append(poses[0])
+    return np.array(found)
+    ### END SOLUTION
+
+
+# %%
+check("12-relocalise")
+
+# %% [markdown]
+# One drive through such a hall, in which the robot is lifted out of the left bay. **Before you run
+# it:** where will the ready `track` believe to be after that, and what will yours do?
+
+
+# %% name="lifted"
+@attempt
+def _():
+    rng = np.random.default_rng(3)
+    alike = np.array([[2.0, 2.0], [0.7, 0.6], [3.3, 3.4], [1.1, 2.9], [2.9, 1.1]])
+    own = [[0.5, 1.9], [6.0, 3.5], [11.6, 1.2]]
+    posts = np.concatenate([*(alike + np.array([x, 0]) for x in (0, 4, 8)), own])
+    angle = np.linspace(np.pi, -np.pi / 2, 31)
+    place = np.column_stack([6 + 5 * np.cos(angle), 2 + 1.2 * np.sin(angle)])
+    ahead = np.diff(place, axis=0)
+    truth = np.column_stack([place[:-1], np.arctan2(*ahead.T[::-1])])
+    truth = np.concatenate([truth[:8], truth[15:]])
+    motions, scans = [], []
+    for before, pose in pairwise(truth):
+        c, s = np.cos(before[2]), np.sin(before[2])
+        x, y = (pose - before)[:2]
+        usual = len(motions) != 7  # in that step it was carried, and its wheels rolled on
+        told = [c * x + s * y, c * y - s * x, wrap(pose[2] - before[2])] if usual else [0.4, 0, 0]
+        motions.append(told + rng.normal(0, [0.02, 0.01, 0.02]))
+        off = posts - pose[:2]
+        z = np.column_stack([np.hypot(*off.T), np.arctan2(off[:, 1], off[:, 0]) - pose[2]])
+        z = z[(z[:, 0] < 2) & (rng.random(len(z)) < 0.8)]
+        phantoms = rng.uniform([0.5, -3], [2, 3], (rng.poisson(0.7), 2))
+        scans.append(np.concatenate([z + rng.normal(0, [0.03, 0.02], z.shape), phantoms]))
+    given = truth[0], np.array(motions), scans, posts
+    fig, ax = views.axes("Lifted out of the left bay", size=(9, 3.8))
+    views.draw(ax, Points("landmark", posts), label="posts")
+    views.draw(ax, Poses("truth", truth[:8]), label="truth")
+    views.draw(ax, Poses("truth", truth[8:]))
+    views.draw(ax, Poses("naive", track(*given)), label="track")
+    views.draw(ax, Poses("corrected", relocalise(*given)), label="yours")
+    views.legend(ax)
+    views.show(fig, alt="Posts of three bays, the true way in two pieces, both filters' ways.")
+
+
+# %% [markdown]
+# `track` goes on where nobody is. Yours has to jump, once, and then stay. Slips in the lesson were cured
+# in the same way, by walls that are in sight and samples that are weighed for fifteen scans.

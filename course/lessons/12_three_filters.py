@@ -973,7 +973,7 @@ Markdown(head + "\n".join(f"| {finding} | {answer} |" for finding, answer in jud
 # the boxes and the sets throw them away. And what a filter can do for a robot ends where its
 # landmarks end: corners that one scan in three shows are too few to be found again by.
 #
-# **Exercise:** [odometry, the follower, lost or not, and how sure is a
-# share](../exercises/ex12_three_filters.ipynb).
+# **Exercise:** [odometry, lost or not, how sure is a share, two filters on the same drives, and lost
+# and found again](../exercises/ex12_three_filters.ipynb).
 #
 # **Next:** [lesson 13](13_scan_matching.ipynb) does without landmarks altogether.

@@ -1,0 +1,1 @@
+"""Programs of exercise 12, three filters and one robot."""
