@@ -9,6 +9,7 @@ endif
 
 ENV = .venv-test
 RUN = PATH="$(CURDIR)/$(ENV)/bin:$$PATH" $(ENV)/bin/python -m
+FAULTS = $(ENV)/figure_faults.txt
 # one worker a core of a small machine; the cells of a notebook must stay on one worker
 PYTEST = $(RUN) pytest -n 2 --dist loadfile
 
@@ -19,7 +20,10 @@ lab:  ## Set up and open the course; LAB_ARGS="--no-browser --port 9999" go to J
 
 test: lint clients  ## Set up and run every test; TEST_ARGS go to pytest
 	$(PYTEST) -m "not soak and not walk" $(TEST_ARGS)
-	PYTHONHASHSEED=0 $(RUN) pytest @tests/notebooks/nbval.args notebooks exercises solutions
+	rm -f $(FAULTS)
+	PYTHONHASHSEED=0 SLAMLAB_FIGURE_FAULTS="$(CURDIR)/$(FAULTS)" \
+		$(RUN) pytest @tests/notebooks/nbval.args notebooks exercises solutions
+	$(RUN) course.figure_faults $(FAULTS)
 
 test-all: test  ## Also walk through every notebook in a real browser
 	$(RUN) pytest -m walk tests/browser

@@ -5,6 +5,7 @@ Drawing takes plain arrays (:mod:`slamlab.layers`): it computes no pose and no m
 Read in this order:
 
 - ``figures``: axes and colours; ``layer_drawing``: what an estimator shows
+- ``figure_faults``: what a machine can see to be wrong with a figure
 - ``showing``, ``figure_words``: how a figure reaches a notebook, and its alternative text
 - ``comparison``, ``box_drawing``, ``heatmap``, ``interval_plot``, ``loglog_plot``, ``matrix_plot``,
   ``linked_map``, ``scan_overlay``, ``resampling_wheel``, ``frame_sketches``: one plot each

@@ -7,6 +7,7 @@ import io
 from IPython.display import DisplayHandle, display
 from PIL import Image
 
+from slamlab.views.figure_faults import report
 from slamlab.views.figure_words import words
 
 SHARPNESS = 2  # pixels of a picture to a pixel of the page: crisp where a screen has two
@@ -56,6 +57,7 @@ def bundle(fig, alt, data=None):
     """
     if not isinstance(alt, str) or not alt.strip():
         raise ValueError("a figure needs alt text: say in a sentence what it shows")
+    report(fig, alt)
     alt = f"{words(fig)} {alt.strip()}"
     wide = round(fig.get_figwidth() * fig.dpi)
     picture = (

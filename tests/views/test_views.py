@@ -11,9 +11,10 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from course import figure_faults as course_faults
 from slamlab import models, views
 from slamlab.layers import Boxes, Ellipses, Points, Poses, Samples, Segments
-from slamlab.views import figure_words, sliders
+from slamlab.views import figure_faults, figure_words, sliders
 from tests.views.displays import Displays
 
 ALT = "two walls that meet"
@@ -315,3 +316,32 @@ def test_growth_shows_measurements_as_marks_and_predictions_as_lines():
     assert (marks.get_linestyle(), line.get_marker()) == ("None", "None")
     assert ax.get_xscale() == ax.get_yscale() == "log"
     assert [label.get_text() for label in ax.get_xticklabels()] == ["1", "4", "16"]
+
+
+def test_a_machine_sees_covered_data_small_letters_and_what_is_cut_off():
+    fig, ax = views.chart("x [m]", "y [m]", "Far too long to stand above so small a figure", (3, 3))
+    ax.plot([0, 1], [0, 1], label="a line")
+    ax.plot([0.5], [0.5], ".", label="a dot")
+    ax.legend(loc="center", fontsize=8)
+    found = " ".join(figure_faults.faults(fig))
+    for fault in ("covers a line", "covers a dot", "smaller than 9 pt", "cut off"):
+        assert fault in found
+
+
+def test_it_sees_nothing_wrong_where_nothing_is():
+    walls = Segments("walls", np.array([[0, 0, 4, 0.0]]))
+    fig, _ = views.side_by_side({"naive": [walls], "corrected": [walls]})
+    assert figure_faults.faults(fig) == []
+
+
+def test_faults_are_told_where_they_are_asked_for(stored, tmp_path, monkeypatch):
+    monkeypatch.setenv(figure_faults.REPORT, str(tmp_path / "faults.txt"))
+    fig, ax = views.chart("x [m]", "y [m]")
+    ax.plot([0, 1], [0, 1], label="a line")
+    ax.legend(loc="center")
+    views.show(fig, ALT)
+    told = (tmp_path / "faults.txt").read_text().splitlines()
+    assert told == [f"{ALT} → the legend covers a line"]
+    assert course_faults.compare(told, []) == [f"new: {told[0]}"]
+    assert len(course_faults.compare([], told)) == 1
+    assert course_faults.compare(told, told) == []
