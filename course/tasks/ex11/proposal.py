@@ -1,0 +1,1 @@
+TASK = "11-proposal"
