@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from slamlab.exercises.drives import Drive, StudentError, numbers, rows, shaped
+from slamlab.exercises.drives import Drive, StudentError, rows, shaped
 
 MOST = 1e8  # no right answer is larger; how much larger a wrong one is says no more
 AGAIN = 20  # seeds drawn twice: one draw comes out the same by chance now and then
@@ -90,7 +90,8 @@ def localised(functions, inputs):
     found = []
     for samples, weights, us, C, p, zs, R, seed in rows(inputs):
         found.append(_run(functions, (samples, weights), us, C, [p] * len(us), zs, R, seed))
-    return {name: np.array(part) for name, part in zip(("rows", "weights"), zip(*found), strict=True)}
+    samples, weights = zip(*found, strict=True)
+    return {"rows": np.array(samples), "weights": np.array(weights)}
 
 
 def kept(functions, inputs):

@@ -93,7 +93,7 @@ def _why_share(i, o):
     k, _, n = np.unravel_index(np.abs(o["copies"] - _asked(i)).argmax(), o["copies"].shape)
     copies = o["copies"][k, :, n]
     return (
-        f"Sample {n} of {len(o['copies'][k, 0])} weighs {i['weights'][k, n]:.3f}: it is due to have "
+        f"Sample {n} of {len(i['weights'][k])} weighs {i['weights'][k, n]:.3f}: it is due to have "
         f"{_asked(i)[k, 0, n]:.2f} copies, and had {copies.min():.0f} to {copies.max():.0f}."
     )
 

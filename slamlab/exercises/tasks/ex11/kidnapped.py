@@ -9,7 +9,7 @@ from slamlab.exercises.tasks.ex11 import room
 
 NEAR = 0.5  # [m]
 # Limits; behind each, what was reached over N seeds
-END, FOUND, SOON, STEADY, SURE = 5, 0.6, 0.5, 0.4, 0.3
+END, FOUND, SOON, STEADY, SURE = 5, 0.6, 0.5, 0.6, 0.3
 
 
 def off(i, o):
@@ -136,8 +136,8 @@ KIDNAPPED = Task(
         ),
         Diagnosis(
             "deceived",
-            "The robot is found soon, but false sightings lead the cloud astray, even before anyone "
-            "has carried the robot off. A doubt may be kept by a few samples for a while.",
+            "The robot is found soon, but false sightings lead the cloud astray, even before "
+            "anyone has carried the robot off. A doubt may be kept by a few samples for a while.",
             lambda i, o: _again(i, o) and sure(i, o) > SURE,
         ),
     ),

@@ -98,7 +98,9 @@ def _why_off(i, o):
 
 
 def _why_worth(i, o):
-    return f"After some step the cloud is worth {_worth(o).min():.1f} of {o['rows'].shape[2]} samples."
+    return (
+        f"After some step the cloud is worth {_worth(o).min():.1f} of {o['rows'].shape[2]} samples."
+    )
 
 
 # ---- mistakes of those who draw in another way than the solution ----------------------------

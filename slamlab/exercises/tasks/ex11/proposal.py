@@ -18,7 +18,7 @@ def looks(rng, count=COUNT, samples=SAMPLES, backwards=False, far=0.0, alike=Fal
     rng : numpy.random.Generator
     count, samples : int
     backwards : bool
-    far : float, how many deviations of the wheels lie between u and the means
+    far : float, how many deviations of the wheels' distance lie between u and the means
     alike : bool, whether all samples have one covariance
     """
     before = rng.uniform(-3, 3, (count, samples, 3))
@@ -28,9 +28,11 @@ def looks(rng, count=COUNT, samples=SAMPLES, backwards=False, far=0.0, alike=Fal
     D = _covariances(rng, (count, 1 if alike else samples), 0.05, 0.12)
     D = np.tile(D, (1, samples, 1, 1)) if alike else D
     calm = 0.02 if far else 1.0  # far off all alike: else one sample would have all the weight
-    off = calm * rng.normal(0, 0.7, (count, samples, 2)) + far
-    m = u[:, None] + np.einsum("kab,knb->kna", np.linalg.cholesky(C), off)
-    drive = m + np.einsum("knab,knb->kna", np.linalg.cholesky(D), calm * rng.normal(0, 0.8, m.shape))
+    off = calm * rng.normal(0, 0.7, (count, samples, 2))
+    m = u[:, None] + np.einsum("kab,knb->kna", np.linalg.cholesky(C), off) + [0.1 * far, 0]
+    drive = m + np.einsum(
+        "knab,knb->kna", np.linalg.cholesky(D), calm * rng.normal(0, 0.8, m.shape)
+    )
     weights = rng.uniform(0.2, 1, (count, samples))
     return {
         "before": before,
@@ -133,7 +135,8 @@ PROPOSAL = Task(
             "far",
             1,
             "so they are where densities are too small for a float",
-            "Is p itself ever needed? Which number may be taken off all logarithms without changing a weight?",
+            "Is p itself ever needed? Which number may be taken off all logarithms without "
+            "changing a weight?",
         ),
     ),
     probes=(

@@ -33,7 +33,7 @@ def runs(rng, blunt=(0.7, 0.7, 3.0, 3.0), **sizes):
     return {name: np.array([part[name] for part in parts]) for name in parts[0]}
 
 
-def sure_wheels(rng, blunt=(0.5, 6.0), samples=150, marks=3, **more):
+def sure_wheels(rng, blunt=(0.5, 6.0), samples=100, marks=3, **more):
     """Drives of a few samples whose wheels hardly err, some of them near θ = ±π."""
     return runs(rng, blunt, samples=samples, marks=marks, wide=4.0, sure=True, **more)
 
@@ -53,7 +53,7 @@ def _run(rng, blunt, samples=SAMPLES, marks=4, wide=1.0, sure=False, off=0.0):
     bearing = wrap(np.arange(marks) * np.pi / 2 + rng.uniform(0.2, 1.2))
     p, us, zs = g(x, np.column_stack([r, bearing])), [], []
     # less noise than the filter is told of: no scan is so unlikely that few samples explain it
-    truth = rng.multivariate_normal(x, np.diag(sigma / 2) ** 2) + [off, off, 0]
+    truth = rng.multivariate_normal(x, np.diag(sigma / 2) ** 2) + off * np.array([1, 1, 0])
     for _ in range(STEPS):
         u = np.array([rng.uniform(0.2, 0.4), rng.choice([-1, 1]) * rng.uniform(0.1, 0.3)])
         truth = f_odometry(truth, u if sure else rng.multivariate_normal(u, C / 4))

@@ -91,7 +91,9 @@ def _why(i, o):
 
 def _step(i):
     v = i["z"][:, 0] - h(i["rows"][:, 0], i["p"][:, 0])
-    return {"v of the first sample and the first landmark": np.column_stack([v[:, 0], wrap(v[:, 1])])}
+    return {
+        "v of the first sample and the first landmark": np.column_stack([v[:, 0], wrap(v[:, 1])])
+    }
 
 
 def _law(name, points, says, asks, main=False):
