@@ -289,7 +289,7 @@ def find_again(rows, weights, u, C, p, z, R, rng):
 check("11-kidnapped")
 
 # %% [markdown]
-# One drive, in which the robot is carried off at step 12: how far is the weight from the robot?
+# One drive, in which the robot is carried off after step 12: how far is the weight from the robot?
 
 
 # %%
@@ -310,7 +310,7 @@ def _():
             rows, weights = step(rows, weights, u, C, p, z, R, own)
             off.append(weights @ np.hypot(*(rows[:, :2] - truth[:2]).T) / np.sum(weights))
         errors[name] = off
-    fig, _ = views.curves(np.arange(1, 31), errors, "step", "error [m]", "Carried off at step 12")
+    fig, _ = views.curves(np.arange(1, 31), errors, "step", "error [m]", "Carried off after step 12")
     views.show(fig, alt="The error of localise and that of find_again over thirty steps.")
 
 

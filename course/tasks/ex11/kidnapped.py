@@ -133,7 +133,6 @@ SLIPS = (
         "localise",
         "This is task 3's step: no sample is left where the robot now is, and copies never get there.",
         STEP,
-        (BOTH, "[weights * seen, 0 * odd]"),
     ),
     Slip(
         "blunter-sensor",
@@ -233,6 +232,7 @@ SLIPS = (
         "kidnapped-hardly-ever",
         "You take a kidnapping for so unlikely that the robot is found too late, or never.",
         ("carried = len(rows), 0.01", "carried = len(rows), 1e-5"),
+        (BOTH, "[weights * seen, 0 * odd]"),
         ("/ np.prod(ROOM) / n", "/ np.prod(ROOM) / n**3"),
     ),
     Slip(

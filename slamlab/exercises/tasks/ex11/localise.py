@@ -37,8 +37,8 @@ def _weighed(i, o, likelihoods=runs.log_likelihoods):
     want = want - np.take_along_axis(want, best, -1)
     got = np.log(w) - np.log(np.take_along_axis(w, best, -1))
     same = np.abs(got - want) < SAME * (1 + np.abs(want))
-    both_nothing = (w == 0) & (want < -600)  # below the smallest float
-    return (same | both_nothing | drawn).all(axis=(1, 2)), drawn.all()
+    nothing = (w < 1e-250) & (want < -550)  # a float's last ones have few digits
+    return (same | nothing | drawn).all(axis=(1, 2)), drawn.all()
 
 
 def _weights_right(i, o):
