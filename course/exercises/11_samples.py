@@ -310,7 +310,7 @@ def _():
             rows, weights = step(rows, weights, u, C, p, z, R, own)
             off.append(weights @ np.hypot(*(rows[:, :2] - truth[:2]).T) / np.sum(weights))
         errors[name] = off
-    fig, _ = views.curves(np.arange(1, 31), errors, "step", "error [m]", "Carried off after step 12")
+    fig, _ = views.curves(np.arange(1, 31), errors, "step", "error [m]", "Kidnapped after step 12")
     views.show(fig, alt="The error of localise and that of find_again over thirty steps.")
 
 

@@ -71,12 +71,6 @@ PAIR = "e[k] - u, e[k] - m[k]"
 
 SLIPS = (
     Slip(
-        "weights-kept",
-        "The weights are those that were given: they count the samples as if the wheels had drawn "
-        "them.",
-        "def reweigh(before, after, weights, u, C, m, D):\n    return weights / np.sum(weights)\n",
-    ),
-    Slip(
         "p-alone",
         "You multiply by the density of the wheels alone. Where the drawing wanted a sample there are "
         "many already; that is what q takes out.",
