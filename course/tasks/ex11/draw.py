@@ -216,4 +216,12 @@ STUMBLES = (
     Stumble("raised", ("rng.random()", "rng()"), ("rng.random()", "rng.rand()")),
 )
 
-EQUIVALENT = {}
+AGAIN = "a second random number is as good as the first"
+EQUIVALENT = {
+    " -> teeth = (rng.random() + np.arange(n)) / n": f"{AGAIN}; a comb may begin at either end",
+    " -> teeth = 1 - (rng.random() + np.arange(n)) / n": AGAIN,
+    " -> teeth = np.arange(len(weights)) + rng.random()": AGAIN,
+    " -> u, i, end, drawn = (rng.random() / n, 0, weights[0], [])": AGAIN,
+    " -> n, u = (len(weights), rng.random())": AGAIN,
+    " -> u = rng.uniform()": AGAIN,
+}

@@ -247,7 +247,7 @@ SLIPS = (
     ),
     Slip(
         "logarithms-returned",
-        "You return logarithms, or something of their kind: the next step takes weights.",
+        "These are logarithms, or something of their kind: the next step takes weights.",
         (RETURN, "return rows, np.exp(weights) / np.sum(np.exp(weights))"),
     ),
     Slip(
@@ -282,4 +282,11 @@ STUMBLES = (
     Stumble("raised", ("move(rows, u, C, rng)", "move(rows, u, rng)")),
 )
 
-EQUIVALENT = {}
+OFTEN = "to draw more often than one must is right as well: the check asks what a cloud is worth"
+EQUIVALENT = {
+    f"if {WHEN}: ->": OFTEN,
+    "if np.sum(weights**2) * n >= 2: ->": OFTEN,
+    "if 1 / (weights @ weights) < n / 2: ->": OFTEN,
+    "if effective_size(weights) <= 0.5 * n: ->": OFTEN,
+    "if effective_size(weights) < 0.6 * n: ->": OFTEN,
+}

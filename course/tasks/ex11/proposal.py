@@ -221,7 +221,7 @@ SLIPS = (
     ),
     Slip(
         "logarithms",
-        "You return logarithms. What is wanted are weights that sum to one.",
+        "These are logarithms. What is wanted are weights that sum to one.",
         ("normalise(logs)", "logs"),
         ("normalise(logs)", "logs / np.sum(logs)"),
     ),

@@ -173,7 +173,7 @@ SLIPS = (
     ),
     Slip(
         "first-landmark",
-        "Only the first landmark counts: do you return inside the loop?",
+        "Only the first landmark counts: where does the function end?",
         ("    return logs", "        return logs"),
     ),
     Slip(

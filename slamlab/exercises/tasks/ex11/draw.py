@@ -52,6 +52,7 @@ def _one_has_all(rng):
 def _hair(rng):
     """Weights whose sum is a hair below one, and a comb whose last tooth stands there."""
     weights = rng.uniform(0.5, 1.5, (1, 1000))
+    weights[:, 0] = 0  # what is found nowhere must not become sample 0
     weights *= (1 - HAIR) / weights.sum()
     return {"weights": weights, "seeds": np.full((1, 1), float(LATE))}
 
