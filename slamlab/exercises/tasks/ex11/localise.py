@@ -8,9 +8,9 @@ from slamlab.exercises.task import Probe, Task
 from slamlab.exercises.tasks.ex11 import runs
 from slamlab.geometry import wrap
 
-# what clouds of right solutions stray, over all runs and steps; the bands are wider than seven of
-# their standard deviations, measured over 700 seeds each for draws by comb and by tickets
-MEAN_BAND, SPREAD_BAND = 0.1, 0.1
+# over all runs and steps of a set, means of right solutions stray by 0.03 (0.074 at most, over 500
+# runs by comb and by tickets), and spreads by 1 % (4 % at most)
+MEAN_BAND, SPREAD_BAND = 0.12, 0.1
 SAME = 1e-6  # of a weight's growth; of a place, where the wheels err by ``runs.SURE``
 
 
