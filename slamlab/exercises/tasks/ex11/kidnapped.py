@@ -10,7 +10,7 @@ from slamlab.exercises.tasks.ex11 import room
 NEAR = 0.5  # [m]
 # Over 400 seeds the solution finds 94 % of the robots at least, with 66 % of the weight near, and
 # errs by 0.24 and 0.23 m at most. Whoever throws a third of the samples on the ring at an odd
-# sighting errs by 0.39 m, all of them by 1.4 m; the lesson's strangers find a quarter of the robots.
+# sighting errs by 0.39 m, all by 1.4 m; the lesson's strangers find a quarter of the robots.
 END, FOUND, SOON, STEADY, SURE = 5, 0.6, 0.5, 0.6, 0.3
 
 
