@@ -1,18 +1,20 @@
 # %% [markdown]
 # # Exercise 11 · Samples
 #
-# **You will be able to** localise a robot with a cloud of samples, every part of it written by you:
-# move, weigh, normalise, draw.
+# **You will be able to** localise a robot with a cloud of samples, weigh samples that were drawn
+# otherwise than they should have been, and find a robot again that somebody carried off.
 #
-# **45 minutes. Before:** lesson [11 · Samples](../notebooks/11_samples.ipynb).
+# **60 minutes. Before:** lesson [11 · Samples](../notebooks/11_samples.ipynb).
 #
 # Replace each `raise NotImplementedError(...)` by your code, run the cell, then run the check below
 # it, as often as you like. A check tries random inputs, says which law is broken, and what the
 # mistake is where it knows it.
 #
 # Metres and radians. `rows` (n, 3) are samples of the pose, one `[x, y, θ]` a row. `u = [d, Δθ]` is a
-# drive, `z` (m, 2) are ranges and bearings of the landmarks `p` (m, 2). Random numbers come from
-# `rng`, a `numpy.random.Generator`, and from nowhere else.
+# drive, `z` (m, 2) are ranges and bearings of the landmarks `p` (m, 2). There is one sample at least,
+# and one landmark. All headings and bearings that you are given lie in (−π, π]. Random numbers come
+# from `rng`, a `numpy.random.Generator`, and from nowhere else. Leave the arguments as they are:
+# whoever calls a function goes on with them.
 
 # %%
 import numpy as np
@@ -24,56 +26,33 @@ from slamlab.models import f_odometry, h
 
 # %% [markdown]
 # What there is: `h(x, p)`, range and bearing of landmarks p (m, 2) from **one** pose x (3,), or of
-# **one** landmark p (2,) from many poses x (n, 3); `f_odometry(x, u)`, one pose driven; and
-# `wrap(angle)`, which brings angles into (−π, π].
-#
-# ## 1 · Move
-#
-# Every sample drives: the distance along the heading **it** has, then the turn. The wheels err: what
-# a sample really drives is u and noise with the covariance C (2, 2).
-#
-# **Predict first.** All samples stand on one place. After the drive, where are they if all of them
-# get the same draw of the noise? What would the cloud then say about the doubt?
-#
-# **Your task.** The moved samples. C is generic: d and Δθ may err together.
-# (`rng.multivariate_normal` takes a mean, a covariance, and how many.)
+# **one** landmark p (2,) from many poses x (n, 3); `f_odometry(x, u)`, one pose driven; `wrap(angle)`,
+# which brings angles into (−π, π]; and three functions of the lesson, ready to use. Read them: each
+# sample drives along the heading that *it* has, with *its own* draw of the wheels' noise, which has
+# the covariance C (2, 2).
 
 
 # %%
 def move(rows, u, C, rng):
-    """The samples after a drive with noisy wheels.
-
-    rows : (n, 3);  u : (2,) d [m], Δθ [rad];  C : (2, 2) covariance of u;  rng : Generator
-    returns (n, 3)
-    """
-    ### BEGIN SOLUTION
+    """The samples (n, 3) after a drive with noisy wheels."""
     d, turn = rng.multivariate_normal(u, C, len(rows)).T
     x, y, theta = rows.T
     return np.column_stack([x + d * np.cos(theta), y + d * np.sin(theta), wrap(theta + turn)])
-    ### END SOLUTION
 
 
-# %%
-check("11-move")
-
-# %% [markdown]
-# 400 samples that know their place and hardly their heading. Your cloud bends, and it bends round
-# the right point.
+def normalise(logs):
+    """Weights (n,) that sum to one, from logarithms of weights of any size."""
+    weights = np.exp(logs - np.max(logs))
+    return weights / np.sum(weights)
 
 
-# %%
-@attempt
-def _():
-    rng = np.random.default_rng(11)
-    rows = rng.normal(0, [0.02, 0.02, 0.4], (400, 3))
-    moved = move(rows, np.array([2.0, 0.3]), np.diag([0.1, 0.05]) ** 2, rng)
-    way = layers.Poses("without noise", [np.zeros(3), f_odometry(np.zeros(3), [2.0, 0.3])])
-    fig, _ = views.cloud(moved, {"its covariance": np.cov(moved.T)}, layers=[way])
-    views.show(fig, alt="A cloud of 400 moved samples, and its covariance's ellipse.")
+def effective_size(weights):
+    """How many equal samples the weighted ones are worth."""
+    return 1 / np.sum(weights**2)
 
 
 # %% [markdown]
-# ## 2 · Weigh
+# ## 1 · Weigh
 #
 # How likely does a sample find the scan? Every sighting errs by itself, with the covariance R (2, 2):
 #
@@ -84,7 +63,8 @@ def _():
 # What is exp(l)? And the same for 400 beams of a lidar? What is the logarithm of what is left?
 #
 # **Your task.** The logarithms l_i, for all samples. A constant that all samples share does not
-# matter. No likelihood of its own should ever be computed: it would be zero.
+# matter. Samples may be many metres off, so no likelihood of its own should ever be computed: it
+# would be zero. Range and bearing may err together. Some arrays hold whole numbers.
 
 
 # %%
@@ -108,44 +88,7 @@ def log_likelihoods(rows, p, z, R):
 check("11-weigh")
 
 # %% [markdown]
-# ## 3 · Normalise, and count
-#
-# $$w_i = \frac{e^{l_i}}{\sum_j e^{l_j}}, \qquad n_\text{eff} = \frac{1}{\sum_i w_i^2}$$
-#
-# **Predict first.** l = (−2000, −2001). What are the two weights? What does the formula give, typed
-# as it stands? Which number may you take off both logarithms without changing a weight?
-#
-# **Your task.** Both. The weights must be right for logarithms of any size.
-
-
-# %%
-def normalise(logs):
-    """Weights that sum to one, from logarithms of weights.
-
-    logs : (n,);  returns (n,)
-    """
-    ### BEGIN SOLUTION
-    weights = np.exp(logs - np.max(logs))
-    return weights / np.sum(weights)
-    ### END SOLUTION
-
-
-# %%
-def effective_size(weights):
-    """How many equal samples the weighted ones are worth: 1 / Σ w².
-
-    weights : (n,) that sum to one;  returns a number from 1 to n
-    """
-    ### BEGIN SOLUTION
-    return 1 / np.sum(weights**2)
-    ### END SOLUTION
-
-
-# %%
-check("11-normalise")
-
-# %% [markdown]
-# ## 4 · Draw, with a comb
+# ## 2 · Draw, with a comb
 #
 # Draw as many samples as there are, sample i with probability w_i. Lay the weights end to end on a
 # rod of length one, and hold a comb over it: n teeth, 1/n apart, the first at u/n. *One* random
@@ -154,8 +97,9 @@ check("11-normalise")
 # **Predict first.** Ten samples, and one of them weighs 0.35. How many copies may it get from the
 # comb? And how many may it get from ten random numbers, one for each draw?
 #
-# **Your task.** The rows drawn, as indices. (`np.cumsum` gives the ends of the pieces,
-# `np.searchsorted` finds the piece. Rounding may leave the last end a hair below one.)
+# **Your task.** The rows drawn, as indices from 0 to n − 1, in any order. Weights may be zero; they
+# sum to one but for rounding, and rounding may leave the last end a hair below one. (`np.cumsum`
+# gives the ends of the pieces, `np.searchsorted` finds the piece.)
 
 
 # %%
@@ -188,9 +132,9 @@ def _():
 
 
 # %% [markdown]
-# ## 5 · Localise
+# ## 3 · Localise
 #
-# One step of Monte Carlo localisation in a known map, with your functions:
+# One step of Monte Carlo localisation in a known map:
 #
 # 1. move every sample;
 # 2. multiply its weight by the likelihood (lesson 11: by nothing else), and normalise;
@@ -198,7 +142,8 @@ def _():
 #
 # **Predict first.** What becomes of the weights of the step before, if nothing was drawn then?
 #
-# **Your task.** The samples and the weights after the step.
+# **Your task.** The samples and the weights after the step. The weights that you are given are
+# positive and sum to one. All samples may be metres off, and the wheels may hardly err at all.
 
 
 # %%
@@ -241,6 +186,132 @@ def _():
         rows, weights = localise(rows, weights, u, C, p, z, R, rng)
     fig, _ = views.side_by_side(clouds, size=(10, 3))
     views.show(fig, alt="The cloud at the start, after one step and after five, and the true pose.")
+
+
+# %% [markdown]
+# ## 4 · Samples from another drawing
+#
+# The lesson drew each sample by the wheels' noise, and so its weight was the likelihood alone. With a
+# fine sensor that is a waste: most samples land where the sighting says they cannot be. Somebody
+# therefore looked at the sighting *first*, and sent each sample to where the sighting wants it.
+# Sample i drove $e_i = [d, \Delta\theta]$, drawn from a Gaussian of its own with the mean $m_i$ and the
+# covariance $D_i$. The wheels have not changed by that: they drive u with the covariance C.
+#
+# You know where each sample stood before and where it stands after its drive. (It drove along the
+# heading that it had, forwards or backwards, and then turned, by less than half a turn.)
+#
+# **Predict first.** A sample that the drawing wanted ten times as often as the wheels do: how much
+# should it count? Two samples drove the same e; for one of them it was drawn from a narrow hill, for
+# the other one from a hill four times as wide. May the two weigh the same?
+#
+# **Your task.** Multiply the given weights, which are positive and hold all that was seen, by what
+# the lesson's derivation of *the weight* asks for here, and let them sum to one. Some samples may lie
+# so many σ off that no density of theirs can be held in a float.
+
+
+# %%
+def reweigh(before, after, weights, u, C, m, D):
+    """Weights of samples that were driven by drives from other Gaussians.
+
+    before, after : (n, 3) poses;  weights : (n,) positive;  u : (2,), C : (2, 2) of the wheels
+    m : (n, 2), D : (n, 2, 2) means and covariances that each sample's drive was drawn with
+    returns (n,) weights that sum to one
+    """
+    ### BEGIN SOLUTION
+    step, theta = after - before, before[:, 2]
+    d = step[:, 0] * np.cos(theta) + step[:, 1] * np.sin(theta)
+    e = np.column_stack([d, wrap(step[:, 2])])
+    logs = np.log(weights)
+    for k in range(len(e)):
+        v, w = e[k] - u, e[k] - m[k]
+        logs[k] += 0.5 * (w @ np.linalg.inv(D[k]) @ w - v @ np.linalg.inv(C) @ v)
+        logs[k] += 0.5 * np.log(np.linalg.det(D[k]))
+    return normalise(logs)
+    ### END SOLUTION
+
+
+# %%
+check("11-proposal")
+
+# %% [markdown]
+# ## 5 · Found again
+#
+# A robot drives in a room of 10 m by 8 m, whose middle is the origin. In every step it sees *one* of
+# six posts, and knows which, with the noise R. But one sighting in ten is false: its range is then any
+# number from 0 to 10 m, its bearing any angle. And once in a drive of thirty steps, nobody knows when,
+# somebody lifts the robot and sets it down at least three metres away, somewhere in the room, looking
+# in any direction.
+#
+# At the beginning the cloud is where the robot is. Your `localise` goes on well, until the robot is
+# carried off. The lesson threw strangers anywhere; but here a stranger must hit three numbers, with
+# 300 samples, and one sighting tells two of them only.
+#
+# **Predict first.** You see a post at 3 m, and your samples expected it at 5 m. Which is likelier, a
+# false sighting or a kidnapping? And if the next post is odd, too? From which poses could the first
+# sighting have been made? How large is their density, if you draw some of them (task 4)?
+#
+# **Your task.** A step that finds the robot again soon, and that is not led astray by false sightings.
+# Any method goes. It gets as many samples as it must return, with weights that are not negative; all
+# that it knows of the past is in them. Sixteen drives are scored by how far the weight is from the
+# robot.
+
+# %%
+ROOM, REACH, GHOSTS = np.array([10.0, 8.0]), 10.0, 0.1
+
+
+# %%
+def find_again(rows, weights, u, C, p, z, R, rng):
+    """One step: drive u with noise C, see the post p at z with noise R, if it is no ghost.
+
+    rows : (n, 3);  weights : (n,);  u : (2,);  C : (2, 2);  p, z : (1, 2);  R : (2, 2)
+    returns rows (n, 3), weights (n,)
+    """
+    ### BEGIN SOLUTION
+    n, carried = len(rows), 0.01
+    rows = move(rows, u, C, rng)
+    # strangers: all poses that could have made this sighting, on a ring round the post
+    r, beta = rng.multivariate_normal(z[0], R, n).T
+    angle = rng.uniform(-np.pi, np.pi, n)
+    x, y = p[0, 0] + r * np.cos(angle), p[0, 1] + r * np.sin(angle)
+    strangers = np.column_stack([x, y, wrap(angle + np.pi - beta)])
+    inside = np.all(np.abs(strangers[:, :2]) < ROOM / 2, axis=1)
+    # on the ring the density of drawing is the likelihood / (2π r); anywhere, it is 1 / (area · 2π)
+    real = np.exp(log_likelihoods(rows, p, z, R)) / (2 * np.pi * np.sqrt(np.linalg.det(R)))
+    seen = (1 - GHOSTS) * real + GHOSTS / (REACH * 2 * np.pi)
+    odd = (1 - GHOSTS) * inside * np.abs(r) / np.prod(ROOM) / n
+    together = np.concatenate([(1 - carried) * weights * seen, carried * odd])
+    picked = draw(together / np.sum(together), rng)[rng.integers(2) :: 2]
+    return np.vstack([rows, strangers])[picked], np.full(n, 1 / n)
+    ### END SOLUTION
+
+
+# %%
+check("11-kidnapped")
+
+# %% [markdown]
+# One drive, in which the robot is carried off after step 12: how far is the weight from the robot?
+
+
+# %%
+@attempt
+def _():
+    posts = np.array([[4.5, 3.5], [-4.5, 3.5], [-4.5, -3.5], [4.5, -3.5], [1.0, 3.0], [-2.0, -3.2]])
+    C, R, errors = np.diag([0.04, 0.04]) ** 2, np.diag([0.15, 0.06]) ** 2, {}
+    for name, step in (("localise", localise), ("find_again", find_again)):
+        rng, truth = np.random.default_rng(3), np.array([-2.0, -1.0, 0.3])
+        rows, weights, off = rng.normal(truth, 0.15, (300, 3)), np.full(300, 1 / 300), []
+        own = np.random.default_rng(4)
+        for k in range(30):
+            truth = np.array([2.5, 1.0, 3.0]) if k == 12 else truth
+            u, p = np.array([0.25, 0.2]), posts[[k * 5 % 6]]
+            truth = f_odometry(truth, rng.multivariate_normal(u, C))
+            z = h(truth, p) + rng.multivariate_normal([0, 0], R, 1)
+            z = z if k not in (5, 9, 24) else np.array([[6.0, -1.0]])
+            rows, weights = step(rows, weights, u, C, p, z, R, own)
+            off.append(weights @ np.hypot(*(rows[:, :2] - truth[:2]).T) / np.sum(weights))
+        errors[name] = off
+    fig, _ = views.curves(np.arange(1, 31), errors, "step", "error [m]", "Kidnapped after step 12")
+    views.show(fig, alt="The error of localise and that of find_again over thirty steps.")
 
 
 # %% [markdown]

@@ -1,0 +1,1 @@
+"""Right ways, slips and stumbles of exercise 11."""

@@ -1,0 +1,292 @@
+"""Programs of task 11-localise."""
+
+from course.tasks import Slip, Stumble
+
+TASK = "11-localise"
+MUTANTS = 120  # of the solution: a run takes long
+
+WAYS = {
+    "always drawn": """
+def localise(rows, weights, u, C, p, z, R, rng):
+    rows = move(rows, u, C, rng)
+    weights = normalise(np.log(weights) + log_likelihoods(rows, p, z, R))
+    return rows[draw(weights, rng)], np.full(len(rows), 1 / len(rows))
+""",
+    "weights multiplied, a list returned": """
+def localise(rows, weights, u, C, p, z, R, rng):
+    n, rows = len(rows), move(rows, u, C, rng)
+    logs = log_likelihoods(rows, p, z, R)
+    weights = weights * np.exp(logs - np.max(logs))
+    weights = weights / np.sum(weights)
+    if np.sum(weights**2) * n >= 2:
+        rows, weights = rows[draw(weights, rng)], np.ones(n) / n
+    return [rows, list(weights)]
+""",
+    "all in one, by tickets": """
+def localise(rows, weights, u, C, p, z, R, rng):
+    n = len(rows)
+    d, turn = rng.multivariate_normal(u, C, n).T
+    x, y, theta = rows.T
+    rows = np.column_stack([x + d * np.cos(theta), y + d * np.sin(theta), theta + turn])
+    v = z[:, None] - h(rows, p[:, None])
+    v[..., 1] = wrap(v[..., 1])
+    logs = np.log(weights) - np.einsum("mna,ab,mnb->n", v, np.linalg.inv(R), v) / 2
+    weights = np.exp(logs - logs.max())
+    weights /= weights.sum()
+    if 1 / (weights @ weights) < n / 2:
+        rows, weights = rows[rng.choice(n, n, p=weights)], np.ones(n) / n
+    return rows, weights
+""",
+    "landmark by landmark": """
+def localise(rows, weights, u, C, p, z, R, rng):
+    n, rows = len(rows), move(rows, u, C, rng)
+    logs = np.log(weights)
+    for place, seen in zip(p, z):
+        logs = logs + log_likelihoods(rows, place[None], seen[None], R)
+    weights = normalise(logs)
+    if effective_size(weights) <= 0.5 * n:
+        picked = rng.permutation(draw(weights, rng))
+        return rows[picked], np.full(n, 1.0 / n)
+    return rows, weights
+""",
+    "drawn by a loop, sample by sample": """
+def localise(rows, weights, u, C, p, z, R, rng):
+    n, L = len(rows), np.linalg.cholesky(C)
+    rows = np.array([f_odometry(x, u + L @ rng.standard_normal(2)) for x in rows])
+    logs = np.array([np.log(w) + log_likelihoods(x[None], p, z, R)[0] for x, w in zip(rows, weights)])
+    weights = np.exp(logs - np.logaddexp.reduce(logs))
+    weights = weights / weights.sum()
+    if effective_size(weights) < 0.6 * n:
+        rows = np.array([rows[i] for i in draw(weights, rng)])
+        weights = np.repeat(1 / n, n)
+    return rows, weights
+""",
+}
+
+MOVE = "    rows = move(rows, u, C, rng)\n"
+WEIGH = "    weights = normalise(np.log(weights) + log_likelihoods(rows, p, z, R))\n"
+LOGS = "np.log(weights) + log_likelihoods(rows, p, z, R)"
+WHEN = "effective_size(weights) < len(rows) / 2"
+DRAWN = "rows = rows[draw(weights, rng)]"
+EQUAL = "        weights = np.full(len(rows), 1 / len(rows))\n"
+RETURN = "return rows, weights"
+MOTION = (
+    "    before = rows\n" + MOVE + "    off = rows - before\n"
+    "    c, s = np.cos(before[:, 2]), np.sin(before[:, 2])\n"
+    "    e = np.column_stack([c * off[:, 0] + s * off[:, 1], wrap(off[:, 2])]) - u\n"
+    "    motion = -0.5 * np.sum(e @ np.linalg.inv(C) * e, axis=1)\n"
+)
+
+SLIPS = (
+    Slip(
+        "not-moved",
+        "The samples stand where they stood: the robot has driven before it sees.",
+        (MOVE, ""),
+        (MOVE, "    moved = move(rows, u, C, rng)\n"),
+        (MOVE, "    move(rows, u, C, rng)\n"),
+    ),
+    Slip(
+        "moved-twice",
+        "The samples drive twice in one step.",
+        (MOVE, MOVE + MOVE),
+    ),
+    Slip(
+        "moved-without-noise",
+        "The samples drive as if the wheels did not err: the cloud's doubt never grows.",
+        (MOVE, "    rows = np.array([f_odometry(x, u) for x in rows])\n"),
+        ("move(rows, u, C, rng)", "move(rows, u, 0 * C, rng)"),
+    ),
+    Slip(
+        "noise-rooted",
+        "C holds variances, and move takes it as it is.",
+        ("move(rows, u, C, rng)", "move(rows, u, np.sqrt(np.abs(C)) * np.eye(2), rng)"),
+        ("move(rows, u, C, rng)", "move(rows, u, C @ C, rng)"),
+    ),
+    Slip(
+        "weighed-before-moving",
+        "The scan is seen after the drive, but you weigh the samples where they were before it.",
+        [(MOVE, ""), (WEIGH, WEIGH + MOVE)],
+        [(MOVE, "    before = rows\n" + MOVE), (LOGS, LOGS.replace("(rows", "(before"))],
+    ),
+    Slip(
+        "moved-at-the-end",
+        "You move the samples after they were drawn: the scan is then weighed where the robot was "
+        "before it drove.",
+        [(MOVE, ""), (RETURN, "return move(rows, u, C, rng), weights")],
+    ),
+    Slip(
+        "drawn-first",
+        "You draw by the weights of the step before, and only then look at the scan.",
+        [
+            (MOVE, MOVE + "    rows, old = rows[draw(weights, rng)], weights\n"),
+            (LOGS, "log_likelihoods(rows, p, z, R)"),
+            (WHEN, "False"),
+        ],
+    ),
+    Slip(
+        "motion-in-the-weight",
+        "p(x_t | x_{t−1}, u) is in the weight: an erratum of the thesis. Where the robot is likely to "
+        "go there are many samples already; the weight is the likelihood alone.",
+        [(MOVE, MOTION), (LOGS, f"{LOGS} + motion")],
+        [(MOVE, MOTION), (LOGS, f"{LOGS} + motion"), (WHEN, "True")],
+    ),
+    Slip(
+        "weights-forgotten",
+        "The new weights are the likelihoods alone: what the samples weighed before is lost. Where "
+        "nothing was drawn the weights carry what was seen.",
+        (LOGS, "log_likelihoods(rows, p, z, R)"),
+    ),
+    Slip(
+        "scan-forgotten",
+        "The scan makes no difference: this is odometry, with a cloud that grows and grows.",
+        (LOGS, "np.log(weights)"),
+    ),
+    Slip(
+        "weights-not-logarithms",
+        "Weights and logarithms are added up. Likelihoods multiply, so that logarithms add up.",
+        ("np.log(weights) + ", "weights + "),
+        (f"normalise({LOGS})", "normalise(weights * log_likelihoods(rows, p, z, R))"),
+    ),
+    Slip(
+        "scan-twice",
+        "The scan counts twice: the likelihood is multiplied in more than once.",
+        ("+ log_likelihoods", "+ 2 * log_likelihoods"),
+        (WEIGH, WEIGH + WEIGH),
+    ),
+    Slip(
+        "sign",
+        "The less likely a sample finds the scan, the more it weighs: the logarithm is subtracted.",
+        ("+ log_likelihoods", "- log_likelihoods"),
+    ),
+    Slip(
+        "underflow",
+        "The likelihoods themselves are computed, and all of them are zero where the cloud is metres "
+        "off: keep their logarithms until they are normalised.",
+        (f"normalise({LOGS})", f"(lambda w: w / (np.sum(w) + 1e-300))(np.exp({LOGS}))"),
+        (
+            WEIGH,
+            f"    weights = weights * np.exp({LOGS.split(' + ')[1]}) + 1e-300\n    weights = weights / np.sum(weights)\n",
+        ),
+    ),
+    Slip(
+        "weights-kept",
+        "After drawing, the samples have their old weights, too: what is likely counts twice.",
+        (EQUAL, ""),
+        (EQUAL, "        pass\n"),
+    ),
+    Slip(
+        "weights-drawn-along",
+        "After drawing, the samples have the weights of those that they are copies of: what is likely "
+        "counts twice.",
+        [
+            (DRAWN, "picked = draw(weights, rng)\n        rows = rows[picked]"),
+            (EQUAL, "        weights = weights[picked] / np.sum(weights[picked])\n"),
+        ],
+    ),
+    Slip(
+        "never-drawn",
+        "Nothing is ever drawn anew: after a few scans one sample has all the weight.",
+        (WHEN, "False"),
+        (WHEN, "effective_size(weights) < 2"),
+        (WHEN, "effective_size(weights) < 0.5"),
+    ),
+    Slip(
+        "drawn-too-late",
+        "The cloud is worth less than half its samples, and yet you do not draw: look at the condition.",
+        (WHEN, "effective_size(weights) < len(rows) / 10"),
+    ),
+    Slip(
+        "condition-turned",
+        "You draw when the cloud is worth much, and not when it is worth little.",
+        (WHEN, WHEN.replace("<", ">")),
+        before=("never-drawn",),
+    ),
+    Slip(
+        "worth-before-the-scan",
+        "You ask what the cloud was worth before the scan, not after it.",
+        [(MOVE, MOVE + "    worth = effective_size(weights)\n"), (WHEN, "worth < len(rows) / 2")],
+        before=("never-drawn", "condition-turned"),
+    ),
+    Slip(
+        "equal-without-drawing",
+        "The weights are made equal without drawing: all that was seen is lost.",
+        [(DRAWN, "pass"), (WHEN, "True")],
+        (DRAWN, "draw(weights, rng)"),
+        (DRAWN, "pass"),
+    ),
+    Slip(
+        "drawn-from-the-old",
+        "You draw from the samples as they were before the drive.",
+        [(MOVE, "    before = rows\n" + MOVE), (DRAWN, "rows = before[draw(weights, rng)]")],
+    ),
+    Slip(
+        "drawn-by-other-weights",
+        "You draw by weights that do not hold this scan.",
+        [(MOVE, "    old = weights\n" + MOVE), (DRAWN, "rows = rows[draw(old, rng)]")],
+    ),
+    Slip(
+        "largest-weight",
+        "All samples become copies of the one with the largest weight: all else that was possible is "
+        "forgotten.",
+        (DRAWN, "rows = rows[[weights.argmax()] * len(rows)]"),
+        (DRAWN, "rows = np.tile(weights @ rows, (len(rows), 1))"),
+    ),
+    Slip(
+        "weight-one",
+        "The drawn samples weigh 1 each. All weights together are to be one.",
+        ("1 / len(rows))", "1.0)"),
+    ),
+    Slip(
+        "not-normalised",
+        "The weights do not sum to one.",
+        [
+            (f"normalise({LOGS})", f"np.exp({LOGS} - np.max({LOGS}))"),
+            (WHEN, "effective_size(normalise(np.log(weights + 1e-300))) < len(rows) / 2"),
+            (DRAWN, "rows = rows[draw(weights / np.sum(weights), rng)]"),
+        ],
+    ),
+    Slip(
+        "logarithms-returned",
+        "These are logarithms, or something of their kind: the next step takes weights.",
+        (RETURN, "return rows, np.exp(weights) / np.sum(np.exp(weights))"),
+    ),
+    Slip(
+        "shaken",
+        "Something is added to the samples after they were drawn: their doubt was in the cloud "
+        "already.",
+        (DRAWN, "rows = rows[draw(weights, rng)] + rng.normal(0, [0.05, 0.05, 0.03], rows.shape)"),
+        (DRAWN, "rows = move(rows[draw(weights, rng)], [0, 0], C, rng)"),
+    ),
+    Slip(
+        "first-landmark-only",
+        "Only one landmark of the scan is looked at.",
+        ("(rows, p, z, R)", "(rows, p[:1], z[:1], R)"),
+        ("(rows, p, z, R)", "(rows, p[-1:], z[-1:], R)"),
+    ),
+    Slip(
+        "a-seed-of-its-own",
+        "The samples drive with random numbers of a generator of your own, the same in each step.",
+        ("move(rows, u, C, rng)", "move(rows, u, C, np.random.default_rng(0))"),
+    ),
+)
+
+STUMBLES = (
+    Stumble(
+        "malformed",
+        (RETURN, "return rows"),
+        (RETURN, "return weights, rows"),
+        (RETURN, "return rows.T, weights"),
+    ),
+    Stumble("malformed", (RETURN, "return rows[: len(rows) // 2], weights")),
+    Stumble("malformed", (LOGS, "np.log(-weights)")),
+    Stumble("raised", ("move(rows, u, C, rng)", "move(rows, u, rng)")),
+)
+
+OFTEN = "to draw more often than one must is right as well: the check asks what a cloud is worth"
+EQUIVALENT = {
+    f"if {WHEN}: ->": OFTEN,
+    "if np.sum(weights**2) * n >= 2: ->": OFTEN,
+    "if 1 / (weights @ weights) < n / 2: ->": OFTEN,
+    "if effective_size(weights) <= 0.5 * n: ->": OFTEN,
+    "if effective_size(weights) < 0.6 * n: ->": OFTEN,
+}
