@@ -35,12 +35,14 @@ def drives(rng, lifted=6, calm=0):
 
 
 def _hall(rng, lifted):
-    posts, ways = _posts(rng), np.array([_way(rng), _way(rng)])
+    (posts, own), ways = _posts(rng), np.array([_way(rng), _way(rng)])
     motions = between(ways[:, :-1], ways[:, 1:])
     errors = WHEELS * rng.standard_normal(motions.shape)
     truth = ways[:, 1:].copy()
     if lifted:
-        at = rng.integers(*LIFTED) - 1
+        # set down, if possible, where no bay's own post is near: one scan cannot tell the place
+        far = np.linalg.norm(ways[:, 1:, None, :2] - own, axis=3).min(axis=(0, 2))
+        at = max(rng.permutation(np.arange(*LIFTED)) - 1, key=lambda k: min(far[k], REACH))
         errors[:, at] = 0
         truth[:, at:] = truth[::-1, at:]
         motions[:, at + 1 :] = motions[::-1, at + 1 :]
@@ -73,8 +75,8 @@ def truth(i):
 
 
 def _posts(rng):
-    """The posts of all bays, in a random order: all but one of each stand alike in every bay, and
-    look alike from behind.
+    """The posts of all bays, in a random order, of which all but one of each stand alike in every
+    bay, and look alike from behind; and those of which there is one.
     """
     pairs = [np.full(2, BAY / 2)]  # in the middle; then pairs, opposite each other
     for place in rng.uniform(EDGE, BAY - EDGE, (2000, 2)):
@@ -82,7 +84,7 @@ def _posts(rng):
             pairs += [place, BAY - place]
     own = pairs[ALIKE::2]  # none is where another is, nor where it would be from behind
     bays = [np.array([*pairs[:ALIKE], own[k]]) + np.array([k * BAY, 0]) for k in range(BAYS)]
-    return rng.permutation(np.concatenate(bays))
+    return rng.permutation(np.concatenate(bays)), np.array([bay[-1] for bay in bays])
 
 
 def _apart(place, others):

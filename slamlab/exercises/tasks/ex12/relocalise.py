@@ -73,8 +73,8 @@ def _step(name, points, most, asks):
     )
 
 
-# What is reached, with 150 seeds: the usual filter loses all; filters that go where a single scan
-# fits best lose 7 to 50 %, mostly 25 %; the solution loses 0, and 4.4 % at most.
+# What is reached: the usual filter loses all; filters that go where a single scan fits best lose 6
+# to 60 %, mostly 30 % (120 seeds, 1 of them less than 5 %); the solution TAIL.
 STEPS = (
     _step(
         "notices",
@@ -93,7 +93,7 @@ STEPS = (
     _step(
         "decides",
         2,
-        0.08,
+        0.05,
         "The bays look alike, from behind as well. If two places explain all that was seen so far, "
         "what should be known of both when the first post comes that only one of them explains?",
     ),
@@ -134,7 +134,7 @@ RELOCALISE = Task(
             "wrong-bay",
             "In some drives it settles in the wrong bay, which looks like the right one, and stays "
             "there. One scan cannot decide this: what do you know of the other places that fitted?",
-            lambda i, o: kept(i, o) and lost(i, o) > 0.08,
+            lambda i, o: kept(i, o) and lost(i, o) > 0.05,
         ),
     ),
     rounds=False,
