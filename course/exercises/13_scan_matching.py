@@ -275,7 +275,7 @@ def _():
 #
 # Normals have length 1; which of its two sides one points to says nothing. All $\sigma_i$ are
 # positive, and Q has an inverse; errors of x, y and θ may be correlated. There may be any number of
-# pairs, also one or none.
+# pairs, also one or none, and coordinates may be whole numbers (`int`).
 
 
 # %% name="line-step"

@@ -48,7 +48,7 @@ def icp(source, target, T, rounds):
     if rounds == 0:
         return T
     moved = carry(T, source)
-    partners = [min(target, key=lambda q: np.hypot(*(q - p))) for p in moved]
+    partners = [target[np.hypot(*(target - p).T).argmin()] for p in moved]
     return icp(source, target, best_motion(moved, np.array(partners)) @ T, rounds - 1)
 """,
     "the source moved on, steps collected": """
@@ -196,6 +196,7 @@ SLIPS = (
             + FIT
             + "\n        if np.abs(T - old).max() < 0.1:\n            break",
         ),
+        Edit("stops when nothing changes", (("1e-12", "1e-3"),)),
         (LOOP, "for _ in range(min(rounds, 10)):"),
     ),
     Slip(

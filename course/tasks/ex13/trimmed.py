@@ -205,6 +205,17 @@ SLIPS = (
         (FIT, FIT + "\n        return T"),
     ),
     Slip(
+        "stops-early",
+        "The loop stops before the rounds are over, when little changes. That is a good rule elsewhere; "
+        "here the number of rounds is told.",
+        (
+            FIT,
+            "old = T\n        "
+            + FIT
+            + "\n        if np.abs(T - old).max() < 0.02:\n            break",
+        ),
+    ),
+    Slip(
         "rounds-off-by-one",
         "There is one round more or less than asked for. With 0 rounds T comes back as it was.",
         (LOOP, "for _ in range(rounds - 1):"),

@@ -92,7 +92,7 @@ BEST_MOTION = Task(
         equals(
             "mirror",
             1,
-            "R stays a rotation where a mirror would fit better, and is the best rotation",
+            "R stays the best rotation where a mirror would fit better, or as well",
             want,
             asks="What is det(V Uᵀ) here? There is one column that costs least to turn over: whose "
             "singular value is the least?",
@@ -103,11 +103,11 @@ BEST_MOTION = Task(
     probes=(
         Probe("a wall that would fit best inside out", _walls, ("mirror",)),
         Probe("pairs that only a mirror lays over each other", _inside_out, ("mirror",)),
-        Probe("two pairs", lambda rng: paired(rng, 4, 2)),
+        Probe("two pairs", lambda rng: paired(rng, 4, 2), ("mirror",)),
         Probe("forty pairs", lambda rng: paired(rng, 1, 40)),
         Probe("pairs that lie on each other", lambda rng: paired(rng, 2, 5, 0, (0, 0), 0)),
         Probe("half a turn", lambda rng: paired(rng, 2, 5, 0, (np.pi, np.pi))),
-        Probe("points along a line", _on_a_line),
+        Probe("points along a line", _on_a_line, ("mirror",)),
         Probe("clouds a hundred metres away", lambda rng: paired(rng, 2, 8, far=100)),
         Probe("whole numbers", _whole),
     ),

@@ -2,15 +2,33 @@
 
 from dataclasses import replace
 
+import numpy as np
+
 from slamlab.exercises.drives.ex13 import DRIVES
 from slamlab.exercises.law import equals
 from slamlab.exercises.task import Probe, Task
-from slamlab.exercises.tasks.ex13.motions import first_pairs, looks, matched
+from slamlab.exercises.tasks.ex13.motions import carried, first_pairs, looks, matched, motion
+
+
+def sliding(rng, rounds, n=60):
+    """A long wall full of points, along which the source comes into its place by small steps."""
+    inputs, end = looks(rng, rounds), np.column_stack([np.full(6, 2.0), rng.uniform(0, 1, 6)])
+    for name in ("source", "target"):
+        walls = [rng.uniform((-2, -0.02), (2, 0.02), (n, 2)) for _ in rounds]
+        inputs[name] = np.array([rng.permutation(np.vstack([wall, end])) for wall in walls])
+    inputs["target"] = carried(inputs["T"], inputs["target"])
+    return inputs | {"T": inputs["T"] @ motion(-0.4, 0.05, 0.03)}
 
 
 def judged_at(law, asked):
     """A law that is asked of matches with some numbers of rounds only."""
     return replace(law, holds=lambda i, o: law.holds(i, o) | ~asked(i["rounds"]))
+
+
+def by_rounds(inputs, outputs):
+    """What one round makes, and what comes of more."""
+    one = inputs["rounds"] <= 1
+    return {"one round": outputs["result"][one], "more": outputs["result"][~one]}
 
 
 ONE = judged_at(
@@ -51,7 +69,9 @@ ICP = Task(
         Probe("two points", lambda rng: looks(rng, [1, 3], (2, 5))),
         Probe("a bad guess", lambda rng: looks(rng, [1, 2, 5], (12, 15), off=8)),
         Probe("a guess that is right", lambda rng: looks(rng, [1, 2], (6, 8), off=0)),
+        Probe("a wall along which the source slides slowly", lambda rng: sliding(rng, [12, 15])),
         Probe("forty rounds", lambda rng: looks(rng, [40], (30, 70), people=9, off=4)),
     ),
+    parts=by_rounds,
     rounds=False,
 )

@@ -10,7 +10,7 @@ import numpy as np
 from slamlab.exercises.drives.ex13 import DRIVES
 from slamlab.exercises.law import equals
 from slamlab.exercises.task import Probe, Task
-from slamlab.exercises.tasks.ex13.icp import judged_at
+from slamlab.exercises.tasks.ex13.icp import by_rounds, judged_at, sliding
 from slamlab.exercises.tasks.ex13.motions import first_pairs, looks, matched
 
 
@@ -18,6 +18,11 @@ def crowded(rng, rounds, keep, sizes=(36, 48), people=14, off=2.0):
     """Looks with people in them; the share is that of some pairs to keep, and a bit of one more."""
     inputs = looks(rng, rounds, sizes, people, off)
     return inputs | {"share": (np.resize(keep, len(rounds)) + 0.4) / inputs["source"].shape[1]}
+
+
+def _sliding(rng):
+    inputs = sliding(rng, [10, 14])
+    return inputs | {"share": np.full(2, 60.4 / inputs["source"].shape[1])}
 
 
 def want(inputs):
@@ -38,7 +43,8 @@ def _either(law):
 def _parts(inputs, outputs):
     """Motions as if all had rounded down."""
     up = equals("", 0, "", _rounded_up, tolerance=1e-9).holds(inputs, outputs)
-    return {"result": np.where(up[:, None, None], want(inputs)["result"], outputs["result"])}
+    result = np.where(up[:, None, None], want(inputs)["result"], outputs["result"])
+    return by_rounds(inputs, {"result": result})
 
 
 ONE = _either(
@@ -81,6 +87,7 @@ TRIMMED = Task(
         Probe("two pairs kept of six", lambda rng: crowded(rng, [1, 3], [2], (6, 8), 0)),
         Probe("more points in the source", lambda rng: crowded(rng, [1, 3], [20], (30, 12), 5)),
         Probe("a bad guess", lambda rng: crowded(rng, [1, 2, 5], [12], (15, 20), 5, 6)),
+        Probe("a wall along which the source slides slowly", _sliding),
         Probe("many points", lambda rng: crowded(rng, [2], [61], (80, 90), 20)),
     ),
     parts=_parts,
