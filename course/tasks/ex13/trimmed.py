@@ -248,4 +248,12 @@ STUMBLES = (
     Stumble("malformed", (RETURN, "return T, keep"), (RETURN, "pass")),
 )
 
-EQUIVALENT = {}
+ROUNDING = "a share may be rounded up or down"
+EQUIVALENT = {
+    "distances < np.quantile": ROUNDING,
+    "argpartition(distances, keep)[:keep]": ROUNDING,
+    "argpartition(distances, keep)[:keep + 0]": ROUNDING,
+    "np.floor(share": ROUNDING,
+    "int(len(source) * share)]": ROUNDING,
+    "int(len(source) * share) - 0]": ROUNDING,
+}

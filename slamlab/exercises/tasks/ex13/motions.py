@@ -2,6 +2,8 @@
 
 import numpy as np
 
+FEW = 8  # points: of so few some might all have the same partner, and no motion would be the best
+
 
 def motion(x, y, theta):
     """Homogeneous matrices (..., 3, 3) of poses given as arrays x, y [m] and theta [rad]."""
@@ -69,6 +71,12 @@ def outline(rng, count, corners=5):
     return corner[wall] * (1 - along) + corner[(wall + 1) % corners] * along
 
 
+def _posts(rng, count):
+    """(count, 2) a few posts round the robot, so far apart that no two share a nearest one [m]."""
+    angle = (np.arange(count) + 0.3 * rng.uniform(size=count)) * 2 * np.pi / count
+    return rng.uniform(2, 2.5, (count, 1)) * np.column_stack([np.cos(angle), np.sin(angle)])
+
+
 def looks(rng, rounds, sizes=(36, 48), people=0, off=1.5, turn=(1.4, 2.8)):
     """Two looks at a room: the source sees a part of the target, and people who are not in it.
 
@@ -87,7 +95,7 @@ def looks(rng, rounds, sizes=(36, 48), people=0, off=1.5, turn=(1.4, 2.8)):
     """
     found = {"source": [], "target": [], "T": []}
     for _ in rounds:
-        room = outline(rng, max(sizes))
+        room = (outline if max(sizes) > FEW else _posts)(rng, max(sizes))
         T = motion(*either_sign(rng, 0.4, 1.5, 2), either_sign(rng, *turn))
         way = rng.uniform(0, 2 * np.pi)
         middle = room.mean(axis=0)
