@@ -209,7 +209,6 @@ SLIPS = (
         "v-for-vt",
         "numpy's svd returns the transpose of V. In the plane V is often its own transpose, which hides "
         "the mistake as long as there is no mirror.",
-        [(GUARD, "if np.linalg.det(Vt @ U.T) < 0:"), (R, "T[:2, :2] = Vt @ U.T")],
         [(MEND, "pass"), (R, "T[:2, :2] = Vt @ U.T")],
     ),
     Slip(
@@ -267,12 +266,6 @@ SLIPS = (
             "a, b = source.mean(axis=0), target.mean(axis=0)",
             "a, b = source.sum(axis=0) / 9, target.sum(axis=0) / 9",
         ),
-    ),
-    Slip(
-        "arguments-changed",
-        "The centroids were taken off the clouds themselves, which belong to the caller: take them off "
-        "a copy.",
-        (H, "source -= a\n    target -= b\n    H = source.T @ target"),
     ),
 )
 

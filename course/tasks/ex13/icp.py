@@ -235,11 +235,6 @@ SLIPS = (
             "distances, rows = nearest(moved, target)\n        near = distances <= np.median(distances)\n        moved, rows = moved[near], rows[near]",
         ),
     ),
-    Slip(
-        "T-changed",
-        "T was changed in place, and it belongs to the caller.",
-        (FIT, "T[:] = best_motion(moved, target[rows]) @ T"),
-    ),
 )
 
 STUMBLES = (

@@ -160,7 +160,6 @@ SLIPS = (
         "Q was not used: the walls alone decide. Odometry knows something as well, and where walls are "
         "silent it is all there is.",
         (P, "P = np.linalg.pinv(J.T @ W @ J)"),
-        (P, "P = np.linalg.inv(1e-9 * np.eye(3) + J.T @ W @ J)"),
     ),
     Slip(
         "Q-not-inverted",
@@ -265,12 +264,6 @@ SLIPS = (
             RETURN,
             "if np.linalg.matrix_rank(J) < 3:\n        return np.zeros(3), Q\n    return delta, P",
         ),
-    ),
-    Slip(
-        "Q-changed",
-        "Something was added to Q in place, or T was changed, and both belong to the caller.",
-        (P, "Q[:] = np.linalg.inv(Q)\n    P = np.linalg.inv(Q + J.T @ W @ J)"),
-        (RETURN, "T[:2, 2] += R @ delta[:2]\n    return delta, P"),
     ),
 )
 

@@ -94,12 +94,6 @@ SLIPS = (
         (KEPT, "kept = np.argsort(rows)[:keep]"),
     ),
     Slip(
-        "sorted-not-argsorted",
-        "The distances were sorted, and the rows of the pairs forgotten: the order tells which pairs are "
-        "short.",
-        (KEPT, "kept = np.sort(distances)[:keep].astype(int)"),
-    ),
-    Slip(
         "torn-pairs",
         "Source and target were put in different orders, or cut differently, which tears the pairs "
         "apart: take the same pairs of both.",
@@ -231,11 +225,6 @@ SLIPS = (
         "inverted",
         "This is the inverse motion. T has to carry the source onto the target.",
         (RETURN, "return np.linalg.inv(T)"),
-    ),
-    Slip(
-        "T-changed",
-        "T was changed in place, and it belongs to the caller.",
-        (FIT, "T[:] = best_motion(moved[kept], target[rows[kept]]) @ T"),
     ),
 )
 

@@ -8,6 +8,7 @@ from slamlab.exercises.task import Probe, Task
 from slamlab.exercises.tasks.ex13 import motions
 from slamlab.exercises.tasks.ex13.motions import carried, either_sign, motion
 
+LINE = 1e-9  # share of |H|² that det H is of points on a line
 TURN, SHIFT, LAST = np.s_[:2, :2], np.s_[:2, 2], np.s_[2]
 
 
@@ -63,6 +64,13 @@ def _on_the_way(inputs):
     return {"mean of source": a.mean(axis=1), "mean of target": b.mean(axis=1), "H": p.mT @ q}
 
 
+def _parts(inputs, outputs):
+    """R, t and the last row where H says which way round; on a line rounding alone decides it."""
+    H = _on_the_way(inputs)["H"]
+    T = outputs["result"][np.abs(np.linalg.det(H)) > LINE * np.square(H).sum(axis=(1, 2))]
+    return {"R": T[:, :2, :2], "t": T[:, :2, 2], "last row": T[:, 2]}
+
+
 BEST_MOTION = Task(
     id="13-best-motion",
     title="The best motion of paired points",
@@ -111,9 +119,5 @@ BEST_MOTION = Task(
         Probe("clouds a hundred metres away", lambda rng: paired(rng, 2, 8, far=100)),
         Probe("whole numbers", _whole),
     ),
-    parts=lambda inputs, outputs: {
-        "R": outputs["result"][:, :2, :2],
-        "t": outputs["result"][:, :2, 2],
-        "last row": outputs["result"][:, 2],
-    },
+    parts=_parts,
 )
