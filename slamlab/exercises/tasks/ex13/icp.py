@@ -34,7 +34,7 @@ def by_rounds(inputs, outputs, want=matched):
     return {
         "one round": found[rounds <= 1],
         "more": found[(rounds > 1) & (rounds <= SOME)],
-        "many": off[rounds > SOME] < TOLERANCE,
+        "many": (off[rounds > SOME] < TOLERANCE).astype(float),
     }
 
 
