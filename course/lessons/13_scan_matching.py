@@ -994,5 +994,5 @@ except (sources.SourceError, ValueError) as absent:
 # **Next:** every match is a little off, and over many matches the errors add up, as odometry's did,
 # only more slowly. Lesson 14 puts ICP on a live robot; lesson 15 closes the loop.
 #
-# **Exercise:** [write the best motion, ICP, trimmed ICP and a walk that loses no
-# scan](../exercises/ex13_scan_matching.ipynb), judged by where the points land.
+# **Exercise:** [write the best motion, ICP, trimmed ICP and a step across walls that knows how sure
+# it is, and match two scans that share only half](../exercises/ex13_scan_matching.ipynb).

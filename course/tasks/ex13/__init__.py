@@ -1,0 +1,1 @@
+"""Programs of exercise 13, scan matching."""

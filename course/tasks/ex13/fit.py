@@ -1,0 +1,284 @@
+"""Right ways and slips of 13-best-motion."""
+
+from course.tasks import Edit, Slip, Stumble
+
+TASK = "13-best-motion"
+
+WAYS = {
+    "mirror mended by a diagonal": """
+def best_motion(source, target):
+    a, b = np.mean(source, axis=0), np.mean(target, axis=0)
+    U, _, Vt = np.linalg.svd((source - a).T @ (target - b))
+    R = Vt.T @ np.diag([1, np.linalg.det(Vt.T @ U.T)]) @ U.T
+    return np.block([[R, (b - R @ a)[:, None]], [np.zeros(2), np.ones(1)]])
+""",
+    "mirror mended in U, H by a loop": """
+def best_motion(source, target):
+    a, b = source.mean(axis=0), target.mean(axis=0)
+    H = np.zeros((2, 2))
+    for p, q in zip(source - a, target - b):
+        H += np.outer(p, q)
+    U, _, Vt = np.linalg.svd(H)
+    U[:, 1] *= np.sign(np.linalg.det(U) * np.linalg.det(Vt))
+    R = (U @ Vt).T
+    T = np.eye(3)
+    T[:2, :2], T[:2, 2] = R, b - R @ a
+    return T
+""",
+    "angle in closed form": """
+def best_motion(source, target):
+    a, b = source.mean(axis=0), target.mean(axis=0)
+    p, q = source - a, target - b
+    sine, cosine = np.sum(p[:, 0] * q[:, 1] - p[:, 1] * q[:, 0]), np.sum(p * q)
+    theta = np.arctan2(sine, cosine)
+    c, s = np.cos(theta), np.sin(theta)
+    x, y = b - np.array([[c, -s], [s, c]]) @ a
+    return [[c, -s, x], [s, c, y], [0, 0, 1]]
+""",
+    "complex numbers": """
+def best_motion(source, target):
+    z, w = source @ [1, 1j], target @ [1, 1j]
+    turn = np.vdot(z - z.mean(), w - w.mean())
+    turn /= abs(turn)
+    t = w.mean() - turn * z.mean()
+    return np.array(
+        [[turn.real, -turn.imag, t.real], [turn.imag, turn.real, t.imag], [0, 0, 1]]
+    )
+""",
+    "scipy's Kabsch": """
+def best_motion(source, target):
+    from scipy.spatial.transform import Rotation
+
+    a, b = source.mean(axis=0), target.mean(axis=0)
+    flat = lambda points: np.column_stack([points, np.zeros(len(points))])
+    wide = Rotation.align_vectors(
+        np.vstack([flat(target - b), [0, 0, 1e3]]), np.vstack([flat(source - a), [0, 0, 1e3]])
+    )[0].as_matrix()
+    T = np.eye(3)
+    T[:2, :2] = wide[:2, :2]
+    T[:2, 2] = b - T[:2, :2] @ a
+    return T
+""",
+    "three motions after one another": """
+def best_motion(source, target):
+    a, b = source.mean(axis=0), target.mean(axis=0)
+    H = (source - a).T @ (target - b)
+    turn = np.array([[H[0, 0] + H[1, 1], H[1, 0] - H[0, 1]], [H[0, 1] - H[1, 0], H[0, 0] + H[1, 1]]])
+    away, about, back = np.eye(3), np.eye(3), np.eye(3)
+    away[:2, 2], back[:2, 2] = -a, b
+    about[:2, :2] = turn / np.hypot(*turn[0])
+    return back @ about @ away
+""",
+    "eigenvectors instead of singular ones": """
+def best_motion(source, target):
+    a, b = source.mean(axis=0), target.mean(axis=0)
+    H = (source - a).T @ (target - b)
+    c, s = np.trace(H), H[0, 1] - H[1, 0]
+    _, vectors = np.linalg.eigh(np.array([[c, s], [s, -c]]))  # of half the angle
+    x, y = vectors[:, -1]
+    R = np.array([[x * x - y * y, -2 * x * y], [2 * x * y, x * x - y * y]])
+    T = np.identity(3)
+    T[:2, :2], T[:2, 2] = R, b - R @ a
+    return T
+""",
+}
+
+D = "mirror mended by a diagonal"
+H = "H = (source - a).T @ (target - b)"
+R = "T[:2, :2] = Vt.T @ U.T"
+SHIFT = "T[:2, 2] = b - T[:2, :2] @ a"
+MEND = "Vt[1] *= -1"
+GUARD = "if np.linalg.det(Vt.T @ U.T) < 0:"
+RETURN = "return T"
+
+
+def _mended(how):
+    """The program in which R is mended otherwise after it has been multiplied."""
+    return [(MEND, "pass"), (R, f"{R}\n    if np.linalg.det(T[:2, :2]) < 0:\n        {how}")]
+
+
+SLIPS = (
+    Slip(
+        "rotation-transposed",
+        "R turns the wrong way: it is the transpose of the right one. Which of U and V belongs to the "
+        "source depends on which cloud stands on the left in H.",
+        (R, "T[:2, :2] = U @ Vt"),
+        (H, "H = (target - b).T @ (source - a)"),
+    ),
+    Slip(
+        "not-centred",
+        "The centroids were left on one or both clouds when H was summed. Turning is about the "
+        "centroids, not about the origin.",
+        (H, "H = source.T @ target"),
+    ),
+    Slip(
+        "one-number-centroid",
+        "The centroid has two numbers, the mean of x and that of y: without an axis, mean takes all "
+        "numbers together.",
+        (
+            "a, b = source.mean(axis=0), target.mean(axis=0)",
+            "a, b = source.mean() * np.ones(2), target.mean() * np.ones(2)",
+        ),
+    ),
+    Slip(
+        "centroid-not-turned",
+        "The source's centroid has to be turned by R before it is compared with the target's.",
+        (SHIFT, "T[:2, 2] = b - a"),
+    ),
+    Slip(
+        "centroid-turned-back",
+        "In t the source's centroid is turned the wrong way round: by the transpose of R.",
+        (SHIFT, "T[:2, 2] = b - T[:2, :2].T @ a"),
+        (SHIFT, "T[:2, 2] = b - a @ T[:2, :2]"),
+    ),
+    Slip(
+        "centroids-swapped",
+        "The centroids have changed places in t, or its sign is wrong: T carries the source, so R meets "
+        "the source's centroid.",
+        (SHIFT, "T[:2, 2] = a - T[:2, :2] @ b"),
+        (SHIFT, "T[:2, 2] = T[:2, :2] @ a - b"),
+    ),
+    Slip(
+        "target-turned",
+        "R was put on the difference of the centroids, or on the target's. Only the source is turned.",
+        (SHIFT, "T[:2, 2] = T[:2, :2] @ (b - a)"),
+        (SHIFT, "T[:2, 2] = T[:2, :2] @ b - a"),
+    ),
+    Slip(
+        "shift-only",
+        "Nothing is turned: R is the identity. The clouds are turned against each other.",
+        (R, "pass"),
+    ),
+    Slip(
+        "no-shift",
+        "T turns, but does not shift: t is missing.",
+        (SHIFT, "pass"),
+    ),
+    Slip(
+        "first-pair-for-centroid",
+        "t lays one point on its partner. All points err: the centroids are what is laid over each "
+        "other.",
+        (SHIFT, "T[:2, 2] = target[0] - T[:2, :2] @ source[0]"),
+        ("a, b = source.mean(axis=0), target.mean(axis=0)", "a, b = source[0], target[0]"),
+    ),
+    Slip(
+        "medians",
+        "The middle of least squares is the mean, not the median.",
+        (
+            "a, b = source.mean(axis=0), target.mean(axis=0)",
+            "a, b = np.median(source, axis=0), np.median(target, axis=0)",
+        ),
+    ),
+    Slip(
+        "inverted",
+        "This is the inverse motion: it lays the target over the source. T has to carry the source.",
+        (RETURN, "return np.linalg.inv(T)"),
+    ),
+    Slip(
+        "for-rows",
+        "T is transposed: matrices act on column vectors here, so that t stands in the last column.",
+        (RETURN, "return T.T"),
+    ),
+    Slip(
+        "singular-values-left",
+        "S was left in R. It says how far the clouds spread, and a rotation does not stretch.",
+        Edit(
+            D, (("U, _, Vt", "U, S, Vt"), ("np.diag([1, np.linalg.det(Vt.T @ U.T)])", "np.diag(S)"))
+        ),
+        Edit(
+            D,
+            (
+                ("U, _, Vt", "U, S, Vt"),
+                ("R = Vt.T", "R = np.sign(np.linalg.det(Vt.T @ U.T)) * Vt.T @ np.diag(S / S[0])"),
+                (" @ np.diag([1, np.linalg.det(Vt.T @ U.T)])", ""),
+            ),
+        ),
+    ),
+    Slip(
+        "affine",
+        "This is the best linear map, which may stretch and shear. A robot only turns and drives.",
+        (R, "T[:2, :2] = (np.linalg.pinv(source - a) @ (target - b)).T"),
+    ),
+    Slip(
+        "mirrored",
+        "det R = −1: the wall is turned inside out. Find out when V Uᵀ is a mirror, and which column of "
+        "V costs least to turn over.",
+        (MEND, "pass"),
+    ),
+    Slip(
+        "v-for-vt",
+        "numpy's svd returns the transpose of V. In the plane V is often its own transpose, which hides "
+        "the mistake as long as there is no mirror.",
+        [(MEND, "pass"), (R, "T[:2, :2] = Vt @ U.T")],
+    ),
+    Slip(
+        "negated",
+        "In the plane det(−R) = det R: negating the whole matrix leaves a mirror a mirror. One column "
+        "has to be turned over.",
+        _mended("T[:2, :2] *= -1"),
+    ),
+    Slip(
+        "first-flipped",
+        "The wrong column was turned over: the first one has the largest singular value, the wall's own "
+        "direction. Which one costs least?",
+        (MEND, "Vt[0] *= -1"),
+    ),
+    Slip(
+        "product-flipped",
+        "A row or a column of R itself, or a row of V, was turned over: that is a rotation, but not the "
+        "best one. svd gives the transpose of V: which column of V costs least?",
+        _mended("T[1, :2] *= -1"),
+        (MEND, "Vt[:, 0] *= -1"),
+        _mended("T[0, :2] *= -1"),
+        _mended("T[:2, 1] *= -1"),
+        _mended("T[:2, 0] *= -1"),
+    ),
+    Slip(
+        "always-flipped",
+        "A column is turned over where there is no mirror, or the inequality is the wrong way round: "
+        "look at the sign of the determinant.",
+        (GUARD, "if np.linalg.det(Vt.T @ U.T) > 0:"),
+        (GUARD, "if True:"),
+    ),
+    Slip(
+        "no-turn-for-a-mirror",
+        "Where V Uᵀ is a mirror, nothing was turned at all. There still is a best rotation.",
+        _mended("T[:2, :2] = np.eye(2)"),
+    ),
+    Slip(
+        "turned-by-cosine",
+        "An angle by arccos or by arctan has lost its quadrant or its sign: it takes a sine and a cosine.",
+        Edit(
+            "angle in closed form",
+            (("np.arctan2(sine, cosine)", "np.arccos(cosine / np.hypot(sine, cosine))"),),
+        ),
+        Edit("angle in closed form", (("np.arctan2(sine, cosine)", "np.arctan(sine / cosine)"),)),
+    ),
+    Slip(
+        "cast-to-int",
+        "T holds whole numbers only: an array that is made like another one takes over its type.",
+        ("T = np.eye(3)", "T = np.zeros((3, 3), dtype=source.dtype)\n    T[2, 2] = 1"),
+    ),
+    Slip(
+        "nine-points",
+        "H was divided, or a mean taken, by a number of points that is not that of the clouds.",
+        (
+            "a, b = source.mean(axis=0), target.mean(axis=0)",
+            "a, b = source.sum(axis=0) / 9, target.sum(axis=0) / 9",
+        ),
+    ),
+)
+
+STUMBLES = (
+    Stumble(
+        "malformed",
+        (RETURN, "return (T[:2, :2], T[:2, 2])"),
+        (RETURN, "return np.array([*T[:2, 2], np.arctan2(T[1, 0], T[0, 0])])"),
+        (RETURN, "return T[:2]"),
+        (RETURN, "pass"),
+    ),
+    Stumble("raised", (H, "H = (source - a) @ (target - b)")),
+)
+
+EQUIVALENT = {}
+"""Text of a mutation to the reason why it is right as well."""

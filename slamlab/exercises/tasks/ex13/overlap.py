@@ -1,0 +1,125 @@
+"""Task 13-overlap: two scans with half of their points in common, a bad guess; any method goes."""
+
+import numpy as np
+
+from slamlab.exercises.drives.ex13 import DRIVES
+from slamlab.exercises.law import Diagnosis, Law
+from slamlab.exercises.task import Probe, Task
+from slamlab.exercises.tasks.ex13.halves import offs, rooms
+
+SOLVED, SHARP = (0.2, 5.0), (0.015, 0.5)  # [m], [°]
+RIGID = 1e-6  # what a motion's matrix may be off its own
+
+
+def within(inputs, outputs, limits):
+    """(n,) bool, whether each answer is a motion and near the true one."""
+    T = outputs["result"]
+    R = T[:, :2, :2]
+    rigid = (np.abs(R @ R.mT - np.eye(2)).max(axis=(1, 2)) < RIGID) & (np.linalg.det(R) > 0)
+    rigid &= np.abs(T[:, 2] - [0, 0, 1]).max(axis=1) < RIGID
+    way, turn = offs(inputs, T)
+    return rigid & (way < limits[0]) & (turn < limits[1])
+
+
+def _why(inputs, outputs):
+    way, turn = offs(inputs, outputs["result"])
+    n, solved, sharp = len(way), *(within(inputs, outputs, of).sum() for of in (SOLVED, SHARP))
+    return (
+        f"{solved} of {n} are home, {sharp} of these sharply. The typical match is "
+        f"{100 * np.median(way):.1f} cm and {np.median(turn):.1f}° off."
+    )
+
+
+def _step(name, points, count, limits, says, asks):
+    """The law that so many of 16 matches, or as large a share of fewer, are near the truth."""
+
+    def holds(inputs, outputs):
+        return np.mean(within(inputs, outputs, limits)) >= count / 16
+
+    says = says.format(f"{count} of 16 matches", *limits)
+    return Law(name, points, says, holds, why=_why, asks=asks)
+
+
+HOME = "{} are home: off by less than {} m and {:g}°"
+STEPS = (
+    _step(
+        "some",
+        0.5,
+        4,
+        SOLVED,
+        HOME,
+        "How far may the first guess be off for trimmed ICP to come home? What could you do about "
+        "the turn, which you do not know?",
+    ),
+    _step(
+        "half",
+        1,
+        8,
+        SOLVED,
+        HOME,
+        "Suppose you have twenty answers from twenty beginnings. By which number do you choose, if "
+        "half of the source's points have no partner at all?",
+    ),
+    _step(
+        "nearly-all",
+        2,
+        13,
+        SOLVED,
+        HOME,
+        "For a given turn, each source point and each target point would be laid on each other by "
+        "one shift. What is special about the right shift, among all of these?",
+    ),
+    _step(
+        "sharp",
+        1.5,
+        9,
+        SHARP,
+        "{} are off by less than {} m and {:g}° only",
+        "Home is not the end: points of the two scans lie at different spots of a wall. Which part "
+        "of their distance means something?",
+    ),
+)
+
+
+def _inverted(inputs, outputs):
+    """Whether the answers carry the target over the source."""
+    turned = {"result": np.linalg.inv(outputs["result"])}
+    return within(inputs, turned, SOLVED).mean() >= 0.25
+
+
+def _guess(inputs, outputs):
+    """Whether most answers lie about as far off as the guess, or farther."""
+    return np.median(offs(inputs, outputs["result"])[1]) > 15
+
+
+MISTAKES = (
+    Diagnosis(
+        "inverted",
+        "These are the inverse motions: they lay the target over the source. T carries the source.",
+        _inverted,
+    ),
+    Diagnosis(
+        "turn-not-found",
+        "Most of your matches are off by a large turn, as the guess is: from there no ICP goes "
+        "home. Try many turns, and choose by a number that points without a partner cannot spoil.",
+        _guess,
+    ),
+)
+
+OVERLAP = Task(
+    id="13-overlap",
+    title="Half an overlap and a bad guess",
+    drive=DRIVES["13-overlap"],
+    inputs=rooms,
+    shapes={"result": (3, 3)},
+    laws=STEPS,
+    diagnoses=MISTAKES,
+    probes=(
+        Probe(
+            "other numbers of beams, and a guess that is nearly right",
+            lambda rng: rooms(rng, 1, (90, 130), (10, 20), (0.02, 0.1), (2, 8)),
+            (STEPS[0].name,),
+        ),
+    ),
+    rounds=False,
+)
