@@ -102,7 +102,6 @@ SLIPS = (
         "immortal",
         "Walls never leave the book, or never pay. Who has no life left is deleted, in x and P as well.",
         (STAYS, "if i not in seen:"),
-        (MISSED, "after[i] = (count, max(left - 1, 1))"),
         (MISSED, "after[i] = (count, left)"),
     ),
     Slip(
@@ -197,7 +196,9 @@ def keep_book(book, seen, N, lives):
 
 STUMBLES = (
     Stumble("malformed", ("return after, used", "return after")),
-    Stumble("malformed", ("return after, used", "return {i: c for i, (c, _) in after.items()}, used")),
+    Stumble(
+        "malformed", ("return after, used", "return {i: c for i, (c, _) in after.items()}, used")
+    ),
     Stumble("raised", (IDS, "for i in seen[0]:")),
     Stumble("not attempted", "def keep_book(book, seen, N, lives):\n    raise NotImplementedError"),
 )

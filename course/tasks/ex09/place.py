@@ -128,7 +128,6 @@ SLIPS = (
         "An error of θ or of α' turns your wall only, and does not shift it. But it is turned about the "
         "robot, so its distance from the origin changes: differentiate ρ by θ, cos α included.",
         (J_X, "J_x = np.array([[c, s, 0], [0, 0, 1]])"),
-        (J_Z, "J_z = np.eye(2)"),
         (LEVER, "lever = 0"),
     ),
     Slip(
@@ -171,7 +170,6 @@ SLIPS = (
         "neither x nor ρ'.",
         (J_X, "J_x = np.array([[c, s, lever], [0, 0, 0]])"),
         (J_Z, "J_z = np.array([[1, lever], [0, 0]])"),
-        (J_Z, "J_z = np.array([[1, 0], [lever, 1]])"),
     ),
     Slip("noise-missing", "C lacks R: the sight itself errs.", _returns("J_x @ P @ J_x.T")),
     Slip(

@@ -175,7 +175,7 @@ SLIPS = (
     Slip("S-missing", "The gain lacks S⁻¹, so that x jumps the more, the less is known.",
          (K, "K = P @ H.T"), _x("x + P @ H.T @ v")),
     Slip("S-not-inverted", "The gain is multiplied by S where it should be divided by it.",
-         (K, "K = P @ H.T @ S"), (K, "K = P @ H.T / S")),
+         (K, "K = P @ H.T @ S")),
     Slip("R-missing", "S lacks R: the sight was taken for exact.", (S, "S = H @ P @ H.T")),
     Slip("R-only", "S is R alone: pose and wall err as well, and that is in the innovation.",
          (S, "S = R")),

@@ -111,7 +111,11 @@ def _pair(rng, things, false):
         for k, z in enumerate(rng.permutation(scan)):
             table[:, t, k, 0], table[:, t, k, 1] = z[:, 0], wrap(z[:, 1])
     started = start + START * rng.standard_normal(3) * twice
-    return started, drives + WHEELS[:2] * rng.standard_normal(drives.shape) * twice[..., None], table
+    return (
+        started,
+        drives + WHEELS[:2] * rng.standard_normal(drives.shape) * twice[..., None],
+        table,
+    )
 
 
 def drives(rng, rooms=6, things=3, false=2):
