@@ -282,7 +282,9 @@ def _():
     fig, ax = views.axes("Ends of a wall", size=(8, 3.4))
     views.draw(ax, Segments("walls", [[-0.5, 2, 5.5, 2]]))
     views.draw(ax, Segments("naive", [[0, 0, *p] for p, _, _ in found]), label="beams")
-    views.draw(ax, Ellipses("landmark", *zip(*[(p, C) for p, C, _ in found])), label="ends")
+    views.draw(
+        ax, Ellipses("landmark", [p for p, _, _ in found], [C for _, C, _ in found]), label="ends"
+    )
     views.draw(ax, Poses("robot", [x[:3]]))
     views.legend(ax, loc="lower right")
     views.show(fig, alt="Three beams that meet a wall, and an ellipse where each of them ends.")

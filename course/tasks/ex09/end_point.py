@@ -1,6 +1,6 @@
 """Right ways and slips of 09-end."""
 
-from course.tasks import Edit, Slip, Stumble
+from course.tasks import Slip, Stumble
 
 TASK = "09-end"
 

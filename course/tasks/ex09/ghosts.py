@@ -150,9 +150,8 @@ SLIPS = (
     ),
     Slip(
         "never-predicted",
-        "The drives are not used, or lie one scan off: the first scan is taken before the first drive.",
+        "The drives are not used: the robot is believed to stand where it started.",
         ("x, P = predict(x, P, drives[t - 1], C)", "pass"),
-        [("if t > 0:", "if t < len(drives):"), ("drives[t - 1]", "drives[t]")],
     ),
     Slip(
         "unwrapped",

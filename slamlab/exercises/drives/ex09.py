@@ -30,7 +30,9 @@ def _stacked(names, shapes_of):
         function, call = next(iter(functions.items()))
         shapes = shapes_of(inputs["x"].shape[1])
         found = [_parts(call(*row), function, names, shapes) for row in _arguments(inputs)]
-        return {name: np.array(part) for name, part in zip(names, zip(*found), strict=True)}
+        return {
+            name: np.array(part) for name, part in zip(names, zip(*found, strict=True), strict=True)
+        }
 
     return run
 

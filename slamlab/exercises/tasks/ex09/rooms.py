@@ -77,7 +77,7 @@ def _things(rng, way, walls, count):
 
 
 def _kept(rng, times, missed):
-    """Those of some scans that find a line: of FOUND in a row one misses it, which misses no other."""
+    """Those of some scans that find a line: one of FOUND in a row misses it, no other."""
     gone = set()
     for k in range(0, len(times), FOUND):
         free = [t for t in times[k : k + FOUND] if t > 0 and t not in missed]

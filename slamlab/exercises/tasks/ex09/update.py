@@ -50,7 +50,8 @@ def sights(rng, rows=9, walls=3, where="beside"):
             bearing = (np.sign(x[k, 2]) if turned else side[k]) * rng.uniform(0.3, 2.4)
         seen = np.array([rng.uniform(1, 4), bearing])
         x[k, 3 + 2 * j[k] : 5 + 2 * j[k]] = models.g_line(x[k, :3], seen)
-        z[k] = seen + [either_sign(rng, 0.1, 0.2), np.sign(bearing) * rng.uniform(0.05, 0.1)]
+        off = either_sign(rng, 0.1, 0.2), np.sign(bearing) * rng.uniform(0.05, 0.1)
+        z[k] = seen + np.array(off)
     z[:, 1] = wrap(z[:, 1])
     return {"x": x, "P": P, "z": z, "j": j, "R": R}
 
