@@ -401,7 +401,8 @@ def _():
 
 
 # %% [markdown]
-# **See:** four lines on four walls, a hand's breadth off at most, and none where the cart stood.
+# **See:** four lines near four walls, and none where the cart stood. What is left of the error turns
+# the map as a whole: it hangs on the heading with which its first walls were placed.
 #
 # ## Done?
 #
