@@ -1522,7 +1522,7 @@ for limit in (90, 30, 20, 10):
 # | all as printed | worse than odometry, by metres |
 # | predict after pairing | ghosts in the map and a wrong heading, or lost |
 #
-# **Exercise:** [place a wall, keep its life, update, drive a corridor, thin
-# points](../exercises/ex09_slam_with_walls.ipynb).
+# **Exercise:** [place a wall, see it again, keep its life, say where it ends, draw a map without
+# ghosts](../exercises/ex09_slam_with_walls.ipynb).
 #
 # **Next:** [lesson 10](10_boxes.ipynb) asks what is left when errors have no likelihood, only bounds.

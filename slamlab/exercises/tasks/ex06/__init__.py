@@ -2,7 +2,7 @@
 
 - ``augment``, ``update``, ``slam``: the filter, block by block; ``beliefs``: what they are tried on
 - ``same``: two landmarks turn out to be one; ``false_sights``: a filter that is told lies
-- ``runs``: whole runs of one way; ``ends``: how their ends are judged; ``orders``: wrong orders
+- ``runs``: whole runs of one way; ``ends``: how their ends are judged
 """
 
 from slamlab.exercises.exercise import Exercise

@@ -1,4 +1,4 @@
-"""Beliefs for exercise 06, what becomes of them by their own errors, and how answers are compared.
+"""Beliefs for exercise 06, and what becomes of them by their own errors.
 
 The law of moments: carry errors of a belief, a pair for each direction of its covariance, through
 the model itself; the covariance of what comes out is P. No Jacobian is consulted.
@@ -6,12 +6,9 @@ the model itself; the covariance of what comes out is P. No Jacobian is consulte
 
 import numpy as np
 
-from slamlab.exercises.law import Diagnosis
 from slamlab.geometry import wrap
 
 SMALL = 1e-4  # the errors carried, as a share of the belief's: there every model is straight
-TOLERANCE = 1e-3  # of a mean, in standard deviations; of a covariance, in two of them
-ROBOT = slice(0, 3)
 
 
 def either_sign(rng, low, high, size=None):
@@ -72,49 +69,6 @@ def square_root(P):
     """(n, n) B with B Bᵀ = P, where P may be singular."""
     variances, directions = np.linalg.eigh(P)
     return directions * np.sqrt(np.maximum(variances, 0))
-
-
-def sigmas(P):
-    """(..., n) standard deviations."""
-    return np.sqrt(np.diagonal(P, axis1=-2, axis2=-1))
-
-
-def same_mean(got, want, P, part=np.s_[:]):
-    """(k,) whether states (k, n) agree in some components, in units of their deviations."""
-    off = got - want
-    off[:, 2] = wrap(off[:, 2])
-    return (np.abs(off / sigmas(P))[:, part] <= TOLERANCE).all(axis=1)
-
-
-def same_block(got, want, rows=np.s_[:], columns=np.s_[:]):
-    """(k,) whether a block of covariances (k, n, n) agrees, with its mirror image."""
-    s = sigmas(want)
-    off = np.abs(got - want) / (s[:, :, None] * s[:, None, :])
-    both = np.maximum(off, off.transpose(0, 2, 1))
-    return (both[:, rows, columns] <= TOLERANCE).all(axis=(1, 2))
-
-
-def covariance_mistake(name, hint, truth, *wrong, part=np.s_[:, :]):
-    """A diagnosis: a part of P equals one of the wrong formulas, on either side of the diagonal.
-
-    Parameters
-    ----------
-    name, hint : str
-    truth : inputs -> (k, n, n), which gives the units
-    wrong : inputs -> (k, n, n)
-    part : two slices
-    """
-
-    def matches(inputs, outputs):
-        s = sigmas(truth(inputs))
-        scale = (s[:, :, None] * s[:, None, :])[:, *part]
-        got = outputs["P"][:, *part]
-        return any(
-            (np.abs(got - formula(inputs)[:, *part]) <= TOLERANCE * scale).all()
-            for formula in wrong
-        )
-
-    return Diagnosis(name, hint, matches)
 
 
 def T(M):

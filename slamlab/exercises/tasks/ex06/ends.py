@@ -4,7 +4,6 @@ import numpy as np
 
 from slamlab.evaluation import band, nees
 from slamlab.exercises.tasks.ex06.runs import least_squares, truth
-from slamlab.filters.landmark_models import LINES
 from slamlab.geometry import wrap
 
 MAP = slice(3, None)
@@ -49,8 +48,6 @@ class Ends:
     def wrapped(self, error):
         """(..., n) errors of states, their angles wrapped."""
         error[..., 2] = wrap(error[..., 2])
-        if self.kind is LINES:
-            error[..., 4::2] = wrap(error[..., 4::2])
         return error
 
     def errors(self, inputs, x):

@@ -1,0 +1,1 @@
+"""Right ways and slips of exercise 09."""
