@@ -30,7 +30,7 @@ test-all: test  ## Also walk through every notebook in a real browser
 
 soak: env  ## Run what takes long, or needs a machine that has nothing else to do
 	$(RUN) pytest -m soak
-	SLAMLAB_BANK_SEEDS=100 $(RUN) pytest -n 2 tests/bank
+	SLAMLAB_SLIP_SEEDS=100 $(RUN) pytest -n 2 tests/grading/test_slips.py
 
 env:
 	@$(PYTHON) lab.py --venv $(ENV) --lock requirements-test.lock --install-only

@@ -13,7 +13,7 @@ from slamlab.exercises.drives import StudentError
 from slamlab.exercises.run_task import recognised
 from slamlab.exercises.task import OPEN_SEED
 
-SEEDS = int(os.environ.get("SLAMLAB_BANK_SEEDS", "2"))  # make soak: many more
+SEEDS = int(os.environ.get("SLAMLAB_SLIP_SEEDS", "2"))  # make soak: many more
 SAMPLE = 12  # mutants of each solution, in make test
 PROGRAMS = {one.task.id: one for id in catalogue.EXERCISES for one in programs(id)}
 WAYS = [(id, name) for id, one in PROGRAMS.items() for name in one.ways]
@@ -33,7 +33,7 @@ PASTED = [(id, name) for id, one in PROGRAMS.items() for name in getattr(one.mod
 
 
 def seeds():
-    return [OPEN_SEED, *(b"bank %d" % k for k in range(SEEDS))]
+    return [OPEN_SEED, *(b"slip %d" % k for k in range(SEEDS))]
 
 
 @pytest.mark.parametrize(("id", "way"), WAYS, ids=lambda value: value)
