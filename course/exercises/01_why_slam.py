@@ -124,9 +124,8 @@ def _():
 # %% name="map"
 def place(pose, points):
     """A scan's points (n, 2), given in the robot's frame, in the world."""
-    x, y, theta = pose
-    c, s = np.cos(theta), np.sin(theta)
-    return points @ np.array([[c, s], [-s, c]]) + np.array([x, y])
+    cos, sin = np.cos(pose[2]), np.sin(pose[2])
+    return points @ np.array([[cos, sin], [-sin, cos]]) + pose[:2]
 
 
 @attempt

@@ -207,11 +207,11 @@ def _():
 # %%
 def update_landmark(p, P, x, z, R):
     """The belief of a landmark after it was seen at z from the known pose x; returns p, P."""
-    v = z - h(x, p)
-    v[1] = wrap(v[1])
+    off = z - h(x, p)
+    off[1] = wrap(off[1])
     H, weight = H_landmark(x, p), np.linalg.inv(R)
     P = np.linalg.inv(np.linalg.inv(P) + H.T @ weight @ H)
-    return p + P @ H.T @ weight @ v, P
+    return p + P @ H.T @ weight @ off, P
 
 
 # %% [markdown]

@@ -338,8 +338,8 @@ def guesses(sights, posts):
 def track(start, motions, sights, posts):
     """The usual filter: it believes each sight to be the nearest post, if one is near."""
     pose, found = start[None], []
-    for motion, z in zip(motions, sights, strict=True):
-        pose = corrected(compose(pose, motion), z, posts)
+    for step, z in zip(motions, sights, strict=True):
+        pose = corrected(compose(pose, step), z, posts)
         found.append(pose[0])
     return np.array(found)
 

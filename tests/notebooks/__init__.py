@@ -1,14 +1,16 @@
 """What the notebook tests share: the notebooks, and what stands in them."""
 
+import re
+
 import nbformat
 
 from course.derive import FOLDERS
-from course.source import ROOT, sources
+from course.source import ROOT, file_name, sources
 
 LESSONS = [path for path in sources() if path.parent.name == "lessons"]
 EXERCISES = [path for path in sources() if path.parent.name == "exercises"]
 NOTEBOOKS = sorted(
-    ROOT / folder / f"{path.stem}.ipynb"
+    ROOT / folder / file_name(path)
     for path in sources()
     for folder in FOLDERS[path.parent.name.removesuffix("s")]
 )
@@ -35,12 +37,12 @@ def code_cells(notebook):
 
 
 def images(cell):
-    """The outputs of a code cell that hold a picture."""
-    return [
-        output
-        for output in cell.get("outputs", [])
-        if any(mime.startswith("image/") for mime in output.get("data", {}))
-    ]
+    """The pictures that a code cell's outputs hold, each its HTML element."""
+    shown = (output.get("data", {}) for output in cell.get("outputs", []))
+    bare = [mime for data in shown for mime in data if mime.startswith("image/")]
+    assert bare == [], f"{cell.id}: a picture outside HTML has no alternative text on the page"
+    htmls = (output.get("data", {}).get("text/html", "") for output in cell.get("outputs", []))
+    return [picture for text in htmls for picture in re.findall(r"<img[^>]*>", text)]
 
 
 def texts(output):
@@ -48,4 +50,4 @@ def texts(output):
     yield from (output[key] for key in ("text", "evalue") if key in output)
     yield from output.get("traceback", [])
     data = output.get("data", {})
-    yield from (text for mime, text in data.items() if not mime.startswith("image/"))
+    yield from (re.sub(r"data:image/[^\"]*", "", text) for text in data.values())

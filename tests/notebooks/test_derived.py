@@ -58,7 +58,7 @@ def test_the_same_source_derives_the_same_bytes(path):
 @each_notebook
 def test_a_notebook_is_valid_and_light(path):
     nbformat.validate(load(path))
-    assert path.stat().st_size < 500_000
+    assert path.stat().st_size < 800_000
 
 
 @each_notebook
@@ -133,10 +133,9 @@ def test_a_cell_whose_output_is_checked_has_one_stored(path):
 @each_notebook
 def test_every_stored_picture_has_alternative_text(path):
     for cell in code_cells(load(path)):
-        for output in images(cell):
-            for mime in (m for m in output.data if m.startswith("image/")):
-                alt = output.metadata.get(mime, {}).get("alt", "")
-                assert len(alt.split()) >= 3, f"{cell.id}: {mime} without alt text"
+        for picture in images(cell):
+            alt = re.search(r'alt="([^"]*)"', picture)
+            assert alt and len(alt[1].split()) >= 8, f"{cell.id}: {picture[:200]}"
 
 
 @each_notebook
