@@ -114,7 +114,7 @@ END_POINT = Task(
     laws=(
         equals(
             "place",
-            1,
+            0.5,
             "p lies on the wall, and on the beam",
             _only("p"),
             asks="How far must you go along the beam until a cos α + b sin α is ρ?",
@@ -130,7 +130,7 @@ END_POINT = Task(
         ),
         equals(
             "X",
-            1,
+            1.5,
             "X is what p shares with all of the state",
             _only("X"),
             asks="Walls that are not met stand in X as well. What ties p to them?",
