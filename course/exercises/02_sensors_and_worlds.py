@@ -329,8 +329,8 @@ def quiet_fit(scans):
 #
 # Forty sensors are tried. An answer is judged by the factor that `error` is off, and by the
 # difference of `blocked`. In the middle of all sensors the first three steps of the ladder allow a
-# factor of 1.35, 1.17 and 1.09 (and 0.04, 0.03, 0.03); the last one wants 80 % of the sensors to
-# be within a factor of 1.16 (and 0.06).
+# factor of 1.35, 1.17 and 1.09 (and 0.04, 0.03, 0.03); the last one wants 31 of the 40 to be
+# within a factor of 1.16 (and 0.06).
 
 
 # %% name="busy-fit"

@@ -73,7 +73,7 @@ def echo(p, phi, half, walls):
                 if width < 1e-7:
                     best = min(best, np.hypot(*a), np.hypot(*b))
                     continue
-                towards = square_on + 2 * np.pi * np.round((low - square_on) / (2 * np.pi))
+                towards = low - np.pi + (square_on - low + np.pi) % (2 * np.pi)
                 for beta in (low, high, min(max(towards, low), high)):
                     share = np.hypot(*normal) * np.cos(beta - towards)
                     best = min(best, normal @ a / share if share > 1e-12 else np.inf)

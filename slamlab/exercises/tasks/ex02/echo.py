@@ -193,4 +193,5 @@ ECHO = Task(
         Probe("walls along x and y", _squarely),
     ),
     parts=_parts,
+    needs=("02-ray-wall",),
 )
