@@ -333,14 +333,8 @@ SLIPS = (
         (ENDS, "d[n - few], d[few - 1]"),
     ),
     Slip(
-        "whole-numbers",
-        "Your ends are whole numbers: something was cut off.",
-        (SORT, "d, n = np.sort(differences).astype(int), len(differences)"),
-    ),
-    Slip(
-        "changed-in-place",
-        "Your function writes into the errors, which belong to whoever called it. Work on a copy.",
-        (RMS, RMS.replace("a[:end] ** 2", "np.square(a[:end], out=a[:end])")),
+        "sorted-in-time",
+        "The errors of a drive were sorted. Their order in time says until when both were near.",
         ("    differences = []", "    errors_a.sort(axis=1)\n    differences = []"),
     ),
 )
