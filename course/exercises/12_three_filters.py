@@ -371,13 +371,13 @@ def relocalise(start, motions, sights, posts):
         """Which poses are best, one of each place: some may have become one."""
         order = np.argsort(-scores)
         cells = np.round(5 * poses[order])
-        return order[np.sort(np.unique(cells, axis=0, return_index=True)[1])][:30]
+        return order[np.sort(np.unique(cells, axis=0, return_index=True)[1])][:20]
 
     poses, scores, found = start[None], np.zeros(1), []  # the best one first
     for motion, z in zip(motions, sights, strict=True):
         poses = corrected(compose(poses, motion), z, posts)
         fits = fit(poses, z, posts)
-        if fits[0] < -1.5 * len(z):  # many phantoms, or elsewhere: other places may be as good
+        if fits[0] < -len(z):  # some phantoms, or elsewhere: other places may be as good
             others = guesses(z, posts)
             others = corrected(others[distinct(others, fit(others, z, posts))], z, posts)
             poses = np.concatenate([poses, others])

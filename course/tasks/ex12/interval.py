@@ -221,9 +221,21 @@ STUMBLES = (
     Stumble("raised", (Z, "z = norm.ppf(0.975)")),
 )
 
-AS_GOOD = "any interval is right that holds the true share about as often"
+AS_GOOD = "a little wider, and as honest: another interval will do as well, says the text"
+CUT = "it is cut off by rounding only"
 EQUIVALENT = {
-    "return (max(middle - half, 0.0), min(middle + half, 1.0)) -> return (": "it is cut off by rounding only",
-    "return (max(low, 0.0), min(high, 1.0)) -> return (": "it is cut off by rounding only",
-    "else 0": AS_GOOD,
-}
+    "return (max(middle - half, 0.0), min(middle + half, 1.0)) -> return (": CUT,
+    "return (max(low, 0.0), min(high, 1.0)) -> return (": CUT,
+} | dict.fromkeys(
+    (
+        "half = z * np.sqrt(k / n * (1 - k / n) / n + ",
+        "half = 1.96 * np.sqrt(p * (1 - p) / ",
+        "p, c = (k / n, 2 ** 1.96 / n)",
+        "more = n + 2 ** 1.96",
+        "p = (k + 1.96 ** 2 / 2) / more -> ",
+        "proportion_ci()",
+        "[0.0125, 0.975]",
+        "else 0",
+    ),
+    AS_GOOD,
+)

@@ -173,12 +173,6 @@ SLIPS = (
         "This run has forty readings in your function. How many there are is in the array.",
         (END, END.replace("len(errors) - 1", "39")),
     ),
-    Slip(
-        "changed-in-place",
-        "Your function writes into `errors`, which belongs to whoever called it. Work on a copy.",
-        (f"np.flatnonzero({NEAR})", f"np.flatnonzero({NEAR})\n    errors[:] = 0"),
-        (f"np.flatnonzero({NEAR})", f"np.flatnonzero({NEAR})\n    errors -= limit"),
-    ),
 )
 
 STUMBLES = (

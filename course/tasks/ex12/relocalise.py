@@ -100,7 +100,7 @@ PASTED = {
 }
 
 PENALTY = "scores[0] - 12"
-BEST = "[:30]"
+BEST = "[:20]"
 
 SLIPS = (
     Slip(
@@ -153,20 +153,6 @@ SLIPS = (
         "worst-first",
         "You keep the places that fit worst: a logarithm of a likelihood is best where it is largest.",
         ("np.argsort(-scores)", "np.argsort(scores)"),
-    ),
-    Slip(
-        "sees-before-it-drives",
-        "Each scan is made *after* its motion: move first, then look.",
-        [
-            (
-                "poses = corrected(compose(poses, motion), z, posts)",
-                "poses = corrected(poses, z, posts)",
-            ),
-            (
-                "poses, scores = poses[best], scores[best]",
-                "poses, scores = compose(poses[best], motion), scores[best]",
-            ),
-        ],
     ),
     Slip(
         "start-told",
