@@ -201,9 +201,8 @@ def _():
     x, P, sigmas = np.zeros(3), np.diag([0.01, 0.01, 0.005]) ** 2, []
     for _ in range(50):
         x, P = predict(x, P, rng.multivariate_normal([0.2, 0], C), C)
-        for j, z in enumerate(walls + rng.multivariate_normal([0, 0], R, 2)):
-            known = len(x) == 7
-            x, P = update(x, P, z, j, R=R) if known else add(x, P, z, R)
+        for j, seen in enumerate(walls + rng.multivariate_normal([0, 0], R, 2)):
+            x, P = update(x, P, seen, j, R) if len(x) == 7 else add(x, P, seen, R)
         some = rng.multivariate_normal(x[:5], P[:5, :5], 4000).T
         off = some[3] - some[0] * np.cos(some[4]) - some[1] * np.sin(some[4])
         sigmas.append([100 * np.sqrt(P[0, 0]), 100 * np.sqrt(P[1, 1]), 100 * off.std()])

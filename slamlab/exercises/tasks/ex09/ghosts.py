@@ -99,4 +99,5 @@ GHOSTS = Task(
     rounds=False,
     laws=STEPS,
     diagnoses=MISTAKES,
+    needs=("09-place", "09-update"),
 )
