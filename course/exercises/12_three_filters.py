@@ -338,8 +338,8 @@ def guesses(sights, posts):
 def track(start, motions, sights, posts):
     """The usual filter: it believes each sight to be the nearest post, if one is near."""
     pose, found = start[None], []
-    for step, z in zip(motions, sights, strict=True):
-        pose = corrected(compose(pose, step), z, posts)
+    for told, seen in zip(motions, sights, strict=True):
+        pose = corrected(compose(pose, told), seen, posts)
         found.append(pose[0])
     return np.array(found)
 
@@ -427,7 +427,7 @@ def _():
     fig, ax = views.axes("Lifted out of the left bay", size=(9, 3.8))
     views.draw(ax, Points("landmark", posts), label="posts")
     views.draw(ax, Poses("truth", truth[:8]), label="truth")
-    views.draw(ax, Poses("truth", truth[8:]))
+    views.draw(ax, Poses("truth", truth[8:]), label="_later")
     views.draw(ax, Poses("naive", track(*given)), label="track")
     views.draw(ax, Poses("corrected", relocalise(*given)), label="yours")
     views.legend(ax)
