@@ -2,7 +2,7 @@
 
 import time
 
-PATIENCE = float(__import__("os").environ.get("P", 300))
+PATIENCE = 300  # [s]; what is there is not waited for
 
 
 def until(said):

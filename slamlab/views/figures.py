@@ -3,6 +3,8 @@
 Figures are made without pyplot: nothing global is opened, so nothing has to be closed.
 """
 
+import textwrap
+
 from matplotlib.figure import Figure
 
 # colour-blind-safe palette of Okabe and Ito: told apart with any kind of colour vision
@@ -22,6 +24,7 @@ COLOURS = {
 }
 
 CSS_DPI = 96  # pixels of a page to an inch of print: text of 10 pt is as large as 10 pt of a page
+LETTER = 9  # pixels of the page to a letter of a title, about
 UNIT = 80  # pixels of a page to a unit of a figure's size; 11 units fill a notebook's page
 
 
@@ -77,7 +80,9 @@ def panels(titles, size=(11, 5), shared=True):
         ax.set_aspect("equal", adjustable="box" if shared else "datalim")
         ax.set(xlabel="x [m]", ylabel="y [m]")
         if title:
-            ax.set_title(title)
+            # beside others it must not run into theirs
+            letters = max(12, int(UNIT * size[0] / len(titles) / LETTER))
+            ax.set_title(textwrap.fill(title, letters))
     return fig, list(all_axes)
 
 

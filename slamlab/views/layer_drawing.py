@@ -103,7 +103,7 @@ def legend_below(fig):
     for ax in fig.axes:
         for handle, label in zip(*ax.get_legend_handles_labels(), strict=True):
             entries.setdefault(label, handle)
-    columns = max(1, int(fig.get_figwidth() / 1.6))
+    columns = max(1, int(fig.get_figwidth() / 1.3))
     made = fig.legend(
         entries.values(), entries, loc="outside lower center", ncols=columns, frameon=False
     )

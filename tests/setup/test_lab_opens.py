@@ -14,7 +14,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from lab import NEWS, python_of
+from lab import NEWS, SETTINGS, python_of
 from tests.patience import PATIENCE
 from tests.setup import ROOT
 
@@ -143,6 +143,17 @@ def test_the_environment_holds_compiled_modules(course):
 def test_the_news_prompt_is_off(course):
     (page,) = course.folder.glob(".venv/etc/jupyter/labconfig/page_config.json")
     assert json.loads(page.read_text())["disabledExtensions"] == {NEWS: True}
+
+
+def test_the_labextension_and_the_settings_of_the_course_are_there(course):
+    share = course.folder / ".venv" / "share" / "jupyter"
+    for path in (ROOT / "labextension").rglob("*"):
+        if path.is_file():
+            placed = course.folder / ".venv" / path.relative_to(ROOT / "labextension")
+            assert placed.read_bytes() == path.read_bytes()
+    settings = json.loads((share / "lab" / "settings" / "overrides.json").read_text())
+    assert settings == SETTINGS
+    assert '"slamlab"' in course.page
 
 
 def test_nothing_is_registered_outside_the_course_folder(course):
