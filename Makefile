@@ -23,7 +23,7 @@ test: lint clients  ## Set up and run every test; TEST_ARGS go to pytest
 	rm -f $(FAULTS)
 	PYTHONHASHSEED=0 SLAMLAB_FIGURE_FAULTS="$(CURDIR)/$(FAULTS)" \
 		$(RUN) pytest @tests/notebooks/nbval.args notebooks exercises solutions
-	$(RUN) course.figure_faults $(FAULTS)
+	$(RUN) course.known_faults $(FAULTS)
 
 test-all: test  ## Also walk through every notebook in a real browser
 	$(RUN) pytest -m walk tests/browser

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from course import figure_faults as course_faults
+from course import known_faults
 from slamlab import models, views
 from slamlab.layers import Boxes, Ellipses, Points, Poses, Samples, Segments
 from slamlab.views import figure_faults, figure_words, sliders
@@ -342,6 +342,6 @@ def test_faults_are_told_where_they_are_asked_for(stored, tmp_path, monkeypatch)
     views.show(fig, ALT)
     told = (tmp_path / "faults.txt").read_text().splitlines()
     assert told == [f"{ALT} → the legend covers a line"]
-    assert course_faults.compare(told, []) == [f"new: {told[0]}"]
-    assert len(course_faults.compare([], told)) == 1
-    assert course_faults.compare(told, told) == []
+    assert known_faults.compare(told, []) == [f"new: {told[0]}"]
+    assert len(known_faults.compare([], told)) == 1
+    assert known_faults.compare(told, told) == []

@@ -124,6 +124,7 @@ def _short(rng):
 LOST = Task(
     id="05-lost",
     title="Make it better: lost, and lied to",
+    needs=("05-locate",),  # the solution takes it up
     drive=DRIVES["05-lost"],
     inputs=robots,
     shapes=lambda inputs: {

@@ -79,6 +79,7 @@ MOST = "Without the worst eighth of the runs the error is {:.2f} m on average.",
 KIDNAPPED = Task(
     id="11-kidnapped",
     title="A kidnapped robot, found again",
+    needs=("11-draw",),  # the solution takes it up
     drive=DRIVES["11-kidnapped"],
     inputs=room.runs,
     shapes=lambda i: {

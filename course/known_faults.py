@@ -1,8 +1,8 @@
 """Faults of the lessons' figures, found as they are drawn, held against those that are known.
 
-    python -m course.figure_faults FILE
+    python -m course.known_faults FILE
 
-FILE is what ``SLAMLAB_FIGURE_FAULTS`` named while the notebooks ran; ``figure_faults.txt`` lists
+FILE is what ``SLAMLAB_FIGURE_FAULTS`` named while the notebooks ran; ``known_faults.txt`` lists
 what is still to be mended. A fault that it does not list fails; one that is no longer there is told
 (a figure of measured times may have it or not).
 """
@@ -10,7 +10,7 @@ what is still to be mended. A fault that it does not list fails; one that is no 
 import sys
 from pathlib import Path
 
-KNOWN = Path(__file__).with_name("figure_faults.txt")
+KNOWN = Path(__file__).with_name("known_faults.txt")
 
 
 def compare(found, known):
