@@ -15,6 +15,7 @@ EYES, WHEELS = np.array([0.03, 0.02]), np.array([0.02, 0.01, 0.02])  # σ of a s
 MOST = 14  # sights of a scan
 STEPS, STEP = 30, 0.35  # readings of a drive, and the way between two [m]
 LIFTED = 6, 14  # from which reading on the robot is elsewhere: least, most + 1
+TRIED = 6  # pairs of ways, of which that is taken whose places tell least
 
 
 def drives(rng, lifted=6, calm=0):
@@ -35,14 +36,14 @@ def drives(rng, lifted=6, calm=0):
 
 
 def _hall(rng, lifted):
-    (posts, own), ways = _posts(rng), np.array([_way(rng), _way(rng)])
+    posts, own = _posts(rng)
+    tried = [np.array([_way(rng), _way(rng)]) for _ in range(TRIED if lifted else 1)]
+    ways = max(tried, key=lambda ways: _hidden(ways, own).max())
     motions = between(ways[:, :-1], ways[:, 1:])
     errors = WHEELS * rng.standard_normal(motions.shape)
     truth = ways[:, 1:].copy()
     if lifted:
-        # set down, if possible, where no bay's own post is near: one scan cannot tell the place
-        far = np.linalg.norm(ways[:, 1:, None, :2] - own, axis=3).min(axis=(0, 2))
-        at = max(rng.permutation(np.arange(*LIFTED)) - 1, key=lambda k: min(far[k], REACH))
+        at = LIFTED[0] - 1 + np.argmax(_hidden(ways, own))
         errors[:, at] = 0
         truth[:, at:] = truth[::-1, at:]
         motions[:, at + 1 :] = motions[::-1, at + 1 :]
@@ -55,6 +56,14 @@ def _hall(rng, lifted):
         "counts": np.array([[count for _, count in drive] for drive in scans]),
         "posts": np.tile(posts, (4, 1, 1)),
     }
+
+
+def _hidden(ways, own):
+    """How far off a bay's own post is where the robot may be set down, for each time, at most what
+    is in sight for a scan and the next: one scan must not tell the place.
+    """
+    far = np.linalg.norm(ways[:, 1:, None, :2] - own, axis=3).min(axis=(0, 2))
+    return np.minimum(far[:-1], far[1:])[LIFTED[0] - 1 : LIFTED[1] - 1]
 
 
 def truth(i):
