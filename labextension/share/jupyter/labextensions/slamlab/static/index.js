@@ -3,15 +3,20 @@
 import { openAnswers } from "./answers.js";
 import { keepClean } from "./clean.js";
 import { nameControls, nameParts, tellDeadWidgets } from "./controls.js";
+import { lecturePlugin } from "./lecture/plugin.js";
 import { showProgress } from "./progress.js";
 
 const NARROW = 1000; // pixels, below which the side bar leaves a notebook too little room
 
-export function plugins(INotebookTracker, Widget) {
-  const style = document.createElement("link");
-  style.rel = "stylesheet";
-  style.href = new URL("style.css", import.meta.url).href;
-  document.head.append(style);
+// The plugins; offered is what the application shares: its classes and tokens by their names.
+export function plugins(offered) {
+  const { INotebookTracker, Widget } = offered;
+  for (const sheet of ["style.css", "lecture/lecture.css"]) {
+    const style = document.createElement("link");
+    style.rel = "stylesheet";
+    style.href = new URL(sheet, import.meta.url).href;
+    document.head.append(style);
+  }
 
   const forEachNotebook = (name, description, attend) => ({
     id: `slamlab:${name}`,
@@ -32,6 +37,7 @@ export function plugins(INotebookTracker, Widget) {
     forEachNotebook("names", "Sliders have names for who cannot see them.", nameControls),
     forEachNotebook("dead", "Controls without a kernel say how they come alive.", tellDeadWidgets),
     forEachNotebook("progress", "The head of a notebook shows how far one is.", showProgress),
+    lecturePlugin(offered),
     {
       id: "slamlab:narrow",
       description: "On a narrow screen the side bar starts closed.",

@@ -18,12 +18,13 @@ window._JUPYTERLAB.slamlab = (() => {
     async get() {
       let found = []; // an extension that fails must not take the application with it
       try {
-        const [{ plugins }, { INotebookTracker }, { Widget }] = await Promise.all([
+        const [{ plugins }, ...offered] = await Promise.all([
           import(new URL("index.js", here).href),
           shared("@jupyterlab/notebook"),
+          shared("@jupyterlab/apputils"),
           shared("@lumino/widgets"),
         ]);
-        found = plugins(INotebookTracker, Widget);
+        found = plugins(Object.assign({}, ...offered));
       } catch (error) {
         console.error("slamlab:", error);
       }

@@ -1,0 +1,86 @@
+// The bar below the slide: buttons for who has no keys, the slide's number, the time.
+
+import { element } from "./overview.js";
+
+const TELL = 4000; // ms a notice stays
+
+export class Bar {
+  constructor(deck) {
+    this.deck = deck;
+    this.node = element("div", "", "slamlab-bar");
+    this.section = element("span", "", "slamlab-section");
+    this.number = element("span", "", "slamlab-number");
+    this.timer = element("span", "", "slamlab-timer");
+    this.told = element("span", "", "slamlab-notice");
+    this.told.setAttribute("role", "status");
+    this.buttons = element("span", "", "slamlab-buttons");
+    this.node.append(this.buttons, this.told, this.section, this.timer, this.number);
+    deck.layer.append(this.node);
+    this.timer.hidden = true;
+    this.began = Date.now();
+    const act = (key) => () => deck.keys.get(key).action();
+    this.button("◀", "Back (PageUp)", act("PageUp"));
+    this.button("▶", "Next (PageDown)", act("PageDown"));
+    this.button("run", "Run this cell (Ctrl+Enter)", act("Ctrl+Enter"));
+    this.button("code", "Fold or unfold the code (c)", act("c"));
+    this.button("?", "Keys", act("?"));
+    const clock = setInterval(() => this.#tick(), 1000);
+    deck.changed.connect(() => this.#show());
+    deck.ended.connect(() => { clearInterval(clock); this.node.remove(); });
+    const status = (_, now) => {
+      if (now === "dead" || now === "autorestarting") {
+        this.notice("The kernel has died. r runs all cells up to here once it is back.", Infinity);
+      }
+    };
+    deck.panel.sessionContext.statusChanged.connect(status);
+    deck.ended.connect(() => deck.panel.sessionContext.statusChanged.disconnect(status));
+  }
+
+  button(label, title, action) {
+    const button = element("button", label);
+    button.title = title;
+    button.setAttribute("aria-label", title);
+    button.addEventListener("click", () => {
+      action();
+      button.blur(); // or the space bar would press it again
+    });
+    this.buttons.append(button);
+    return button;
+  }
+
+  notice(text, stays = TELL) {
+    clearTimeout(this.forgetting);
+    this.told.textContent = text;
+    if (text && stays < Infinity) this.forgetting = setTimeout(() => { this.told.textContent = ""; }, stays);
+  }
+
+  toggle(part) {
+    this[part].hidden = !this[part].hidden;
+    this.#tick();
+  }
+
+  help() {
+    const open = this.deck.layer.querySelector(".slamlab-help");
+    if (open) return open.remove();
+    const help = element("dl", "", "slamlab-help");
+    help.dataset.slamlabCloses = "";
+    const byWhat = Map.groupBy(this.deck.keys, ([, { does }]) => does);
+    for (const [does, keys] of byWhat) {
+      const names = keys.map(([key]) => key.replace(/ $/, "Space").replace("Arrow", ""));
+      help.append(element("dt", names.join(", ")), element("dd", does));
+    }
+    this.deck.layer.append(help);
+  }
+
+  #show() {
+    const { deck } = this;
+    const { title, heads } = deck.slides[deck.slide];
+    this.section.textContent = heads && deck.stops[deck.at].cell === deck.slides[deck.slide].cells[0] ? "" : title;
+    this.number.textContent = `${deck.slide + 1} / ${deck.slides.length}`;
+  }
+
+  #tick() {
+    const seconds = Math.floor((Date.now() - this.began) / 1000);
+    this.timer.textContent = `${Math.floor(seconds / 60)}:${String(seconds % 60).padStart(2, "0")}`;
+  }
+}

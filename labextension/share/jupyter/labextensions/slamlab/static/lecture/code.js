@@ -1,0 +1,43 @@
+// Code on a slide: folded to its one telling line unless it is short or the subject; locked.
+
+const SHORT = 6; // lines that need no folding
+const SUBJECT = "code"; // tag of a cell whose code is what the slide is about
+const SHOWS = /^(views\.|ax\.|fig\b|plt\.|display\(|with |for |@|\)|\]|\})/; // says little
+
+// The line that stands for folded code: the last statement that does more than show something.
+export function tellingLine(source) {
+  const lines = source.split("\n").filter((line) => line.trim() && !line.startsWith("#"));
+  const outer = lines.filter((line) => /^\S/.test(line));
+  const telling = outer.findLast((line) => !SHOWS.test(line)) ?? outer.at(-1) ?? "";
+  return telling;
+}
+
+export function foldCode(cell) {
+  if (cell.model.type !== "code") return;
+  const source = cell.model.sharedModel.getSource();
+  const subject = cell.model.getMetadata("tags")?.includes(SUBJECT);
+  cell.node.classList.toggle("slamlab-folded", !subject && source.trim().split("\n").length > SHORT);
+  cell.node.classList.add("slamlab-code");
+  let line = cell.node.querySelector(".slamlab-telling");
+  if (!line) {
+    line = document.createElement("code");
+    line.className = "slamlab-telling";
+    cell.inputArea.node.after(line);
+  }
+  line.textContent = tellingLine(source);
+}
+
+// Nobody edits by accident: what is inert takes no focus, no key and no click.
+export function lockCode(cell, locked = true) {
+  const area = cell.inputArea?.node;
+  if (!area) return;
+  if (cell.model.type === "code") area.inert = locked;
+  cell.node.classList.toggle("slamlab-unlocked", false);
+}
+
+export function unlockCode(cell) {
+  cell.inputArea.node.inert = false;
+  cell.node.classList.remove("slamlab-folded");
+  cell.node.classList.add("slamlab-unlocked");
+  cell.editor?.focus();
+}

@@ -1,0 +1,206 @@
+// The deck: a notebook shown slide by slide on the whole screen, its kernel and controls alive.
+
+import { guard } from "./guard.js";
+import { Bar } from "./bar.js";
+import { keysOf } from "./keys.js";
+import { layOut, pagesOf, zoomOf } from "./fit.js";
+import { foldCode, lockCode } from "./code.js";
+import { Signal } from "./signal.js";
+import { refold, reveal, slidesOf, stopsOf } from "./stops.js";
+
+const PANEL = "slamlab-deck";
+
+// JupyterLab draws cells when they come into sight; a deck needs all.
+async function allRendered(notebook) {
+  notebook.widgets.forEach((cell, index) => {
+    if (!cell.isAttached) notebook.layout.insertWidget(index, notebook.viewModel.widgetRenderer(index));
+    cell.placeholder = false;
+  });
+  await Promise.all(notebook.widgets.map((cell) => cell.ready));
+}
+
+export class Deck {
+  changed = new Signal(); // after each change of stop, size or content
+  ended = new Signal();
+  at = 0;
+  size = 1;
+  stops = [];
+  layouts = new Map(); // slide to its pages, as long as nothing changes
+
+  constructor(panel, app) {
+    Object.assign(this, { panel, app, notebook: panel.content });
+    this.page = this.notebook.node.querySelector(".jp-WindowedPanel-viewport");
+    this.layer = document.createElement("div");
+    this.layer.className = "slamlab-layer";
+  }
+
+  // Start at the slide of a cell, or at the first one.
+  async start(cell = 0) {
+    const { panel, notebook, layer } = this;
+    this.config = notebook.notebookConfig;
+    notebook.notebookConfig = { ...this.config, windowingMode: "none" };
+    await allRendered(notebook);
+    notebook.mode = "command";
+    panel.node.classList.add(PANEL);
+    panel.node.append(layer);
+    panel.node.popover = "manual"; // the top layer: no ancestor confines it
+    panel.node.showPopover();
+    this.keys = keysOf(this);
+    this.release = guard(this);
+    this.bar = new Bar(this);
+    notebook.widgets.forEach((one) => { foldCode(one); lockCode(one); });
+    this.slides = slidesOf(notebook);
+    this.minutes = this.slides.map((slide) => slide.minutes);
+    const slide = this.slides.findLastIndex(({ cells }) => cells[0] <= cell);
+    this.gather();
+    this.go(this.stops.findIndex((stop) => stop.slide >= slide));
+    this.observer = new ResizeObserver(() => this.#later());
+    this.observer.observe(document.documentElement);
+    notebook.widgets.forEach((one) => this.observer.observe(one.node));
+  }
+
+  get slide() { return this.stops[this.at]?.slide ?? 0; }
+
+  // The cell that the stop shown is about: its index.
+  get cell() { return this.stops[this.at]?.cell ?? 0; }
+
+  get zoom() { return zoomOf(this.size); }
+
+  // Find all stops anew; pages that were laid out begin stops of their own.
+  gather() {
+    this.stops = this.slides.flatMap((slide, number) => {
+      const breaks = this.layouts.get(number)?.map(({ cells }) => cells[0]) ?? [];
+      return stopsOf(this.notebook, slide, number, breaks);
+    });
+  }
+
+  next() { if (this.at + 1 < this.stops.length) this.go(this.at + 1); }
+
+  back() {
+    if (!this.at) return;
+    this.#pages(this.stops[this.at - 1].slide); // its last page may begin a stop not known yet
+    this.go(this.at - 1);
+  }
+
+  go(k) {
+    this.at = Math.max(0, Math.min(k, this.stops.length - 1));
+    const pages = this.#pages(this.slide);
+    this.shown = pages.findLast(({ cells }) => cells[0] <= this.cell) ?? pages[0];
+    reveal(this.notebook, this.stops[this.at], this.shown.cells);
+    layOut(this.page, this.notebook, this.shown, this.zoom);
+    this.notebook.node.scrollTop = 0;
+    this.changed.emit(this);
+    this.#prepare();
+  }
+
+  // The same stop anew, after its size or its content changed.
+  again() {
+    if (!this.panel.node.classList.contains(PANEL)) return;
+    this.layouts.clear();
+    const { slide, cell, step } = this.stops[this.at];
+    this.gather();
+    const same = this.stops.findLastIndex((stop) => stop.slide === slide
+      && (stop.cell < cell || (stop.cell === cell && stop.step <= step)));
+    this.go(Math.max(same, this.stops.findIndex((stop) => stop.slide === slide)));
+  }
+
+  key(key, does, action) { this.keys.set(key, { does, action }); }
+
+  button(label, title, action) { return this.bar.button(label, title, action); }
+
+  notice(text) { this.bar.notice(text); }
+
+  // Run code silently in the notebook's kernel; what it printed.
+  async run(code) {
+    const kernel = this.panel.sessionContext.session?.kernel;
+    if (!kernel) throw new Error("there is no kernel");
+    const running = kernel.requestExecute({ code, store_history: false, stop_on_error: false });
+    let printed = "";
+    running.onIOPub = ({ header, content }) => {
+      if (header.msg_type === "stream" && content.name === "stdout") printed += content.text;
+    };
+    const { content } = await running.done;
+    if (content.status !== "ok") throw new Error(`${content.ename}: ${content.evalue}`);
+    return printed;
+  }
+
+  end() {
+    const { panel, notebook, page } = this;
+    if (!panel.node.classList.contains(PANEL)) return;
+    this.observer.disconnect();
+    this.release();
+    this.ended.emit(this);
+    panel.node.hidePopover();
+    panel.node.removeAttribute("popover");
+    panel.node.classList.remove(PANEL);
+    this.layer.remove();
+    page.removeAttribute("style");
+    page.classList.remove("slamlab-columns");
+    for (const cell of notebook.widgets) {
+      cell.node.classList.remove("slamlab-off", "slamlab-later", "slamlab-right", "slamlab-code");
+      cell.node.querySelectorAll(".slamlab-later").forEach((one) => one.classList.remove("slamlab-later"));
+      cell.node.querySelector(".slamlab-telling")?.remove();
+      lockCode(cell, false);
+    }
+    refold(notebook);
+    notebook.notebookConfig = this.config;
+    notebook.activeCellIndex = this.cell;
+    panel.update();
+    notebook.activate();
+  }
+
+  // The pages of a slide; laid out for the first time they may bring stops that were not known.
+  #pages(number) {
+    if (!this.layouts.has(number)) {
+      const { cells } = this.slides[number];
+      const last = { cell: Infinity, step: Infinity };
+      const show = (some) => reveal(this.notebook, last, some);
+      const measure = () => pagesOf(this.page, this.notebook, cells, this.zoom, show);
+      this.layouts.set(number, this.#measured(measure));
+      const { slide, cell, step } = this.stops[this.at];
+      this.gather();
+      this.at = this.stops.findLastIndex((stop) => stop.slide < slide
+        || (stop.slide === slide && (stop.cell < cell || (stop.cell === cell && stop.step <= step))));
+    }
+    return this.layouts.get(number);
+  }
+
+  // What is measured is shown for a moment, and must not be seen.
+  #measured(measure) {
+    this.page.classList.add("slamlab-measured");
+    try {
+      return measure();
+    } finally {
+      this.page.classList.remove("slamlab-measured");
+    }
+  }
+
+  // Lay out the next slide while nobody waits, and no control would lose its focus by it.
+  #prepare() {
+    const next = this.slide + 1;
+    if (next >= this.slides.length || this.layouts.has(next)) return;
+    clearTimeout(this.preparing);
+    this.preparing = setTimeout(() => {
+      if (!this.panel.node.classList.contains(PANEL) || this.page.contains(document.activeElement)) return;
+      this.#pages(next);
+      reveal(this.notebook, this.stops[this.at], this.shown.cells);
+      layOut(this.page, this.notebook, this.shown, this.zoom);
+    }, 150);
+  }
+
+  #later() {
+    cancelAnimationFrame(this.frame);
+    this.frame = requestAnimationFrame(() => {
+      const signature = this.#signature();
+      if (signature === this.signature) return;
+      this.signature = signature;
+      this.again();
+      this.signature = this.#signature();
+    });
+  }
+
+  #signature() {
+    const shown = this.page.querySelectorAll(".jp-Cell:not(.slamlab-off)");
+    return [window.innerWidth, window.innerHeight, ...[...shown].map((one) => one.offsetHeight)].join();
+  }
+}

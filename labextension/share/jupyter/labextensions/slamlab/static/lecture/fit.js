@@ -1,0 +1,93 @@
+// A slide fills the screen: its page is zoomed, laid out in one column or two, or parted into pages.
+
+export const PAGE = { width: 960, height: 540 }; // pixels of a page that is neither zoomed nor shrunk
+const SHRINK = [1, 0.94, 0.88, 0.82, 0.76]; // below three quarters letters are too small for a hall
+const SMALL = [0.7, 0.6, 0.5, 0.4, 0.3]; // for one cell that is too tall: better small than cut off
+const COLUMNS = ["", "minmax(0, 1fr) minmax(0, 1fr)", "minmax(0, 2fr) minmax(0, 3fr)"]; // one column, or text beside what is to be seen
+const LETTERS = 0.75; // a figure's own letters may shrink to this part of their size
+const LARGEST = 4; // times a figure grows
+const FIGURE = "img.slamlab-figure";
+
+// The zoom at which a page of the usual size fills the screen.
+export function zoomOf(size) {
+  return Math.min(window.innerWidth / PAGE.width, window.innerHeight / PAGE.height) * size;
+}
+
+const isPicture = (cell) => Boolean(cell.node.querySelector(".jp-OutputArea-output img, canvas, .jupyter-widgets"));
+
+// Fit the cells of a slide into pages; `show(cells)` shows just these.
+// Returns [{cells, shrink, columns, figure}].
+export function pagesOf(page, notebook, slide, zoom, show) {
+  const pages = [];
+  let rest = [...slide];
+  while (rest.length) {
+    let cells = rest;
+    let way = wayFor(page, notebook, cells, zoom, show, SHRINK);
+    while (!way && cells.length > 1) {
+      cells = cells.slice(0, -1);
+      way = wayFor(page, notebook, cells, zoom, show, SHRINK);
+    }
+    way ??= wayFor(page, notebook, cells, zoom, show, SMALL);
+    way ??= { cells, shrink: SMALL.at(-1), columns: "", figure: 1 };
+    pages.push(way);
+    rest = rest.slice(cells.length);
+  }
+  return pages;
+}
+
+// The largest letters at which the cells fit, and there the columns with the largest figure.
+function wayFor(page, notebook, cells, zoom, show, shrinks) {
+  show(cells);
+  const shown = cells.map((index) => notebook.widgets[index]);
+  const beside = shown.some(isPicture) && !shown.every(isPicture);
+  for (const shrink of shrinks) {
+    const ways = (beside ? COLUMNS : COLUMNS.slice(0, 1))
+      .map((columns) => grown(page, notebook, { cells, shrink, columns, figure: LETTERS / shrink }, zoom))
+      .filter(Boolean);
+    if (ways.length) return ways.reduce((best, way) => (way.wide > best.wide ? way : best));
+  }
+}
+
+// A way with its figure as large as it can be, and how wide that is; undefined if it does not fit.
+function grown(page, notebook, way, zoom) {
+  layOut(page, notebook, way, zoom);
+  if (!fits(page)) return undefined;
+  const figures = [...page.querySelectorAll(`.jp-Cell:not(.slamlab-off) ${FIGURE}`)];
+  let least = way.figure, most = figures.length ? LARGEST : least;
+  while (most - least > 0.06) {
+    const middle = (least + most) / 2;
+    page.style.setProperty("--slamlab-figure", middle);
+    if (fits(page)) least = middle;
+    else most = middle;
+  }
+  page.style.setProperty("--slamlab-figure", least);
+  const wide = Math.max(0, ...figures.map((one) => one.getBoundingClientRect().width));
+  return { ...way, figure: least, wide };
+}
+
+// Give the page its size and zoom, and the cells their columns.
+export function layOut(page, notebook, { cells, shrink, columns, figure }, zoom) {
+  const scale = zoom * shrink;
+  page.style.setProperty("zoom", scale);
+  page.style.setProperty("--slamlab-width", `${window.innerWidth / scale}px`);
+  page.style.setProperty("--slamlab-height", `${window.innerHeight / scale}px`);
+  page.style.setProperty("--slamlab-figure", figure);
+  page.style.setProperty("--slamlab-columns", columns);
+  page.classList.toggle("slamlab-columns", Boolean(columns));
+  for (const index of cells) {
+    const cell = notebook.widgets[index];
+    cell.node.classList.toggle("slamlab-right", Boolean(columns) && isPicture(cell));
+  }
+}
+
+const isWhole = (one) => one.scrollWidth <= one.clientWidth + 1;
+
+// wide formulas and tables scroll in a notebook; on a slide nobody can
+const WIDE = [".jp-OutputArea-output", ".jp-RenderedMarkdown", ".cm-scroller"]
+  .map((one) => `.jp-Cell:not(.slamlab-off) ${one}`).join();
+
+function fits(page) {
+  return page.scrollHeight <= page.clientHeight + 1 && isWhole(page)
+    && [...page.querySelectorAll(WIDE)].every(isWhole)
+    && [...page.querySelectorAll(`.jp-Cell:not(.slamlab-off) ${FIGURE}`)].every((one) => isWhole(one.parentElement));
+}

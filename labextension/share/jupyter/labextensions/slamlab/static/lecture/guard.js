@@ -1,0 +1,64 @@
+// While the deck is shown no key, click or saving reaches the notebook, but for its controls.
+
+const CONTROL = ".jp-OutputArea-output input, .jp-OutputArea-output button, .jp-OutputArea-output select, "
+  + ".jp-OutputArea-output [role=slider], .jp-OutputArea-output canvas, .jp-OutputArea-output [tabindex], "
+  + ".jp-OutputArea-output summary, .jp-OutputArea-output a, .slamlab-layer *";
+const EDITOR = ".slamlab-unlocked .cm-content";
+const ALWAYS = new Set(["PageDown", "PageUp", "F5", "Escape", "."]);
+const BROWSER = new Set(["F11", "F12", "Tab"]); // what the deck leaves to the browser
+
+const nameOf = (event) => {
+  const shift = event.shiftKey && [" ", "F5", "Enter"].includes(event.key) ? "Shift+" : "";
+  return `${event.ctrlKey || event.metaKey ? "Ctrl+" : ""}${shift}${event.key}`;
+};
+
+// Guard a deck; the result ends it.
+export function guard(deck) {
+  const { panel } = deck;
+  const stop = (event) => { event.stopImmediatePropagation(); event.preventDefault(); };
+  const suppressed = document.body.dataset.lmSuppressShortcuts;
+  document.body.dataset.lmSuppressShortcuts = "true";
+
+  const keydown = (event) => {
+    const name = nameOf(event);
+    const focus = event.target instanceof Element ? event.target : document.body;
+    if (focus.closest(EDITOR)) {
+      if (name === "Escape" || name === "Ctrl+Enter" || ["PageDown", "PageUp", "F5"].includes(name)) act(name, event);
+      return;
+    }
+    const typing = focus.matches("input:not([type=range]), textarea, select, [contenteditable=true]");
+    if (focus.closest(CONTROL) && (typing || !ALWAYS.has(name)) && !["PageDown", "PageUp", "F5", "Escape"].includes(name)) return;
+    if (act(name, event)) return;
+    event.stopImmediatePropagation();
+    if (!BROWSER.has(event.key) && !event.altKey) event.preventDefault();
+  };
+  const act = (name, event) => {
+    const found = deck.keys.get(name);
+    if (!found) return false;
+    stop(event);
+    found.action();
+    return true;
+  };
+
+  // clicks beside controls select, fold or edit cells in a notebook
+  const pointer = (event) => {
+    if (!panel.node.contains(event.target) || event.target.closest(`${CONTROL}, ${EDITOR}, .slamlab-telling`)) return;
+    if (event.type === "mousedown" && event.target.closest(".jp-Cell")) deck.touched = event.target.closest(".jp-Cell");
+    stop(event);
+  };
+  const inside = (event) => {
+    if (!event.target.closest?.(EDITOR)) stop(event);
+  };
+  const listened = [
+    [window, "keydown", keydown],
+    ...["mousedown", "mouseup", "click", "dblclick", "pointerdown"].map((type) => [window, type, pointer]),
+    ...["contextmenu", "dragstart", "drop", "paste", "cut"].map((type) => [window, type, inside]),
+  ];
+  for (const [where, type, listener] of listened) where.addEventListener(type, listener, true);
+
+  return () => {
+    for (const [where, type, listener] of listened) where.removeEventListener(type, listener, true);
+    if (suppressed === undefined) delete document.body.dataset.lmSuppressShortcuts;
+    else document.body.dataset.lmSuppressShortcuts = suppressed;
+  };
+}

@@ -1,0 +1,53 @@
+// Keys of the deck, remote controls among them: what each does is said by the help.
+
+import { toggleOverview } from "./overview.js";
+import { runAll, runCell, unlock } from "./running.js";
+
+// By key: {does, action}.
+export function keysOf(deck) {
+  const keys = new Map();
+  const add = (names, does, action) => names.forEach((key) => keys.set(key, { does, action }));
+  const resize = (factor) => () => {
+    deck.size = factor ? Math.min(2, Math.max(0.7, deck.size * factor)) : 1;
+    deck.again();
+  };
+  add(["PageDown", "ArrowRight", " ", "Enter"], "next", () => deck.next());
+  add(["PageUp", "ArrowLeft", "Shift+ "], "back", () => deck.back());
+  add(["F5", "Home"], "from the beginning", () => deck.go(0));
+  add(["Shift+F5"], "this slide from its beginning", () => {
+    deck.go(deck.stops.findIndex(({ slide }) => slide === deck.slide));
+  });
+  add(["End"], "last slide", () => deck.go(deck.stops.length - 1));
+  add([".", "b"], "blank, and back", () => deck.layer.classList.toggle("slamlab-blank"));
+  add(["o"], "overview", () => toggleOverview(deck));
+  add(["c"], "code: folded or whole", () => {
+    deck.notebook.widgets[deck.cell]?.node.classList.toggle("slamlab-folded");
+    deck.again();
+  });
+  add(["Ctrl+Enter", "Shift+Enter"], "run this cell", () => runCell(deck));
+  add(["r"], "run all cells up to here", () => runAll(deck));
+  add(["e"], "unlock this cell's code, to change it", () => unlock(deck));
+  add(["n"], "slide number", () => deck.bar.toggle("number"));
+  add(["t"], "timer", () => deck.bar.toggle("timer"));
+  add(["f"], "full screen", () => fullScreen());
+  add(["+", "="], "larger", resize(1.1));
+  add(["-"], "smaller", resize(1 / 1.1));
+  add(["0"], "usual size", resize(0));
+  add(["?", "h"], "help", () => deck.bar.help());
+  add(["Escape"], "out", () => leave(deck));
+  return keys;
+}
+
+function fullScreen() {
+  const done = document.fullscreenElement ? document.exitFullscreen() : document.documentElement.requestFullscreen();
+  done.catch(() => {}); // some screens have none
+}
+
+// Escape closes what is open, and only then the deck.
+function leave(deck) {
+  if (deck.locking?.()) return;
+  if (deck.layer.classList.contains("slamlab-blank")) return deck.layer.classList.remove("slamlab-blank");
+  const open = deck.layer.querySelector("[data-slamlab-closes]");
+  if (open) return open.remove();
+  deck.end();
+}

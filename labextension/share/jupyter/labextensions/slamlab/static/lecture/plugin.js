@@ -1,0 +1,56 @@
+// The lecture begins by a button of the notebook, the palette, or an address with ?lecture=1.
+
+import { Deck } from "./deck.js";
+import { keepFile } from "./restore.js";
+import { useActions } from "./running.js";
+import { element } from "./overview.js";
+
+const COMMAND = "slamlab:lecture";
+const asked = new URLSearchParams(window.location.search).has("lecture");
+
+export function lecturePlugin({ INotebookTracker, NotebookActions, ICommandPalette, Widget }) {
+  return {
+    id: "slamlab:lecture",
+    description: "A notebook is shown slide by slide, alive.",
+    autoStart: true,
+    requires: [INotebookTracker],
+    optional: [ICommandPalette],
+    activate(app, tracker, palette) {
+      useActions(NotebookActions);
+      const start = (panel, cell) => lecture(panel, app, Widget, cell).catch(console.error);
+      app.commands.addCommand(COMMAND, {
+        label: "Lecture: Start at This Cell",
+        isEnabled: () => Boolean(tracker.currentWidget),
+        execute: () => start(tracker.currentWidget, tracker.currentWidget.content.activeCellIndex),
+      });
+      palette?.addItem({ command: COMMAND, category: "Lecture" });
+      let waiting = asked;
+      const attend = (panel) => {
+        panel.toolbar.insertItem(10, "slamlab-lecture", startButton(Widget, app));
+        if (waiting) panel.revealed.then(() => start(panel, 0));
+        waiting = false;
+      };
+      tracker.forEach(attend);
+      tracker.widgetAdded.connect((_, panel) => attend(panel));
+    },
+  };
+}
+
+function startButton(Widget, app) {
+  const button = element("button", "Lecture", "jp-ToolbarButtonComponent slamlab-start");
+  button.title = "Show this notebook slide by slide, from this cell on";
+  button.addEventListener("click", () => app.commands.execute(COMMAND));
+  const node = element("div", "", "jp-ToolbarButton");
+  node.append(button);
+  return new Widget({ node });
+}
+
+async function lecture(panel, app, Widget, cell) {
+  await panel.context.ready;
+  await panel.revealed;
+  const kept = keepFile(panel, Widget);
+  const deck = new Deck(panel, app);
+  deck.ended.connect(() => kept.end());
+  await deck.start(cell);
+  panel.slamlabDeck = deck; // for who extends it, and for tests
+}

@@ -1,0 +1,48 @@
+// What a lecture changes in a lesson is kept apart from its file until the lecturer says what to keep.
+
+import { element } from "./overview.js";
+
+const plain = (model) => JSON.stringify(model.toJSON());
+
+// Keep a notebook's file as it is from now on; the result ends that with a question, if need be.
+export function keepFile(panel, Widget) {
+  const { context } = panel;
+  const before = plain(context.model), wasDirty = context.model.dirty;
+  if (context.slamlabKept) return context.slamlabKept; // an earlier lecture waits for its answer
+  let asking;
+  context.save = async () => { asking?.node.querySelector("button").focus(); };
+  const release = () => {
+    delete context.save; // the prototype's own again
+    delete context.slamlabKept;
+    asking?.dispose();
+  };
+  const restore = () => {
+    context.model.fromJSON(JSON.parse(before));
+    context.model.dirty = wasDirty;
+    release();
+  };
+  context.slamlabKept = {
+    restore,
+    end() {
+      if (plain(context.model) === before) {
+        context.model.dirty = wasDirty;
+        release();
+      } else if (!asking) {
+        asking = question(Widget, restore, release);
+        panel.contentHeader.addWidget(asking);
+      }
+    },
+  };
+  return context.slamlabKept;
+}
+
+function question(Widget, restore, keep) {
+  const node = element("div", "The lecture changed this lesson. ", "slamlab-changed");
+  node.setAttribute("role", "alert");
+  for (const [label, action] of [["Restore it", restore], ["Keep the changes", keep]]) {
+    const button = element("button", label);
+    button.addEventListener("click", action);
+    node.append(button);
+  }
+  return new Widget({ node });
+}

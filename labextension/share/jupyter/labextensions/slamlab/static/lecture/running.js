@@ -1,0 +1,53 @@
+// Cells that are run or changed on their slide, without losing the place.
+
+import { foldCode, lockCode, unlockCode } from "./code.js";
+
+let actions; // NotebookActions, which the container hands over
+
+export function useActions(NotebookActions) { actions = NotebookActions; }
+
+// The code cell that is meant: the one touched last if it is in sight, else the last one shown.
+function codeCell(deck) {
+  const seen = deck.notebook.widgets.filter(({ node, model }) => model.type === "code"
+    && !node.classList.contains("slamlab-off") && !node.classList.contains("slamlab-later"));
+  return seen.find(({ node }) => node === deck.touched) ?? seen.at(-1);
+}
+
+async function runThese(deck, cells) {
+  const ran = await actions.runCells(deck.notebook, cells, deck.panel.sessionContext);
+  deck.again();
+  if (!ran) deck.notice("The code stopped with an error.");
+}
+
+export async function runCell(deck) {
+  const cell = codeCell(deck);
+  if (!cell) return deck.notice("There is no code on this slide.");
+  deck.notice("running …");
+  await runThese(deck, [cell]);
+  deck.notice("");
+}
+
+export async function runAll(deck) {
+  deck.notice("running all cells up to here …");
+  const cells = deck.notebook.widgets.slice(0, deck.cell + 1).filter(({ model }) => model.type === "code");
+  await runThese(deck, cells);
+  deck.notice("");
+}
+
+// Open the code of a cell for changes; Escape locks it again.
+export function unlock(deck) {
+  const cell = codeCell(deck);
+  if (!cell) return deck.notice("There is no code on this slide.");
+  unlockCode(cell);
+  deck.locking = () => {
+    foldCode(cell);
+    lockCode(cell);
+    deck.panel.node.focus();
+    document.activeElement?.blur();
+    deck.locking = undefined;
+    deck.again();
+    return true;
+  };
+  deck.notice("Ctrl+Enter runs it, Esc locks it; all is as it was once you restore the lesson.");
+  deck.again();
+}

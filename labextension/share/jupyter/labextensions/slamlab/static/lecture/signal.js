@@ -1,0 +1,23 @@
+// A signal: who is connected is told.
+
+export class Signal {
+  #listeners = new Set();
+
+  connect(listener) {
+    this.#listeners.add(listener);
+  }
+
+  disconnect(listener) {
+    this.#listeners.delete(listener);
+  }
+
+  emit(...values) {
+    for (const listener of this.#listeners) {
+      try {
+        listener(...values);
+      } catch (error) {
+        console.error("slamlab:", error); // one that fails must not stop the lecture
+      }
+    }
+  }
+}

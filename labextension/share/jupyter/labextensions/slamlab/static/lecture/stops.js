@@ -1,0 +1,75 @@
+// Slides and stops of a notebook. A slide begins at a cell of type slide or subslide; a stop is what
+// one key press reveals: the slide's first cells, a fragment, a folded answer, a step of an output.
+
+export const STEP = ".slamlab-step";
+
+const typeOf = (cell) => cell.model.getMetadata("slideshow")?.slide_type ?? "-";
+
+// notes are for the speaker, skipped cells only for the kernel
+const isShown = (cell) => !["notes", "skip"].includes(typeOf(cell));
+
+const isFolded = (cell) => Boolean(cell.model.getMetadata("jupyter")?.outputs_hidden);
+
+// The slides of a notebook: {cells: indices, notes: texts, minutes, title}.
+export function slidesOf(notebook) {
+  const slides = [];
+  let section = { title: "", minutes: 0 };
+  notebook.widgets.forEach((cell, index) => {
+    const type = typeOf(cell);
+    const text = cell.model.sharedModel.getSource();
+    if (isShown(cell) && (["slide", "subslide"].includes(type) || !slides.length)) {
+      const heading = cell.model.type === "markdown" && /^#+ +(.+)$/m.exec(text)?.[1];
+      const minutes = cell.model.getMetadata("slamlab")?.minutes;
+      section = { title: heading || section.title, minutes };
+      slides.push({ cells: [], notes: [], heads: Boolean(heading), ...section });
+    }
+    if (!slides.length) return;
+    const slide = slides.at(-1);
+    if (type === "notes") slide.notes.push(text);
+    if (isShown(cell)) slide.cells.push(index);
+  });
+  return slides;
+}
+
+// The stops of a slide: {slide, cell, step}; all cells up to `cell` are shown, and of this one the
+// first `step` of what waits in it. Pages begin at the cells named in `breaks`.
+export function stopsOf(notebook, slide, number, breaks = []) {
+  const stops = [];
+  slide.cells.forEach((index, k) => {
+    const cell = notebook.widgets[index];
+    const begins = k === 0 || typeOf(cell) === "fragment" || breaks.includes(index);
+    const folded = Number(isFolded(cell));
+    const waiting = folded + cell.node.querySelectorAll(STEP).length;
+    if (!begins && stops.at(-1).step === 0) stops.pop(); // it comes together with the one before
+    for (let step = 0; step <= waiting; step++) stops.push({ slide: number, cell: index, step });
+  });
+  return stops;
+}
+
+// Show of a page (indices of cells) what belongs to a stop: what comes later keeps its room unseen.
+export function reveal(notebook, stop, page) {
+  notebook.widgets.forEach((cell, index) => {
+    const here = page.includes(index);
+    const later = here && index > stop.cell;
+    cell.node.classList.toggle("slamlab-off", !here);
+    cell.node.classList.toggle("slamlab-later", later);
+    if (!here) return;
+    const reached = index < stop.cell ? Infinity : index === stop.cell ? stop.step : -1;
+    const folded = Number(isFolded(cell));
+    if (folded) unfold(cell, reached >= 1);
+    cell.node.querySelectorAll(STEP).forEach((step, k) => {
+      step.classList.toggle("slamlab-later", reached < folded + k + 1);
+    });
+  });
+}
+
+function unfold(cell, open) {
+  // unfolded by the question's answer, it stays so
+  if (open && cell.outputHidden) cell.outputHidden = false;
+}
+
+export function refold(notebook) {
+  for (const cell of notebook.widgets) {
+    if (cell.model.type === "code" && isFolded(cell)) cell.outputHidden = true;
+  }
+}
