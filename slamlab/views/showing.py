@@ -4,9 +4,9 @@ import base64
 import html
 import io
 
-from IPython.display import DisplayHandle, display
 from PIL import Image
 
+from slamlab.displays import show_bundle
 from slamlab.views.figure_faults import report
 from slamlab.views.figure_words import words
 
@@ -81,35 +81,6 @@ def show(fig, alt, data=None):
     ValueError : without alt text, or with columns of different length
     """
     show_bundle(bundle(fig, alt, data))
-
-
-def show_bundle(shown):
-    """Show what :func:`bundle` made as a display of its own, where another can take its place.
-
-    Beside no widget a file keeps it, and shows it when it is opened again.
-
-    Parameters
-    ----------
-    shown : dict by MIME type
-
-    Returns
-    -------
-    DisplayHandle : its ``update(bundle, raw=True)`` shows another bundle instead
-    """
-    handle = DisplayHandle()
-    handle.display(shown, raw=True)
-    return handle
-
-
-def show_controls(box):
-    """Show a widget, or words where none can be: in a file, or where no kernel runs.
-
-    Parameters
-    ----------
-    box : Widget
-    """
-    words = {"text/plain": "Run this cell for its controls."}
-    display((box._repr_mimebundle_() or {}) | words, raw=True)
 
 
 def _table(data):

@@ -4,8 +4,9 @@ import html
 
 import ipywidgets
 
+from slamlab.displays import show_bundle, show_controls
 from slamlab.views.editor.edit_history import WorldEditor
-from slamlab.views.showing import bundle, show_bundle, show_controls
+from slamlab.views.showing import bundle
 from slamlab.views.sliders import explore
 from slamlab.views.widget_errors import error_line
 

@@ -3,6 +3,7 @@
 import ipywidgets
 import numpy as np
 
+from slamlab.displays import show_bundle, show_controls
 from slamlab.layers import Points
 from slamlab.views.figures import COLOURS, UNIT, axes
 from slamlab.views.layer_drawing import draw, legend_below
@@ -12,7 +13,7 @@ from slamlab.views.live.drive_commands import velocities
 from slamlab.views.live.raster import RasterScreen
 from slamlab.views.live.run_loop import RunLoop, stop
 from slamlab.views.live.stepper import Stepper
-from slamlab.views.showing import bundle, show_bundle, show_controls
+from slamlab.views.showing import bundle
 
 FIRST_READING_TIMEOUT = 3.0  # [s] that a notebook's cell waits for a reading
 
