@@ -29,9 +29,9 @@ def told(one, source):
     -------
     Verdict
     """
-    seconds = one.task.drive.seconds
+    limit = time_limit(one.task.drive.seconds, cpu=True)  # a busy machine makes no answer wrong
     try:
-        with capture_output(), warnings.catch_warnings(action="ignore"), time_limit(seconds):
+        with capture_output(), warnings.catch_warnings(action="ignore"), limit:
             names = namespace(one.exercise.id, source)
             return run_and_tell(one.task, names)
     except TimeLimitExceeded:
