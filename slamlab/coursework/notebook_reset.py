@@ -66,10 +66,10 @@ def _name(folder, what):
     task = _TASK.fullmatch(what)
     number = _NUMBER.fullmatch(what)
     if task:
-        pattern = rf"exercises/(ex)?{task[1]}_.*"
+        pattern = rf"exercises/ex{task[1]}_.*"
     elif number:
         lesson = (number[1] or "").lower().startswith("lesson")
-        kind = "notebooks/" if lesson or int(number[2]) == 0 else "exercises/(ex)?"
+        kind = "notebooks/" if lesson or int(number[2]) == 0 else "exercises/ex"
         pattern = rf"{kind}{number[2].zfill(2)}_.*"
     else:
         pattern = re.escape(_relative(folder, what))
