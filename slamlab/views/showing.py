@@ -6,7 +6,7 @@ import io
 
 from PIL import Image
 
-from slamlab.displays import show_bundle
+from slamlab.displays import show_bundle, show_controls
 from slamlab.views.figure_faults import report
 from slamlab.views.figure_words import words
 
@@ -81,6 +81,19 @@ def show(fig, alt, data=None):
     ValueError : without alt text, or with columns of different length
     """
     show_bundle(bundle(fig, alt, data))
+
+
+def show_beside_still(box, still):
+    """Show a widget that draws in the browser, and its still picture for where it cannot.
+
+    Parameters
+    ----------
+    box : Widget
+    still : dict by MIME type, what :func:`bundle` made
+    """
+    show_controls(box)
+    # kept by a file; beside the drawing that lives it is not seen (widgets.css)
+    show_bundle(still | {"text/html": f'<div class="slamlab-still">{still["text/html"]}</div>'})
 
 
 def _table(data):
