@@ -7,6 +7,7 @@ geometry         poses in the plane: wrapping angles, composition, transforms
 readings         what every source yields: scans, landmark observations, odometry
 layers           what an estimator shows: named layers of plain arrays
 files            text files, published recordings
+displays         what a notebook shows, in a form that its file keeps
 models           motion and observation models, their Jacobians, noise, derivation by sympy
 worlds           walls and circles, exact ray casting, ready worlds
 simulation       range scanners, a differential-drive robot with encoders, a wall follower
