@@ -177,7 +177,7 @@ H_steps.step("the root is r again: give it its name", in_r, given={r: range_of})
 # one before. Turn left, and the whole world turns right: −1.
 #
 # **Try** `range_of**2`, a sensor that tells the square of the range: every line follows, and in the
-# last one the first row has no r below any more: such a sensor says most from afar.
+# last one the first row has no r below any more: it grows with the distance.
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # **Read it with units.** The first row has none (metres per metre): it is the unit vector from the

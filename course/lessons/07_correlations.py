@@ -98,12 +98,11 @@ update = (
 update
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# Now the blocks of the first sighting. **Predict** which of them are zero.
+# Now in blocks. P Hᵀ is a column, as above:
 
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 def sighting(P, H):
-    """The update with P and H in blocks, multiplied out."""
     PHt, given = blockwise(P * H.T), {any_P: P, any_H: H}
     return (
         derive("P_new", update.result, "any update, as derived")
@@ -112,15 +111,20 @@ def sighting(P, H):
     )
 
 
-sighting(P, H_1)
-
 # %% [markdown] slideshow={"slide_type": "slide"}
+# **Predict** which blocks are zero after the first sighting.
+
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+seen = H_1  # what is seen: change this line
+sighting(P, seen)
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
 # There it is, P_r1: a product of five matrices, none of them zero. One sighting corrected both, so
 # both now share its error. And landmark 2? Untouched: two zeros and the old P_22. A **correlation**
 # is born where one sighting corrects two estimates.
 #
-# **Try** a robot that sees both landmarks at once: `H_p` in the third place of `H_1` too. Run its
-# cell and this one: the zeros are gone.
+# **Try** `sp.BlockMatrix([[Z(2, 3), -H_p, H_p]])`, a sensor that tells only how landmark 2 lies to
+# landmark 1: the robot's row stays as it was, and P_12 is born at once.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* Say it with people: two friends correct their watches by each other. From then

@@ -26,7 +26,8 @@ def html(derivation):
         for k in range(len(derivation.lines))
     ]
     label = markup.escape(f"Derivation of {derivation.name}")
-    return f'<ol class="slamlab-derivation" aria-label="{label}">\n' + "\n".join(items) + "\n</ol>"
+    start = f'<ol class="slamlab-derivation" aria-label="{label}" style="padding-left: 1.2em">'
+    return "\n".join([start, *items, "</ol>"])
 
 
 def text(derivation):
@@ -44,8 +45,10 @@ def text(derivation):
     for k, line in enumerate(derivation.lines):
         told = [f"{k + 1}. {line.why}"]
         if line.expression is not None:
-            name = sp.Symbol(derivation.name) if not k else sp.Symbol(" ")
-            equation = sp.Eq(name, line.expression, evaluate=False)
+            name = sp.Symbol(derivation.name if not k else " ")
+            equation = line.expression
+            if not isinstance(equation, sp.Eq):
+                equation = sp.Eq(name, equation, evaluate=False)
             told.append(_indented(sp.pretty(equation, use_unicode=True, wrap_line=False)))
         if k and line.expression is not None:
             new = list(dict.fromkeys(map(str, _change(derivation, k).marked())))
@@ -60,8 +63,10 @@ def _item(derivation, k):
     told = [markup.escape(line.why)]
     if line.expression is not None:
         name = sp.latex(sp.Symbol(derivation.name))
-        left = rf"\phantom{{{name}}}" if k else name
-        tex = markup.escape(rf"{left} = {marked_latex(_change(derivation, k))}", quote=False)
+        left = rf"\phantom{{{name}}} =" if k else f"{name} ="
+        if isinstance(line.expression, sp.Eq):  # which has a left side of its own
+            left = ""
+        tex = markup.escape(f"{left} {marked_latex(_change(derivation, k))}", quote=False)
         told.append(rf"$\displaystyle {tex}$")
     told += [f"<small>{words}</small>" for words in _words(derivation, k, _in_latex)]
     return "<br>".join(told)
@@ -76,8 +81,8 @@ def _change(derivation, k):
 def _words(derivation, k, written):
     """What the machine says of line k: a list of str; formulas are ``written`` by a function."""
     line = derivation.lines[k]
-    known = [written(*pair) for pair in line.given]
-    where = f", where {', '.join(known)}" if known else ""
+    known = ", ".join(written(*pair) for pair in line.given)
+    where = f", where {known}" if known else ""
     if line.verdict is None:
         return [f"– {NOT_REACHED.format(derivation.broken)}"] if line.expression is None else []
     if line.verdict.holds:
@@ -90,7 +95,7 @@ def _words(derivation, k, written):
 
 def _in_text(name, meaning):
     if isinstance(meaning, sp.BlockMatrix):
-        return f"{name} is written in blocks"
+        return f"{name} is in blocks"
     if isinstance(meaning, sp.MatrixBase):
         return f"{name} = {meaning.tolist()}"
     return f"{name} = {float(meaning):g}" if meaning.is_Rational else f"{name} = {meaning}"
@@ -99,7 +104,7 @@ def _in_text(name, meaning):
 def _in_latex(name, meaning):
     tex = sp.latex(name)
     if isinstance(meaning, sp.BlockMatrix):
-        return f"${tex}$ is written in blocks"
+        return f"${tex}$ is in blocks"
     small = sp.latex(meaning, mat_str="smallmatrix")
     value = f"{float(meaning):g}" if meaning.is_Rational else small
     return markup.escape(f"${tex} = {value}$", quote=False)

@@ -7,6 +7,7 @@ import sympy as sp
 
 from slamlab.derivation.random_points import random_point
 
+PROVED = "by algebra"
 POINTS = 4  # random points at which two lines must agree
 TRIES = 40  # points drawn in search of those at which both lines have a value
 DIGITS = 30  # of a value; those of matrix expressions are floats
@@ -33,9 +34,12 @@ class Verdict:
 def compare(old, new, given, rng):
     """Compare two lines: first at random points, then by algebra.
 
+    Equations are equal where their sides are, or where the differences of their sides are but for a
+    factor that is never zero.
+
     Parameters
     ----------
-    old, new : sympy scalar, matrix, or matrix expression
+    old, new : sympy scalar, matrix, matrix expression, or Eq of these
     given : dict, symbol to what it stands for
     rng : numpy.random.Generator, of the points
 
@@ -43,11 +47,15 @@ def compare(old, new, given, rng):
     -------
     Verdict
     """
+    if isinstance(old, sp.Eq) and isinstance(new, sp.Eq):
+        return _compare_equations(old, new, given, rng)
+    if isinstance(old, sp.Eq) or isinstance(new, sp.Eq):
+        return Verdict(False, "an equation follows from an equation, and a formula from a formula")
     old, new = (_inserted(line, given) for line in (old, new))
     if _shape(old) != _shape(new):
         return Verdict(False, f"{_told(_shape(old))} became {_told(_shape(new))}")
     if old == new:
-        return Verdict(True, "by algebra")
+        return Verdict(True, PROVED)
     agreed, symbols = 0, _symbols(old) | _symbols(new)
     for _ in range(TRIES):
         point = random_point(symbols, rng)
@@ -62,7 +70,21 @@ def compare(old, new, given, rng):
             break
     if not agreed:
         return Verdict(False, "no point was found at which both lines have a value")
-    return Verdict(True, "by algebra" if _proved(old, new) else f"at {agreed} random points")
+    return Verdict(True, PROVED if _proved(old, new) else f"at {agreed} random points")
+
+
+def _compare_equations(old, new, given, rng):
+    sides = [compare(*pair, given, rng) for pair in zip(old.args, new.args, strict=True)]
+    if all(side.holds for side in sides):
+        return max(sides, key=lambda side: side.words != PROVED)
+    if not any(getattr(side, "is_Matrix", False) for side in (*old.args, *new.args)):
+        before, now = (_inserted(line.lhs - line.rhs, given) for line in (old, new))
+        factor = sp.simplify(now / before)
+        if factor.is_nonzero and factor.is_finite:
+            return Verdict(True, PROVED)
+    left, right = sides
+    told = ("left", left) if not left.holds else ("right", right)
+    return Verdict(False, f"{told[0]} side: {told[1].words}", told[1].point)
 
 
 def _inserted(line, given):

@@ -19,10 +19,10 @@ function playback(derivation, steps) {
   const told = document.createElement("span");
   told.setAttribute("role", "status");
   const buttons = [
-    ["⏮", "first line only", () => 0],
+    ["|◀", "first line only", () => 0],
     ["◀", "one line back", () => shown - 1],
     ["▶", "next line", () => shown + 1],
-    ["⏭", "all lines", () => steps.length],
+    ["▶|", "all lines", () => steps.length],
   ].map(([sign, name, target]) => {
     const button = document.createElement("button");
     button.type = "button";
