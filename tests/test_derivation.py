@@ -39,13 +39,11 @@ def grown(inner):
 
 
 expressions = st.recursive(leaves, grown, max_leaves=5)
-rewritings = st.sampled_from([sp.expand, sp.factor, sp.together, lambda e: e.rewrite(sp.exp)])
+rewritings = st.sampled_from([sp.expand, sp.together, lambda e: e.subs(x, 2 * x).subs(x, x / 2)])
 
 
-def numbers(expression, point):
-    """A flat list of a line's values at a point."""
-    value = sp.sympify(expression).doit().subs(point)
-    return [complex(e.evalf()) for e in (value if isinstance(value, sp.MatrixBase) else [value])]
+def number(expression, point):
+    return complex(expression.subs(point).evalf())
 
 
 def marked(new, old):
@@ -73,8 +71,7 @@ def test_a_false_step_is_refused_with_a_point_where_the_lines_differ(expression,
     broken = derive("e", expression).step("same", sp.expand).step("wrong", wrong)
     assert broken.broken == 3
     point = broken.lines[2].verdict.point
-    (before,), (now,) = numbers(expression, point), numbers(wrong, point)
-    assert abs(before - now) > 1e-9
+    assert abs(number(expression, point) - number(wrong, point)) > 1e-9
 
 
 @pytest.mark.parametrize("place", [(0, 2), (1, 2), (0, 0)])
@@ -87,8 +84,7 @@ def test_a_wrong_sign_is_refused_at_its_very_entry(place):
     assert broken.broken == 3
     assert f"✗ line 3 does not follow: in row {row + 1}, column {column + 1} " in words(broken)
     point = broken.lines[2].verdict.point
-    k = 3 * row + column
-    assert abs(numbers(A, point)[k] - numbers(wrong, point)[k]) > 1e-9
+    assert abs(number(A[place], point) - number(wrong[place], point)) > 1e-9
 
 
 def test_a_transposed_matrix_is_refused():

@@ -52,7 +52,7 @@ def change(new, old):
     if new == old and type(new) is type(old):
         return Change(new, parts=tuple(Change(part) for part in parts(new)))
     found = _inside(new, old)
-    if found is None or not found or _leaves(found) == _all_leaves(new):
+    if not found or (all(part.is_new for part in found.parts) and not _keeps_its_head(new)):
         return _whole(new)
     return found
 
@@ -154,6 +154,11 @@ def _fraction(expression):
 def _is_explicit(expression):
     """Whether an expression is a matrix whose entries or blocks are seen."""
     return isinstance(expression, sp.MatrixBase | sp.BlockMatrix)
+
+
+def _keeps_its_head(new):
+    """Whether there is more to it than its parts: a matrix, a function, a power."""
+    return not (new.is_Add or new.is_Mul or isinstance(new, (*SUMS, *ORDERED)))
 
 
 def _grid(matrix):

@@ -12,7 +12,7 @@ POINTS = 4  # random points at which two lines must agree
 TRIES = 40  # points drawn in search of those at which both lines have a value
 DIGITS = 30  # of a value; those of matrix expressions are floats
 CLOSE = 1e-9  # of two values, against their size: they are of the size of 1
-TOO_LONG = 600  # operations, from where on simplifying may take minutes
+TOO_LONG, SIMPLE = 600, 60  # operations, from where on expanding and simplifying may take minutes
 
 
 @dataclass(frozen=True)
@@ -145,10 +145,17 @@ def _short(value):
 def _proved(old, new):
     if getattr(old, "is_MatrixExpr", False):
         return _zero_blocks(old - new)
-    if sum(sp.count_ops(entry) for line in (old, new) for entry in _entries(line)) > TOO_LONG:
-        return False
     pairs = zip(_entries(old), _entries(new), strict=True)
-    return all(sp.simplify(before - now) == 0 for before, now in pairs)
+    return all(_is_zero(before - now) for before, now in pairs)
+
+
+def _is_zero(difference):
+    """Whether algebra finds a number to be zero; what is long is not tried for minutes."""
+    if sp.count_ops(difference) > TOO_LONG:
+        return False
+    if sp.expand(difference) == 0:
+        return True
+    return sp.count_ops(difference) <= SIMPLE and sp.simplify(difference) == 0
 
 
 def _zero_blocks(difference):
