@@ -101,7 +101,7 @@ update
 # Now in blocks. P Hᵀ is a column, as above:
 
 
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+# %% slideshow={"slide_type": "fragment"}
 def sighting(P, H):
     PHt, given = blockwise(P * H.T), {any_P: P, any_H: H}
     return (

@@ -7,6 +7,7 @@ import sympy as sp
 from slamlab.derivation.changes import change
 from slamlab.derivation.marked_latex import marked_latex
 
+STYLE = "padding-left: 1.2em; font-size: 95%"  # Jacobians are wide
 NOT_REACHED = "not reached: line {} does not hold"
 
 
@@ -26,7 +27,7 @@ def html(derivation):
         for k in range(len(derivation.lines))
     ]
     label = markup.escape(f"Derivation of {derivation.name}")
-    start = f'<ol class="slamlab-derivation" aria-label="{label}" style="padding-left: 1.2em">'
+    start = f'<ol class="slamlab-derivation" aria-label="{label}" style="{STYLE}">'
     return "\n".join([start, *items, "</ol>"])
 
 
