@@ -24,6 +24,7 @@ views            every drawing and widget: figures, sliders, the live view, the 
 
 The course's own machinery:
 
+derivation       derivations line by line, each line checked by machine: ``derive``
 exercises        what each task asks, and the laws its answers are judged by
 coursework       a student's folder: progress, reset, update
 parallel         many runs on processes or a Dask cluster
