@@ -373,8 +373,11 @@ for (name, one), dash in zip(good.items(), ("-", "--"), strict=True):
     ax.plot(astray, dash, color=views.COLOURS["naive"], label=f"{name}, odometry")
     ax.plot(corrected, dash, color=views.COLOURS["corrected"], label=f"{name}, corrected")
 ax.set(yscale="log", ylim=(0.002, 400))
-views.legend(ax, fontsize=9, loc="lower right", ncols=2)
-views.show(fig, "Odometry's error climbs to metres, the corrected one stays below 2 centimetres.")
+views.legend(ax, loc="lower right", ncols=2)
+highest = max(100 * np.hypot(*one["errors"][:, :2].T).max() for one in good.values())
+views.show(
+    fig, f"Odometry's error climbs to metres, the corrected one to {highest:.1f} cm at most."
+)
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # **See:** the scale is logarithmic. The corrected error stays below 2 cm, mostly below 1: a hundred
@@ -388,9 +391,9 @@ views.show(fig, "Odometry's error climbs to metres, the corrected one stays belo
 # %% slideshow={"slide_type": "fragment"}
 fig, ax = views.chart("step", "NEES of the pose", "One run", (6, 2.6))
 ax.plot(good["situation-1"]["nees"], color=views.COLOURS["corrected"], label="situation 1")
-ax.axhspan(*band(3, 1), color=views.COLOURS["guide"], alpha=0.4, label="95 % of single steps")
+views.band(ax, *band(3, 1), "95 % of single steps")
 ax.set(yscale="log")
-views.legend(ax, fontsize=9)
+views.legend(ax)
 views.show(fig, "NEES of the run stays mostly within the band of single steps.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
@@ -408,7 +411,7 @@ views.show(fig, "NEES of the run stays mostly within the band of single steps.")
 
 
 # %% slideshow={"slide_type": "fragment"}
-RED, BLUE = views.COLOURS["naive"], views.COLOURS["corrected"]
+RED, BLUE, GREEN = (views.COLOURS[name] for name in ("naive", "corrected", "landmark"))
 
 
 def beneath(pair):
@@ -430,7 +433,7 @@ def nees_of(pair):
     return nees(error_of(pair), P) if pair.count > 10 else np.nan
 
 
-SMOLEC = {"scan": RED, "axes": RED, "true walls": BLUE, "landmark": BLUE, "corrected": "#009E73"}
+SMOLEC = {"scan": RED, "axes": RED, "true walls": BLUE, "landmark": BLUE, "corrected": GREEN}
 buttons = {
     "Simulation 1": partial(simulation, "situation-1"),
     "Simulation 2": partial(simulation, "situation-2"),
@@ -447,7 +450,7 @@ buttons = {
 seen_live = views.live(
     buttons,
     partial(estimators.make, "walls"),
-    "Rooms off a corridor after 60 steps: red points, blue walls, the robot in the upper room.",
+    "Rooms off a corridor, half of them seen: red points, blue walls, the robot in the upper room.",
     steps=60,
     extra=beneath,
     curves={
@@ -721,7 +724,9 @@ fig, ax = views.curves(
     np.arange(100) / 10, curves, "driven [m]", "error along the corridor [cm]", size=(7, 3.8)
 )
 views.show(
-    fig, "With lines error and belief grow together; with feet belief stays at 1 centimetre."
+    fig,
+    "With lines error and belief grow together; with feet belief stays at "
+    f"{curves['foot: believes'][-1]:.1f} cm.",
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
@@ -823,7 +828,7 @@ def as_he_draws(ax, slam):
     for layer in [Segments("axes", [[0, 0, 1, 0], [0, 0, 0, 1]]), *slam.layers()]:
         if not isinstance(layer, Ellipses):
             label = {"landmark": "foot", "corrected": "way", "scan": "lidar"}.get(layer.name)
-            colour = SMOLEC.get(layer.name, views.COLOURS["guide"])
+            colour = SMOLEC.get(layer.name, views.colour(layer))
             views.draw(ax, layer, color=colour, label=label or layer.name)
 
 
@@ -843,7 +848,7 @@ pictures = {
 fig, all_axes = views.panels(list(pictures), (11, 4.2), shared=False)
 for ax, (situation, steps, beams) in zip(all_axes, pictures.values(), strict=True):
     as_he_draws(ax, listing(situation, steps, beams, mends=estimators.MENDS)[0])
-views.legend(all_axes[1], loc="lower right", fontsize=9)
+views.legend(all_axes[1], loc="lower right")
 views.show(
     fig,
     "Two maps of the irregular room and one of a room with its door: red points, blue feet of "
@@ -865,7 +870,7 @@ runs = {"as printed": (), "all mends": estimators.MENDS}
 fig, all_axes = views.panels(list(runs), (9.5, 4.2), shared=False)
 for ax, mends in zip(all_axes, runs.values(), strict=True):
     as_he_draws(ax, listing("situation-2", 60, mends=mends)[0])
-views.legend(all_axes[1], loc="upper left", bbox_to_anchor=(1, 1), fontsize=9)
+views.legend(all_axes[1], loc="upper left", bbox_to_anchor=(1, 1))
 views.show(fig, "As printed the way jumps and the room is drawn many times; mended it is a room.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
@@ -962,15 +967,14 @@ def constants(sightings, lives, offset_in_m, tolerance_in_mm, beams, as_printed)
     title = f"off by {off_by(slam, true):.0f} cm, odometry by {off_by(alone, true):.0f} cm"
     fig, ax = views.axes(title, (7, 4.2))
     as_he_draws(ax, slam)
-    beside = {"loc": "upper left", "bbox_to_anchor": (1, 1), "fontsize": "small"}
-    views.legend(ax, title=slam.status.replace(" of", "\nof"), **beside)
+    views.legend_below(fig, title=slam.status)
     return fig
 
 
 # %% slideshow={"slide_type": "fragment"}
 views.explore(
     constants,
-    "The map of the irregular room after 60 scans, its feet and their perpendiculars.",
+    "The map of the irregular room, its feet and their perpendiculars.",
     sightings=(1, 15, 5),
     lives=(1, 60, 40),
     offset_in_m=(0.1, 2.1, 0.5),
@@ -1237,7 +1241,7 @@ for label, layer in drawn.items():
     views.draw(ax, layer, label=label)
 ax.set_aspect("equal", adjustable="box")
 ax.set(xlim=(0.2, 5.8), ylim=(-0.8, 2.2))
-views.legend(ax, loc="upper center", fontsize=9)
+views.legend(ax, loc="upper center")
 views.show(fig, "Lines found on a round tower from two places: each place has its own.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
@@ -1285,7 +1289,8 @@ fig, ax = views.curves(
 ax.plot(np.degrees(heard.angles), heard.ranges, "o", color=views.COLOURS["truth"], label="readings")
 ax.set(xlim=(-45, 75), ylim=(1.3, 2.6))
 views.legend(ax)
-views.show(fig, "A wall's range over the direction: flat for 25 degrees, a curve on either side.")
+flat = f"{2 * np.degrees(half_cone):.0f} degrees"
+views.show(fig, f"A wall's range over the direction: flat for {flat}, a curve on either side.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # **See:** a flat piece of 25°, and beyond it a ray's curve, moved outwards by half the cone. The
@@ -1376,7 +1381,7 @@ for (name, world), dash in zip(things.items(), ("-", "--", ":"), strict=True):
     ax.plot(np.degrees(scan.angles), scan.ranges, dash, label=name, linewidth=2)
 ax.set(xlim=(-45, 45), ylim=(0.95, 1.3))
 views.legend(ax, loc="upper center")
-views.show(fig, "All three are flat over 25 degrees; then edge and pillar rise far faster.")
+views.show(fig, f"All three are flat over {flat}; then edge and pillar rise far faster.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # **See:** the flat pieces are the same, and only the slopes tell the three apart. So a local minimum

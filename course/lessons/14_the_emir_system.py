@@ -314,7 +314,8 @@ fits = {
 }
 title = "the second look over the first, by odometry"
 fig, ax = views.curves(fronts, fits, "front mounted at [°]", "misfit [cm]", title, (5.5, 3.2))
-views.show(fig, "One curve has a deep notch at 0°; the other stays high everywhere.")
+notch = fronts[np.argmin(fits["clockwise"])]
+views.show(fig, f"One curve has a deep notch at {notch}°; the other stays high everywhere.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # **See:** one sign and one front fit, all else does not. The notch says "clockwise, front at 0°",

@@ -70,7 +70,8 @@ export default () => {
 
       if (!views.size) {
         const near = ["localhost", "127.0.0.1", "[::1]"].includes(location.hostname);
-        model.send({ kind: "ready", near });
+        const calm = matchMedia("(prefers-reduced-motion: reduce)").matches;
+        model.send({ kind: "ready", near, calm });
       }
       views.add(repaint);
       const resized = new ResizeObserver(repaint);

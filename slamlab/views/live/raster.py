@@ -7,7 +7,7 @@ import zlib
 import ipywidgets
 import numpy as np
 
-from slamlab.views.figures import COLOURS
+from slamlab.views.colours import COLOURS
 from slamlab.views.live.back_pressure import Screen
 
 FRAME_PERIOD = 0.1  # [s] between two frames: an image acknowledges nothing, no queue may build up
@@ -39,7 +39,7 @@ class RasterScreen(Screen):
         self._image.value = png(rasterise(scene, self._size))
         names = {each.name: each.colour for each in scene.drawables if each.kind != "curve"}
         legend = " ".join(
-            f'<span style="color:{colour}">■</span> {html.escape(name)}'
+            f'<span style="color:{colour};background:#ffffff">■</span> {html.escape(name)}'
             for name, colour in names.items()
         )
         title = f"<b>{html.escape(self._title)}</b> " if self._title else ""
