@@ -70,12 +70,12 @@ def test_a_notebook_is_opened_run_and_saved(page, first_day, home, seen, noteboo
     assert visit.serious_faults() == []
     for handle in page.get_by_role("slider").all():
         assert handle.get_attribute("aria-label")
-        before = handle.get_attribute("aria-valuenow")
+        before = handle.get_attribute("aria-valuetext")
         handle.focus()
         page.keyboard.press("ArrowLeft")
-        if handle.get_attribute("aria-valuenow") == before:  # it stood at its left end
+        if handle.get_attribute("aria-valuetext") == before:  # it stood at its left end
             page.keyboard.press("ArrowRight")
-        assert handle.get_attribute("aria-valuenow") != before
+        assert handle.get_attribute("aria-valuetext") != before
     page.wait_for_selector(".jp-Notebook-ExecutionIndicator[data-status=idle]")
     visit.save()
     seen[notebook] = alternatives(visit)

@@ -14,6 +14,13 @@ export function nameParts(panel) {
   forEachElement(panel, ".jp-collapseHeadingButton", (button) => {
     button.setAttribute("aria-label", "fold this section");
   });
+  // what is too wide and scrolls, as a long formula, is reached without a mouse
+  forEachElement(panel, ".jp-OutputArea-output, .jp-MarkdownOutput", (output) => {
+    new ResizeObserver(() => {
+      if (output.scrollWidth > output.clientWidth) output.tabIndex = 0;
+      else output.removeAttribute("tabindex");
+    }).observe(output);
+  });
 }
 
 export function nameControls(panel) {
@@ -24,6 +31,14 @@ export function nameControls(panel) {
     const readout = slider.querySelector(".widget-readout");
     readout?.setAttribute("aria-label", `${label}, as a number`);
     readout?.setAttribute("role", "textbox");
+    // it would be read out with 16 digits
+    const VALUE = "aria-valuetext";
+    const tell = () => {
+      const text = readout?.textContent;
+      if (text && handle.getAttribute(VALUE) !== text) handle.setAttribute(VALUE, text);
+    };
+    tell();
+    new MutationObserver(tell).observe(handle, { attributeFilter: [VALUE] });
   });
 }
 
