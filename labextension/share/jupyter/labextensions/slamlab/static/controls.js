@@ -2,6 +2,7 @@
 
 import { forEachElement } from "./watching.js";
 
+const TEXT = ".jp-OutputArea-output, .jp-MarkdownOutput";
 const DEAD = "Run this cell for its controls.";
 
 export function nameParts(panel) {
@@ -14,12 +15,13 @@ export function nameParts(panel) {
   forEachElement(panel, ".jp-collapseHeadingButton", (button) => {
     button.setAttribute("aria-label", "fold this section");
   });
-  // what is too wide and scrolls, as a long formula, is reached without a mouse
-  forEachElement(panel, ".jp-OutputArea-output, .jp-MarkdownOutput", (output) => {
+  // what is too wide and scrolls is reached without a mouse; a formula grows when it is typeset
+  forEachElement(panel, `:is(${TEXT}), :is(${TEXT}) mjx-container`, (part) => {
+    const text = part.closest(TEXT);
     new ResizeObserver(() => {
-      if (output.scrollWidth > output.clientWidth) output.tabIndex = 0;
-      else output.removeAttribute("tabindex");
-    }).observe(output);
+      if (text.scrollWidth > text.clientWidth) text.tabIndex = 0;
+      else text.removeAttribute("tabindex");
+    }).observe(part);
   });
 }
 
@@ -39,6 +41,10 @@ export function nameControls(panel) {
     };
     tell();
     new MutationObserver(tell).observe(handle, { attributeFilter: [VALUE] });
+  });
+  // a field without a label: what is shown when the mouse rests on it
+  forEachElement(panel, ".jupyter-widgets textarea[title]", (field) => {
+    field.setAttribute("aria-label", field.title);
   });
 }
 
