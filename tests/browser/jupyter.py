@@ -18,6 +18,15 @@ EXTENSION = ROOT / "labextension" / "share" / "jupyter"
 NEWS = "@jupyterlab/apputils-extension:announcements"
 
 
+# what was never in sight is not laid out
+LOOK_THROUGH = """async () => {
+    for (const cell of document.querySelectorAll(".jp-Cell")) {
+        cell.scrollIntoView();
+        for (let frame = 0; frame < 2; frame++) await new Promise(requestAnimationFrame);
+    }
+}"""
+
+
 class Unavailable(Exception):
     """There is no browser, or JupyterLab does not start; the text says which."""
 
@@ -157,6 +166,7 @@ class Visit:
         -------
         list of str, the rule and where it is broken
         """
+        self.page.evaluate(LOOK_THROUGH)
         found = Axe().run(
             self.page,
             context=".jp-NotebookPanel .jp-WindowedPanel-viewport",
