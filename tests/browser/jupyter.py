@@ -26,6 +26,13 @@ LOOK_THROUGH = """async () => {
     }
 }"""
 
+# how many cells still wait or run, once that is another number than before
+CELLS_LEFT = """(before) => {
+    const prompts = [...document.querySelectorAll(".jp-InputPrompt")];
+    const left = prompts.filter((prompt) => prompt.textContent == "[*]:").length;
+    return left != before && [left];
+}"""
+
 
 class Unavailable(Exception):
     """There is no browser, or JupyterLab does not start; the text says which."""
@@ -140,13 +147,11 @@ class Visit:
         self.page.locator(".lm-Menu-item").get_by_text("Run All Cells", exact=True).click()
 
     def run_all_and_wait(self):
-        """Run all cells and wait until the last one is done."""
+        """Run all cells and wait until the last one is done: as long as one after another ends."""
         self.run_all()
-        self.page.wait_for_selector(".jp-Notebook-ExecutionIndicator[data-status=busy]")
-        self.page.wait_for_function(
-            """() => [...document.querySelectorAll(".jp-InputPrompt")]
-                .every((prompt) => prompt.textContent != "[*]:")"""
-        )
+        left = 0
+        while (left := self.page.wait_for_function(CELLS_LEFT, arg=left).json_value()[0]) > 0:
+            pass
         self.page.wait_for_selector(".jp-Notebook-ExecutionIndicator[data-status=idle]")
 
     def save(self):

@@ -46,6 +46,7 @@ export function nameControls(panel) {
   forEachElement(panel, ".jupyter-widgets textarea[title]", (field) => {
     field.setAttribute("aria-label", field.title);
   });
+  forEachElement(panel, "img.widget-image[title]", (picture) => { picture.alt = picture.title; });
 }
 
 export function tellDeadWidgets(panel) {
