@@ -67,7 +67,7 @@ def _control(name, given):
         given.style = {"description_width": "initial"}
         return given
     label = name.replace("_", " ")
-    layout = {"width": "28em"}
+    layout = {"width": "28em", "max_width": "100%"}
     style = {"description_width": "initial"}
     if isinstance(given, bool):
         return ipywidgets.Checkbox(given, description=label, indent=False)

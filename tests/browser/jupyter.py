@@ -15,6 +15,7 @@ from tests.patience import PATIENCE
 
 CHROMIUMS = ("chromium", "chromium-browser", "google-chrome", "chrome")
 EXTENSION = ROOT / "labextension" / "share" / "jupyter"
+IDLE = ".jp-Notebook-ExecutionIndicator[data-status=idle]"  # out of sight on a narrow page
 NEWS = "@jupyterlab/apputils-extension:announcements"
 
 
@@ -136,8 +137,7 @@ class Visit:
         path = notebook if "/" in notebook else f"notebooks/{notebook}"
         self.page.goto(self.address.format(path))
         self.page.wait_for_selector(".jp-NotebookPanel .jp-Cell")
-        idle = ".jp-Notebook-ExecutionIndicator[data-status=idle]"  # out of sight on a narrow page
-        self.page.wait_for_selector(idle, state="attached")
+        self.page.wait_for_selector(IDLE, state="attached")
         # the indicator is idle before there is a kernel, too
         self.page.get_by_text("| Idle").wait_for(state="attached")
 
@@ -152,7 +152,7 @@ class Visit:
         left = 0
         while (left := self.page.wait_for_function(CELLS_LEFT, arg=left).json_value()[0]) > 0:
             pass
-        self.page.wait_for_selector(".jp-Notebook-ExecutionIndicator[data-status=idle]")
+        self.page.wait_for_selector(IDLE, state="attached")
 
     def save(self):
         """Save the notebook and wait until it is."""
