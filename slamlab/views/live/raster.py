@@ -29,10 +29,12 @@ class RasterScreen(Screen):
         super().__init__(acknowledged=False, frame_period=FRAME_PERIOD)
         self._size = tuple(map(int, size))
         self._image = ipywidgets.Image(
-            format="png", layout={"width": f"{self._size[0]}px", "max_width": "100%"}
+            format="png",
+            layout={"width": f"{self._size[0]}px", "max_width": "100%"},
+            tooltip=alt,  # takes no alternative text, but is named by what is shown over it
         )
         self._words = ipywidgets.HTML()
-        self._alt, self._title = alt, title
+        self._title = title
         self.widget = ipywidgets.VBox([self._image, self._words])
 
     def _send_frame(self, scene):
@@ -43,10 +45,7 @@ class RasterScreen(Screen):
             for name, colour in names.items()
         )
         title = f"<b>{html.escape(self._title)}</b> " if self._title else ""
-        # an Image takes no text of its own
-        alt = html.escape(self._alt, quote=True)
-        status = html.escape(scene.status)
-        self._words.value = f'<div aria-label="{alt}">{title}{legend}<br>{status}</div>'
+        self._words.value = f"{title}{legend}<br>{html.escape(scene.status)}"
 
 
 def rasterise(scene, size):
