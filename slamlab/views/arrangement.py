@@ -52,12 +52,12 @@ def _wrap_title(fig, ax):
     rows = _rows(words, letters)
     # as many rows as are needed, and all about as long
     even = next(n for n in range(len(words) // rows, letters + 1) if _rows(words, n) <= rows)
-    title.set_text(textwrap.fill(words, even))
+    title.set_text(textwrap.fill(words, even, break_on_hyphens=False))
     return True
 
 
 def _rows(words, letters):
-    return len(textwrap.wrap(words, max(letters, 1)))
+    return len(textwrap.wrap(words, max(letters, 1), break_on_hyphens=False))
 
 
 def _room(fig, ax):
