@@ -94,6 +94,7 @@ export class Deck {
     reveal(this.notebook, this.stops[this.at], this.shown.cells);
     layOut(this.page, this.notebook, this.shown, this.zoom);
     this.notebook.node.scrollTop = 0;
+    Object.assign(this.layer.dataset, { stop: this.at, stops: this.stops.length, shrink: this.shown.shrink });
     this.changed.emit(this);
     this.#prepare();
   }

@@ -3,8 +3,9 @@
 const CONTROL = ".jp-OutputArea-output input, .jp-OutputArea-output button, .jp-OutputArea-output select, "
   + ".jp-OutputArea-output [role=slider], .jp-OutputArea-output canvas, .jp-OutputArea-output [tabindex], "
   + ".jp-OutputArea-output summary, .jp-OutputArea-output a, .slamlab-layer *";
+const POINTED = `${CONTROL}, .jp-OutputArea-output.jupyter-widgets`; // a slider's track takes no key
 const EDITOR = ".slamlab-unlocked .cm-content";
-const ALWAYS = new Set(["PageDown", "PageUp", "F5", "Escape", "."]);
+const REMOTE = new Set(["PageDown", "PageUp", "F5", "Shift+F5", "Escape"]);
 const BROWSER = new Set(["F11", "F12", "Tab"]); // what the deck leaves to the browser
 
 const nameOf = (event) => {
@@ -23,11 +24,12 @@ export function guard(deck) {
     const name = nameOf(event);
     const focus = event.target instanceof Element ? event.target : document.body;
     if (focus.closest(EDITOR)) {
-      if (name === "Escape" || name === "Ctrl+Enter" || ["PageDown", "PageUp", "F5"].includes(name)) act(name, event);
+      if (REMOTE.has(name) || name === "Ctrl+Enter" || name === "Shift+Enter") act(name, event);
       return;
     }
     const typing = focus.matches("input:not([type=range]), textarea, select, [contenteditable=true]");
-    if (focus.closest(CONTROL) && (typing || !ALWAYS.has(name)) && !["PageDown", "PageUp", "F5", "Escape"].includes(name)) return;
+    const own = REMOTE.has(name) || (name === "." && !typing); // no control has use for these
+    if (focus.closest(CONTROL) && !own) return;
     if (act(name, event)) return;
     event.stopImmediatePropagation();
     if (!BROWSER.has(event.key) && !event.altKey) event.preventDefault();
@@ -42,7 +44,7 @@ export function guard(deck) {
 
   // clicks beside controls select, fold or edit cells in a notebook
   const pointer = (event) => {
-    if (!panel.node.contains(event.target) || event.target.closest(`${CONTROL}, ${EDITOR}, .slamlab-telling`)) return;
+    if (!panel.node.contains(event.target) || event.target.closest(`${POINTED}, ${EDITOR}`)) return;
     if (event.type === "mousedown" && event.target.closest(".jp-Cell")) deck.touched = event.target.closest(".jp-Cell");
     stop(event);
   };

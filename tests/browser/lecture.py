@@ -1,0 +1,75 @@
+"""A lesson shown as a lecture in the browser, and what can be seen of it."""
+
+# what is shown of a slide: its place, whether it is cut off, and its letters in pixels of the screen
+SEEN = """() => {
+    const deck = document.querySelector(".slamlab-deck");
+    const page = deck.querySelector(".jp-WindowedPanel-viewport");
+    const { stop, stops, shrink } = deck.querySelector(".slamlab-layer").dataset;
+    const zoom = Number(page.style.zoom);
+    const isSeen = (one) => !one.closest(".slamlab-off, .slamlab-later")
+        && one.getClientRects().length && getComputedStyle(one).visibility == "visible";
+    const letters = (selector) => [...page.querySelectorAll(selector)]
+        .filter((one) => isSeen(one) && one.textContent.trim())
+        .map((one) => zoom * parseFloat(getComputedStyle(one).fontSize));
+    const wide = [...page.querySelectorAll(".jp-OutputArea-output, .jp-RenderedMarkdown, .cm-scroller")]
+        .filter((one) => isSeen(one) && one.scrollWidth > one.clientWidth + 1);
+    const box = page.getBoundingClientRect();
+    const below = [...page.querySelectorAll(".jp-Cell")].filter((one) => isSeen(one)
+        && one.getBoundingClientRect().bottom > Math.min(box.bottom, innerHeight) + 1);
+    return {
+        stop: Number(stop), stops: Number(stops), shrink: Number(shrink),
+        cut: page.scrollHeight > page.clientHeight + 1 || below.length > 0 || wide.length > 0,
+        letters: Math.min(...letters(
+            ".jp-RenderedMarkdown p, .jp-RenderedMarkdown li, .jp-RenderedMarkdown td, .cm-line, "
+            + ".jp-OutputArea-output pre, mjx-container, .widget-label, .slamlab-telling")),
+        shown: [...page.querySelectorAll(".jp-Cell")].filter(isSeen)
+            .map((one) => one.dataset.windowedListIndex).join()
+            + "/" + page.querySelectorAll(".slamlab-later").length,
+    };
+}"""
+
+
+class Lecture:
+    """The deck on a page of JupyterLab.
+
+    Parameters
+    ----------
+    visit : Visit, with a notebook open
+    """
+
+    def __init__(self, visit):
+        self.visit, self.page = visit, visit.page
+
+    def start(self):
+        """Start with the button, at the first slide."""
+        self.page.locator(".slamlab-start").click()
+        self.page.wait_for_selector(".slamlab-deck .slamlab-bar")
+        self.press("Home")
+
+    def press(self, key):
+        """Press a key and wait until what it does is painted."""
+        self.page.keyboard.press(key)
+        self.page.evaluate("() => new Promise((done) => requestAnimationFrame(() => setTimeout(done)))")
+
+    @property
+    def seen(self):
+        """dict : stop, stops, shrink, cut, letters, shown."""
+        return self.page.evaluate(SEEN)
+
+    @property
+    def runs(self):
+        """bool, whether the deck is there."""
+        return self.page.locator(".slamlab-deck").count() > 0
+
+    def walk(self):
+        """Go on by PageDown from where it is to the last stop.
+
+        Yields
+        ------
+        dict, what is seen at each stop
+        """
+        before = None
+        while (seen := self.seen)["stop"] != before:
+            yield seen
+            before = seen["stop"]
+            self.press("PageDown")

@@ -1,0 +1,201 @@
+"""Lecture mode in a real browser: every stop fits, no key edits, what is changed can be restored."""
+
+import json
+import random
+
+import pytest
+
+from course.source import ROOT
+from tests.browser.lecture import Lecture
+
+LESSONS = ("04_models_and_jacobians.ipynb", "07_correlations.ipynb")
+SCREENS = ((1280, 720), (1920, 1080))
+SMALLEST = 0.75  # of the usual letters
+BASE = 18  # letters at 720 lines [pixels]
+KEYS = (
+    "PageDown PageUp ArrowRight ArrowLeft ArrowUp ArrowDown Space Shift+Space . b o c n t + - 0 ? h "
+    "F5 Shift+F5 Home End a m y x z d v s l p i j k Delete Backspace Enter Control+s Control+z "
+    "Control+x Control+v Control+Enter Shift+Enter Alt+Enter Control+Shift+- Control+b Tab Escape"
+).split()
+
+
+@pytest.fixture
+def lecture(visit):
+    """A lecture on the page of a visit, whose window has 720 lines."""
+    visit.page.set_viewport_size({"width": 1280, "height": 720})
+    return Lecture(visit)
+
+
+def stored(lab_folder, lesson):
+    return (lab_folder / lesson).read_bytes()
+
+
+@pytest.mark.parametrize("screen", SCREENS, ids=lambda screen: f"{screen[1]}")
+@pytest.mark.parametrize("lesson", LESSONS)
+def test_every_stop_fits_and_is_legible_there_and_back(lecture, lesson, screen):
+    width, height = screen
+    lecture.page.set_viewport_size({"width": width, "height": height})
+    lecture.visit.open(lesson)
+    lecture.start()
+    stops = list(lecture.walk())
+    assert [seen["stop"] for seen in stops] == list(range(stops[-1]["stops"]))
+    assert len({seen["shown"] for seen in stops}) == len(stops)  # each key shows something new
+    small = [seen["stop"] for seen in stops if seen["shrink"] < SMALLEST]
+    faint = [seen["stop"] for seen in stops if seen["letters"] < BASE * height / 720 - 0.01]
+    assert ([seen["stop"] for seen in stops if seen["cut"]], small, faint) == ([], [], [])
+    for seen in reversed(stops[:-1]):
+        lecture.press("PageUp")
+        assert lecture.seen["shown"] == seen["shown"]
+    assert lecture.visit.errors == []
+    assert lecture.visit.abroad == []
+
+
+def test_no_key_and_no_click_changes_the_file(lecture, lab_folder):
+    lesson = "01_why_slam.ipynb"
+    before = stored(lab_folder, lesson)
+    lecture.visit.open(lesson)
+    chance = random.Random(17)
+    width, height = 1280, 720
+    for _ in range(2000):
+        if not lecture.runs:
+            lecture.start()
+        if chance.random() < 0.8:
+            lecture.page.keyboard.press(chance.choice(KEYS))
+        else:
+            click = chance.choice(["click", "dblclick"])
+            button = chance.choice(["left", "left", "right", "middle"]) if click == "click" else "left"
+            place = chance.randrange(width), chance.randrange(height)
+            getattr(lecture.page.mouse, click)(*place, button=button)
+        for other in lecture.page.context.pages[1:]:
+            other.close()  # the presenter's window
+    assert stored(lab_folder, lesson) == before
+    sources = [cell["source"] for cell in json.loads(before)["cells"]]
+    if lecture.runs:
+        end(lecture)
+    restore = lecture.page.get_by_role("button", name="Restore it")
+    if restore.count():
+        restore.click()
+    lecture.visit.save()
+    after = [cell["source"] for cell in json.loads(stored(lab_folder, lesson))["cells"]]
+    assert after == sources
+
+
+def end(lecture):
+    while lecture.runs:
+        lecture.press("Escape")
+
+
+def test_what_is_unlocked_changed_and_run_is_restored(lecture, lab_folder):
+    lesson = "07_correlations.ipynb"
+    before = json.loads(stored(lab_folder, lesson))
+    lecture.visit.open(lesson)
+    lecture.start()
+    while not lecture.page.locator(".jp-CodeCell:not(.slamlab-off):not(.slamlab-later)").count():
+        lecture.press("PageDown")
+    place = lecture.seen["stop"]
+    lecture.press("r")  # what the cell needs
+    lecture.page.wait_for_function("() => !document.querySelector('.slamlab-notice').textContent")
+    lecture.press("e")
+    lecture.page.keyboard.press("Control+End")
+    lecture.page.keyboard.type("\nprint('changed', 6 * 7)")
+    lecture.press("Control+Enter")
+    lecture.page.get_by_text("changed 42").wait_for()
+    assert lecture.seen["stop"] == place
+    lecture.press("Escape")  # locks the cell
+    assert lecture.runs
+    end(lecture)
+    lecture.press("Control+s")
+    assert json.loads(stored(lab_folder, lesson)) == before
+    lecture.page.get_by_role("button", name="Restore it").click()
+    assert lecture.page.get_by_text("changed 42").count() == 0
+    lecture.visit.save()
+    after = json.loads(stored(lab_folder, lesson))
+    assert [(cell["source"], cell.get("outputs")) for cell in after["cells"]] == [
+        (cell["source"], cell.get("outputs")) for cell in before["cells"]
+    ]
+
+
+def test_what_was_changed_can_be_kept(lecture, lab_folder):
+    lesson = "02_sensors_and_worlds.ipynb"
+    lecture.visit.open(lesson)
+    lecture.start()
+    while not lecture.page.locator(".jp-CodeCell:not(.slamlab-off):not(.slamlab-later)").count():
+        lecture.press("PageDown")
+    lecture.press("e")
+    lecture.page.keyboard.press("Control+End")
+    lecture.page.keyboard.type("\n# kept")
+    end(lecture)
+    lecture.page.get_by_role("button", name="Keep the changes").click()
+    lecture.visit.save()
+    assert b"# kept" in stored(lab_folder, lesson)
+
+
+def test_remotes_and_the_keys_of_the_deck(lecture):
+    lecture.visit.open("07_correlations.ipynb")
+    lecture.start()
+    for _ in range(5):
+        lecture.press("PageDown")
+    assert lecture.seen["stop"] == 5
+    lecture.press("F5")  # from the beginning: the page is not loaded anew
+    assert lecture.seen["stop"] == 0
+    layer = lecture.page.locator(".slamlab-layer")
+    for key in (".", "b"):
+        lecture.press(key)
+        assert "slamlab-blank" in layer.get_attribute("class")
+        lecture.press(key)
+        assert "slamlab-blank" not in layer.get_attribute("class")
+    lecture.press("o")
+    lecture.press("ArrowRight")
+    lecture.press("Enter")
+    assert lecture.page.locator(".slamlab-overview").count() == 0
+    assert lecture.page.locator(".slamlab-number").text_content().startswith("2 /")
+    lecture.press("?")
+    assert lecture.page.locator(".slamlab-help").get_by_text("blank, and back").count() == 1
+    lecture.press("Escape")
+    assert lecture.runs
+    for key, part in (("n", "number"), ("t", "timer")):
+        hidden = lecture.page.locator(f".slamlab-{part}").is_hidden()
+        lecture.press(key)
+        assert lecture.page.locator(f".slamlab-{part}").is_hidden() != hidden
+    lecture.press("Escape")
+    assert not lecture.runs
+
+
+def test_a_slider_is_hit_where_it_is_seen(lecture):
+    lecture.visit.open("01_why_slam.ipynb")
+    lecture.visit.run_all_and_wait()
+    lecture.start()
+    slider = ".jp-Cell:not(.slamlab-off):not(.slamlab-later) .widget-slider .noUi-target"
+    while not lecture.page.locator(slider).count():
+        lecture.press("PageDown")
+    for key in ("0", "+", "-", "-"):  # at every zoom
+        lecture.press(key)
+        box = lecture.page.locator(slider).first.bounding_box()
+        handle = lecture.page.locator(slider).first.locator(".noUi-handle")
+        least, most = (float(handle.get_attribute(f"aria-value{end}")) for end in ("min", "max"))
+        for share in (0.25, 0.75):
+            x, y = box["x"] + share * box["width"], box["y"] + box["height"] / 2
+            lecture.page.mouse.click(x, y)
+            lecture.page.wait_for_function(
+                "([handle, least, most]) => { const now = handle.getAttribute('aria-valuenow');"
+                " return least <= now && now <= most; }",
+                arg=[
+                    handle.element_handle(),
+                    least + (share - 0.12) * (most - least),
+                    least + (share + 0.12) * (most - least),
+                ],
+            )
+
+
+def test_a_lecture_starts_by_its_address(lecture):
+    lecture.visit.address = lecture.visit.address.replace("?", "?lecture=1&")
+    lecture.visit.open("07_correlations.ipynb")
+    lecture.page.wait_for_selector(".slamlab-deck .slamlab-bar")
+    assert lecture.seen["stop"] == 0
+
+
+def test_the_notebooks_of_the_course_have_slides():
+    for lesson in LESSONS:
+        cells = json.loads((ROOT / "notebooks" / lesson).read_text())["cells"]
+        types = [cell["metadata"].get("slideshow", {}).get("slide_type") for cell in cells]
+        assert types.count("slide") > 10
