@@ -49,7 +49,7 @@ class Alive(Control):
 
 class TheSlide(Control):
     async def put(self):
-        number, html = self.said(number=int, html=str)
+        number, html = self.said(slide=int, html=str)
         if not 0 <= number <= 999:
             raise HTTPError(400)
         await self.told(self._lecture.show, number, html)

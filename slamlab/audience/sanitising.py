@@ -39,7 +39,16 @@ ATTRIBUTES = {
     "mspace": {"width"},
     "mfrac": {"linethickness"},
 }
-GONE = {"script", "style", "annotation", "annotation-xml", "iframe", "object", "template", "noscript"}
+GONE = {
+    "script",
+    "style",
+    "annotation",
+    "annotation-xml",
+    "iframe",
+    "object",
+    "template",
+    "noscript",
+}
 PICTURE = re.compile(r"data:image/(?:png|jpeg|webp|gif);base64,([A-Za-z0-9+/=\s]+)")
 KINDS = {"PNG": "image/png", "JPEG": "image/jpeg", "WEBP": "image/webp", "GIF": "image/gif"}
 MOST_BYTES, MOST_PIXELS = 2_000_000, 16_000_000
