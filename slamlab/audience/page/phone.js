@@ -83,33 +83,40 @@ function reachable() {
   }
 }
 
+// Draw the slide; whether it could be had.
 async function drawSlide() {
   const numbers = Object.keys(state.slides).map(Number);
   const number = looking ?? state.shown;
   const which = numbers.indexOf(number);
   at("shown").hidden = at("looking").hidden = which < 0;
-  if (which < 0) return;
+  if (which < 0) return true;
   at("earlier").disabled = which === 0;
   at("later").disabled = which === numbers.length - 1;
   at("now").disabled = looking === null;
   const found = await slide(number, state.slides[number]);
-  if (!found || (looking ?? state.shown) !== number) return; // gone on meanwhile
-  at("which").textContent = number === state.shown
-    ? `Slide ${number + 1}, shown now` : `Slide ${number + 1}; slide ${state.shown + 1} is shown now`;
+  if (!(found?.version >= state.slides[number])) return false;
+  if ((looking ?? state.shown) !== number) return true; // gone on meanwhile
+  const place = `Slide ${which + 1} of the ${numbers.length} shown so far`;
+  at("which").textContent = number === state.shown ? `${place}: shown now` : `${place}: looking back`;
   const drawing = `${number} ${found.version}`;
-  if (drawn === drawing) return;
+  if (drawn === drawing) return true;
   if (drawn.split(" ")[0] !== String(number)) scrollTo(0, 0);
   drawn = drawing;
   at("slide").innerHTML = found.html;
   readable(at("slide"));
   reachable();
+  return true;
+}
+
+async function lookAt() {
+  if (!await drawSlide()) say("This slide did not come. Try again.");
 }
 
 function step(by) {
   const numbers = Object.keys(state.slides).map(Number);
   const number = numbers[numbers.indexOf(looking ?? state.shown) + by];
   if (number !== undefined) looking = number === state.shown ? null : number;
-  drawSlide();
+  lookAt();
 }
 
 // ---- the poll -------------------------------------------------------------------------------------
@@ -193,7 +200,7 @@ function drawPoll() {
   readable(at("question"));
   at("answers").replaceChildren(!poll.open ? results(poll) : poll.choices ? choices(poll) : field(poll));
   if (poll.open) at("voted").textContent = poll.mine === null ? "Nobody sees who answers what." : "Your answer is in.";
-  else at("voted").textContent = `${poll.result.answers} answers.`;
+  else at("voted").textContent = poll.result.answers === 1 ? "One answer." : `${poll.result.answers} answers.`;
   reachable();
   at("poll").scrollIntoView({ block: "nearest" });
 }
@@ -221,16 +228,20 @@ async function follow() {
       return "over";
     }
     state = told;
-    known = told.version;
     say(told.shown === null ? "You are in. The first slide comes soon." : "You are in.");
     drawPoll();
-    await drawSlide();
+    if (await drawSlide()) {
+      known = told.version;
+    } else {
+      known = NOTHING_KNOWN; // the slide got lost on the way: all of it once more
+      await sleep(1000);
+    }
   }
 }
 
 at("earlier").onclick = () => step(-1);
 at("later").onclick = () => step(1);
-at("now").onclick = () => { looking = null; drawSlide(); };
+at("now").onclick = () => { looking = null; lookAt(); };
 addEventListener("resize", reachable);
 
 for (;;) {
