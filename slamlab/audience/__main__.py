@@ -1,4 +1,4 @@
-"""``python -m slamlab.audience``: listen for the class's phones; the deck starts it by ``start``."""
+"""``python -m slamlab.audience``: listen for a class's phones; a lecture's deck starts it."""
 
 import argparse
 

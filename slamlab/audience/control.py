@@ -26,7 +26,7 @@ class Control(Guarded):
         return values
 
     async def told(self, deed, *given):
-        """Do something and answer how many phones there are; 409 with the reason if it cannot be."""
+        """Do something and answer how many phones there are; 409 with the reason if it fails."""
         try:
             deed(*given)
         except ValueError as error:

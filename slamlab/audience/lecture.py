@@ -1,6 +1,7 @@
 """What is known while a lecture lasts, in memory alone: the slides shown, the poll, its end."""
 
 import asyncio
+import contextlib
 from dataclasses import dataclass
 
 from slamlab.audience.poll import Poll
@@ -156,10 +157,8 @@ class Lecture:
         seconds : float
         """
         if version == self.version:
-            try:
+            with contextlib.suppress(TimeoutError):
                 await asyncio.wait_for(self._changed.wait(), seconds)
-            except TimeoutError:
-                pass
 
     def _change(self):
         self.version += 1

@@ -82,9 +82,9 @@ class Poll:
 
         Returns
         -------
-        dict : ``answers``, int; for choices ``counts``, list of int, and of them ``hands``; for a number
-            ``bars``, list of {from, to, count}, whose first and last hold what lies farther out,
-            and ``quartiles``, list of three numbers, empty without votes
+        dict : ``answers``, int; for choices ``counts``, list of int, and of them ``hands``; for a
+            number ``bars``, list of {from, to, count}, whose first and last hold what lies farther
+            out, and ``quartiles``, list of three numbers, empty without votes
         """
         votes = list(self._votes.values())
         if self.choices is None:
@@ -108,5 +108,5 @@ def _bars(votes):
     heights, edges = np.histogram(np.clip(votes, low, high), number, (low, high))
     return [
         {"from": float(start), "to": float(end), "count": int(count)}
-        for start, end, count in zip(edges, edges[1:], heights, strict=False)
+        for start, end, count in zip(edges[:-1], edges[1:], heights, strict=True)
     ]

@@ -1,4 +1,4 @@
-"""The life of the class's process: it listens, says where, and ends soon after the lecturer's page."""
+"""The life of the class's process: it listens, says where, and ends after the lecturer's page."""
 
 import asyncio
 import contextlib

@@ -1,6 +1,7 @@
 """A slide's text and pictures, and nothing else of it: no script, no style, no address elsewhere.
 
-What comes from the lecturer's page is parsed and written anew by nh3, which keeps what is listed here.
+What comes from the lecturer's page is parsed and written anew by nh3, which keeps what is listed
+here.
 Pictures come as ``data:`` addresses; each becomes ``picture/NAME``, named by its content.
 """
 
@@ -14,16 +15,17 @@ import warnings
 import nh3
 from PIL import Image
 
-TEXT = set(
-    "a abbr b blockquote br caption cite code col colgroup dd del div dl dt em figcaption figure h1 h2 "
-    "h3 h4 h5 h6 hr i img ins kbd li mark ol p pre q s samp section small span strong sub sup table "
-    "tbody td tfoot th thead tr u ul var".split()
-)
+TEXT = """
+    a abbr b blockquote br caption cite code col colgroup dd del div dl dt em figcaption figure
+    h1 h2 h3 h4 h5 h6 hr i img ins kbd li mark ol p pre q s samp section small span strong sub
+    sup table tbody td tfoot th thead tr u ul var
+"""
 # not annotation: it holds the source of the formula a second time
-FORMULA = set(
-    "math menclose merror mfrac mi mmultiscripts mn mo mover mpadded mphantom mprescripts mroot mrow ms "
-    "mspace msqrt mstyle msub msubsup msup mtable mtd mtext mtr munder munderover".split()
-)
+FORMULA = """
+    math menclose merror mfrac mi mmultiscripts mn mo mover mpadded mphantom mprescripts mroot
+    mrow ms mspace msqrt mstyle msub msubsup msup mtable mtd mtext mtr munder munderover
+"""
+ELEMENTS = frozenset(TEXT.split() + FORMULA.split())
 ATTRIBUTES = {
     "img": {"src", "alt", "width", "height"},
     "ol": {"start"},
@@ -79,7 +81,7 @@ def clean(html):
 
     kept = nh3.clean(
         html,
-        tags=TEXT | FORMULA,
+        tags=ELEMENTS,
         clean_content_tags=GONE,
         attributes=ATTRIBUTES,
         attribute_filter=keep,

@@ -46,12 +46,13 @@ def start(page, host="127.0.0.1", port=PORT):
     Parameters
     ----------
     page : str, the origin of the lecturer's page, such as "http://localhost:8888"
-    host : str, where to listen for phones: "127.0.0.1" for this machine alone, "0.0.0.0" for its networks
+    host : str, on which phones are listened for: "127.0.0.1", this machine alone; "0.0.0.0", all
     port : int, for phones; any other one if it is taken
 
     Returns
     -------
-    dict : ``addresses``, each with its QR code, and ``code`` for phones; ``control`` and ``key`` for the page
+    dict : ``addresses``, each with its QR code, and ``code`` for phones; for the page ``control``,
+        an address, and ``key``
 
     Raises
     ------

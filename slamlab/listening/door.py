@@ -6,8 +6,8 @@ import time
 from slamlab.listening.rates import Buckets, Rate
 
 LETTERS = "ABCDEFGHJKMNPRSTWXYZ"  # none that is read as another one or as a digit
-# A class of 200 may stand behind one address, and each may mistype once: so many tries an address has.
-# In two hours all of them together have 38 000 tries, and find one of 20**8 codes once in 600 000.
+# A class of 200 may stand behind one address, and each may mistype once: so many tries it has. In
+# two hours all together have 38 000 tries, and find one of 20**8 codes once in 600 000 lectures.
 TRIES, ALL_TRIES = Rate(400, 2), Rate(2000, 5)
 
 

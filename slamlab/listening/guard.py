@@ -1,7 +1,8 @@
 """The guard over every request and socket of whatever listens, and the listener itself.
 
-A request gets on only if its Host is the address at which it arrived (so no name that leads here by a
-trick of DNS gets on), its Origin is the one expected, who asks is known, and asks no too often.
+A request gets on only if its Host is the address at which it arrived (so no name that leads here
+by a trick of DNS does), its Origin is the one expected, and who asks is known and asks not too
+often.
 There is a fixed table of routes; nothing that a client sends is a path, and nothing is logged.
 """
 

@@ -1,5 +1,7 @@
 """A poll: what is counted, what is not, and how it looks while nobody's answer can be told."""
 
+import itertools
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -43,7 +45,7 @@ def test_bars_hold_every_number_once_and_are_few(votes):
     assert 1 <= len(told["bars"]) <= MOST_BARS
     edges = [(bar["from"], bar["to"]) for bar in told["bars"]]
     assert all(start <= end for start, end in edges)
-    assert all(a[1] == b[0] for a, b in zip(edges, edges[1:], strict=False))
+    assert all(a[1] == b[0] for a, b in itertools.pairwise(edges))
     low, middle, high = told["quartiles"]
     assert min(votes) <= low <= middle <= high <= max(votes)
 

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from PIL import Image
 
-from slamlab.audience.sanitising import ATTRIBUTES, FORMULA, TEXT, clean
+from slamlab.audience.sanitising import ATTRIBUTES, ELEMENTS, clean
 
 
 def data(kind="PNG", size=(3, 2)):
@@ -42,7 +42,7 @@ class Found(HTMLParser):
 def assert_harmless(html):
     """Only listed elements and attributes; no address but of an own picture."""
     found = Found(html)
-    assert set(found.tags) <= TEXT | FORMULA
+    assert set(found.tags) <= ELEMENTS
     for tag, name, value in found.attributes:
         assert name in ATTRIBUTES.get(tag, ()), (tag, name)
         assert not name.startswith("on")
@@ -50,31 +50,50 @@ def assert_harmless(html):
             assert re.fullmatch(r"picture/[0-9a-f]{32}", value)
 
 
-WORDS = ["script", "style", "img", "math", "mtext", "mglyph", "malignmark", "annotation-xml", "svg", "foreignObject",
-         "template", "iframe", "a", "form", "input", "base", "link", "meta", "object", "embed", "table", "td", "p",
-         "noscript", "textarea", "title", "select", "option", "xmp", "plaintext", "frameset", "marquee", "video",
-         "audio", "source", "picture", "use", "animate", "set", "desc", "mi", "mo", "details", "isindex"]  # fmt: skip
-NAMES = ["src", "href", "xlink:href", "onerror", "onload", "onclick", "ontoggle", "style", "srcdoc", "srcset", "action",
-         "formaction", "background", "poster", "ping", "class", "id", "name", "alt", "encoding", "data", "content",
-         "http-equiv", "dynsrc", "lowsrc", "definitionURL", "altimg", "actiontype", "display"]  # fmt: skip
-VALUES = ["javascript:alert(1)", "http://evil.example/x.png", "//evil.example", "data:text/html,<script>alert(1)</script>",
-          "data:image/svg+xml,<svg onload=alert(1)>", "data:image/png;base64,AAAA", data(), "picture/../x", "/phone.js",
-          "JaVa\tScRiPt:alert(1)", "&#106;avascript:alert(1)", "text/html", "alert(1)", "\x00", "blob:x",
-          "url(http://evil.example)", "'\"><img src=x onerror=alert(1)>"]  # fmt: skip
+WORDS = """
+    script style img math mtext mglyph malignmark annotation-xml svg foreignObject template
+    iframe a form input base link meta object embed table td p noscript textarea title select
+    option xmp plaintext frameset marquee video audio source picture use animate set desc mi mo
+    details isindex
+"""
+NAMES = """
+    src href xlink:href onerror onload onclick ontoggle style srcdoc srcset action formaction
+    background poster ping class id name alt encoding data content http-equiv dynsrc lowsrc
+    definitionURL altimg actiontype display
+"""
+VALUES = [
+    "javascript:alert(1)",
+    "http://evil.example/x.png",
+    "//evil.example",
+    "data:text/html,<script>alert(1)</script>",
+    "data:image/svg+xml,<svg onload=alert(1)>",
+    "data:image/png;base64,AAAA",
+    data(),
+    "picture/../x",
+    "/phone.js",
+    "JaVa\tScRiPt:alert(1)",
+    "&#106;avascript:alert(1)",
+    "text/html",
+    "alert(1)",
+    "\x00",
+    "blob:x",
+    "url(http://evil.example)",
+    "'\"><img src=x onerror=alert(1)>",
+]
 attribute = st.builds(
     lambda name, quote, value: f" {name}={quote}{value}{quote}",
-    st.sampled_from(NAMES),
+    st.sampled_from(NAMES.split()),
     st.sampled_from(['"', "'", ""]),
     st.sampled_from(VALUES),
 )
 piece = st.one_of(
     st.builds(
         lambda word, given, end: f"<{word}{''.join(given)}{end}",
-        st.sampled_from(WORDS),
+        st.sampled_from(WORDS.split()),
         st.lists(attribute, max_size=3),
         st.sampled_from([">", "/>", " >", "", "\n>"]),
     ),
-    st.sampled_from(WORDS).map("</{}>".format),
+    st.sampled_from(WORDS.split()).map("</{}>".format),
     st.sampled_from(
         [
             "<!--",
@@ -116,8 +135,10 @@ def test_what_is_no_text_goes_with_all_that_is_in_it(word):
 
 def test_text_formulas_tables_and_code_stay():
     html = (
-        "<h2>Odometry</h2><p>Angle <math><msub><mi>θ</mi><mi>t</mi></msub><mo>+</mo><mn>1</mn></math></p>"
-        "<ul><li>one</li></ul><table><tbody><tr><td>2</td></tr></tbody></table><pre><code>x &lt; 1</code></pre>"
+        "<h2>Odometry</h2>"
+        "<p>Angle <math><msub><mi>θ</mi><mi>t</mi></msub><mo>+</mo><mn>1</mn></math></p>"
+        "<ul><li>one</li></ul><table><tbody><tr><td>2</td></tr></tbody></table>"
+        "<pre><code>x &lt; 1</code></pre>"
     )
     assert clean(html) == (html, {})
 
@@ -132,9 +153,20 @@ def test_a_picture_becomes_the_listener_s_own(kind, media):
     assert Found(kept).attributes == [("img", "alt", "A map."), ("img", "src", f"picture/{name}")]
 
 
-BAD = ["data:image/png;base64,AAAA", "data:image/svg+xml;base64,PHN2Zy8+", "data:text/html;base64,PGI+", "data:,x",
-       data("BMP").replace("bmp", "png"), data()[:-30], "data:image/png;base64,", "picture/" + "0" * 32, "blob:x",
-       "data:image/png;base64," + "A" * 4_000_000, "file:///etc/passwd", data(size=(5000, 5000))]  # fmt: skip
+BAD = [
+    "data:image/png;base64,AAAA",
+    "data:image/svg+xml;base64,PHN2Zy8+",
+    "data:text/html;base64,PGI+",
+    "data:,x",
+    data("BMP").replace("bmp", "png"),
+    data()[:-30],
+    "data:image/png;base64,",
+    "picture/" + "0" * 32,
+    "blob:x",
+    "data:image/png;base64," + "A" * 4_000_000,
+    "file:///etc/passwd",
+    data(size=(5000, 5000)),
+]
 
 
 @pytest.mark.parametrize("address", BAD, ids=range(len(BAD)))

@@ -19,11 +19,10 @@ LECTURE = EXTENSION / "labextensions" / "slamlab" / "static"
 
 
 class Files(http.server.SimpleHTTPRequestHandler):
-    """The extension's modules, and a deck that keeps the contract, as a notebook's page has them."""
+    """The extension's modules, and a deck that keeps the contract."""
 
-    extensions_map = http.server.SimpleHTTPRequestHandler.extensions_map | {
-        ".js": "text/javascript"
-    }
+    def guess_type(self, path):
+        return "text/javascript" if str(path).endswith(".js") else super().guess_type(path)
 
     def translate_path(self, path):
         if path == "/":

@@ -105,8 +105,21 @@ async def test_a_vote_is_one_of_the_choices_and_nothing_else():
 async def test_a_number_is_finite():
     with hall() as here:
         number, phone = await here.ask(None), here.phone()
-        for text in ("NaN", "Infinity", "-Infinity", "1e400", "-1e400", "1e13", "1" + "0" * 400, "true", "null",
-                     '"1"', '"<b>"', "[1]", "{}"):  # fmt: skip
+        for text in (
+            "NaN",
+            "Infinity",
+            "-Infinity",
+            "1e400",
+            "-1e400",
+            "1e13",
+            "1" + "0" * 400,
+            "true",
+            "null",
+            '"1"',
+            '"<b>"',
+            "[1]",
+            "{}",
+        ):
             body = f'{{"poll": {number}, "answer": {text}}}'.encode()
             assert (await phone.ask("POST", "/vote", body))[0] == 400, text
         assert (await here.counts())["answers"] == 0
@@ -211,8 +224,19 @@ async def test_only_what_was_shown_is_given_and_nothing_ahead():
         status, headers, content = await phone.ask("GET", f"/{name}")
         assert (status, headers["content-type"]) == (200, "image/png")
         assert Image.open(io.BytesIO(content)).size == (3, 2)
-        for odd in ("/slide/-1", "/slide/2/..", "/slide/2.0", "/slide/2%20", "/slide/0002", "/picture/x",
-                    "/picture/../phone.js", f"/{name}x", "/state/x", "/state/-1", "/state/9999999999"):  # fmt: skip
+        for odd in (
+            "/slide/-1",
+            "/slide/2/..",
+            "/slide/2.0",
+            "/slide/2%20",
+            "/slide/0002",
+            "/picture/x",
+            "/picture/../phone.js",
+            f"/{name}x",
+            "/state/x",
+            "/state/-1",
+            "/state/9999999999",
+        ):
             assert (await phone.ask("GET", odd))[0] == 404, odd
 
 
@@ -257,14 +281,33 @@ async def test_a_phone_controls_nothing_and_the_page_s_key_opens_no_phone_s_door
         assert not here.lecture.over
 
 
-ODD_SLIDES = [{}, {"slide": 0}, {"slide": "0", "html": ""}, {"slide": True, "html": ""}, {"slide": -1, "html": ""},
-              {"slide": 1000, "html": ""}, {"slide": 1.0, "html": ""}, {"slide": 0, "html": None}]  # fmt: skip
-ODD_POLLS = [{}, {"question": "q", "text": "", "choices": ["a"], "unit": ""},
-             {"question": "q", "text": "", "choices": ["a"] * 9, "unit": ""},
-             {"question": "q", "text": "", "choices": [1, 2], "unit": ""},
-             {"question": "q", "text": "", "choices": "ab", "unit": ""}]  # fmt: skip
-ODD_HANDS = [{}, {"hands": [1]}, {"hands": [1, 2, 3]}, {"hands": [1, -1]}, {"hands": [1, 1.5]}, {"hands": [1, True]},
-             {"hands": [1, "<b>"]}, {"hands": [1, 10**9]}]  # fmt: skip
+ODD_SLIDES = [
+    {},
+    {"slide": 0},
+    {"slide": "0", "html": ""},
+    {"slide": True, "html": ""},
+    {"slide": -1, "html": ""},
+    {"slide": 1000, "html": ""},
+    {"slide": 1.0, "html": ""},
+    {"slide": 0, "html": None},
+]
+ODD_POLLS = [
+    {},
+    {"question": "q", "text": "", "choices": ["a"], "unit": ""},
+    {"question": "q", "text": "", "choices": ["a"] * 9, "unit": ""},
+    {"question": "q", "text": "", "choices": [1, 2], "unit": ""},
+    {"question": "q", "text": "", "choices": "ab", "unit": ""},
+]
+ODD_HANDS = [
+    {},
+    {"hands": [1]},
+    {"hands": [1, 2, 3]},
+    {"hands": [1, -1]},
+    {"hands": [1, 1.5]},
+    {"hands": [1, True]},
+    {"hands": [1, "<b>"]},
+    {"hands": [1, 10**9]},
+]
 
 
 @in_a_loop

@@ -119,7 +119,8 @@ async def test_a_host_that_is_not_the_address_of_arrival_gets_nothing(path):
         assert (await client.ask("GET", path, drop=["host"], **socket))[0] in (400, 403)
         old = f"GET {path} HTTP/1.0\r\ncookie: {client.cookie}\r\n\r\n"
         assert parsed(await client.say(old.encode()))[0] in (400, 403)
-        two = f"GET {path} HTTP/1.1\r\nHost: {client.own}\r\nHost: evil.example\r\nConnection: close\r\n\r\n"
+        both = f"Host: {client.own}\r\nHost: evil.example\r\nConnection: close"
+        two = f"GET {path} HTTP/1.1\r\n{both}\r\n\r\n"
         assert parsed(await client.say(two.encode()))[0] in (0, 400, 403)
 
 
@@ -200,8 +201,12 @@ async def test_a_key_is_shown_with_each_request_and_only_from_the_page_it_was_ma
         right = {"Origin": page, "Authorization": f"Bearer {key.token}"}
         status, headers, _ = await client.ask("GET", "/inside", **right)
         assert (status, headers["access-control-allow-origin"]) == (200, page)
-        for change in ({"Origin": "http://localhost:9999"}, {"Origin": f"http://{client.own}"},
-                       {"Authorization": "Bearer x"}, {"Authorization": "Bearer é"}):  # fmt: skip
+        for change in (
+            {"Origin": "http://localhost:9999"},
+            {"Origin": f"http://{client.own}"},
+            {"Authorization": "Bearer x"},
+            {"Authorization": "Bearer é"},
+        ):
             for method in ("GET", "POST", "PUT", "DELETE"):
                 assert (await client.ask(method, "/inside", {}, **right | change))[0] == 403
         assert (await client.ask("GET", "/inside", drop=["origin"], **right))[0] == 403
@@ -237,8 +242,13 @@ async def test_what_is_too_large_is_not_taken_in():
         assert (await client.ask("POST", "/inside", {"a": "b" * 500}))[0] in (0, 400, 413)
         assert (await client.ask("GET", "/inside", X="y" * 3000))[0] in (0, 400, 431)
         assert (await client.ask("GET", "/inside?" + "y" * 3000))[0] in (0, 400, 414)
-        chunked = await client.ask("POST", "/inside", b"1f4\r\n" + b" " * 0x1F4 + b"\r\n1f4\r\n" + b" " * 0x1F4
-            + b"\r\n0\r\n\r\n", drop=["content-length"], Transfer_Encoding="chunked")  # fmt: skip
+        chunked = await client.ask(
+            "POST",
+            "/inside",
+            b"1f4\r\n" + b" " * 0x1F4 + b"\r\n1f4\r\n" + b" " * 0x1F4 + b"\r\n0\r\n\r\n",
+            drop=["content-length"],
+            Transfer_Encoding="chunked",
+        )
         assert chunked[0] in (0, 400, 413)
         assert (await client.ask("POST", "/inside", b"{}", Content_Length="10000000000"))[0] in (
             0,
@@ -324,8 +334,19 @@ async def test_all_together_are_bounded_too():
         assert (await admitted(door, client).ask("GET", "/inside"))[0] == 200
 
 
-PATHS = ["/../../etc/passwd", "/%2e%2e/%2e%2e/etc/passwd", "//etc/passwd", "/open/../inside", "/open%00",
-         "/phone.js/..", "/.git/config", "/open/", "http://evil.example/open", "*", "/open\\..\\x"]  # fmt: skip
+PATHS = [
+    "/../../etc/passwd",
+    "/%2e%2e/%2e%2e/etc/passwd",
+    "//etc/passwd",
+    "/open/../inside",
+    "/open%00",
+    "/phone.js/..",
+    "/.git/config",
+    "/open/",
+    "http://evil.example/open",
+    "*",
+    "/open\\..\\x",
+]
 
 
 @in_a_loop
