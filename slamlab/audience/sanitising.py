@@ -32,6 +32,7 @@ ATTRIBUTES = {
     "td": {"colspan", "rowspan"},
     "th": {"colspan", "rowspan", "scope"},
     "math": {"display"},
+    "mstyle": {"displaystyle", "scriptlevel"},
     "mo": {"stretchy", "fence", "separator", "accent", "movablelimits", "minsize", "maxsize"},
     "mi": {"mathvariant"},
     "mover": {"accent"},

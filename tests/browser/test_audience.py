@@ -165,7 +165,7 @@ def test_a_phone_follows_the_slide_and_looks_back_but_never_ahead(hall):
     hall.go(1, 1)  # who looks back is not disturbed
     hall.come_in().get_by_text("second step").wait_for()
     hall.go(2)
-    phone.get_by_text("Slide 1 of the 3 shown so far: looking back").wait_for()
+    phone.get_by_text("Looking back: slide 1 of 3 so far").wait_for()
     phone.get_by_role("button", name="now").click()
     phone.get_by_text("What does").first.wait_for()
     phone.get_by_role("button", name="earlier").click()
@@ -268,6 +268,8 @@ def test_nothing_on_the_phone_keeps_anybody_out_or_is_wider_than_it(hall, scheme
     phone.get_by_text("You are in.").wait_for()
     hall.go(1)
     phone.get_by_role("heading", name="Two").wait_for()
+    assert phone.locator(".scroll[tabindex] math").count() == 1, "a wide formula is out of reach"
+    assert phone.evaluate("document.documentElement.scrollWidth") <= width
     assert faults(phone) == []
     hall.go(2)
     hall.deck.get_by_role("button", name="ask the class").click()

@@ -66,20 +66,26 @@ async function slide(number, version) {
   return seen.get(number);
 }
 
+function frame(wide) {
+  const around = made("div", { class: "scroll" });
+  wide.replaceWith(around);
+  around.append(wide);
+}
+
 function readable(article) {
   for (const picture of article.querySelectorAll("img:not([alt])")) picture.alt = "a figure";
-  for (const wide of article.querySelectorAll("pre, table, math[display=block]")) {
-    const frame = made("div", { class: "scroll" });
-    wide.replaceWith(frame);
-    frame.append(wide);
+  article.querySelectorAll("pre, table, math[display=block]").forEach(frame);
+  // formulas within a line get a frame where they do not fit
+  for (const formula of article.querySelectorAll("math")) {
+    if (!formula.closest(".scroll") && formula.getBoundingClientRect().width > article.clientWidth) frame(formula);
   }
 }
 
 // what is wider than the page can be reached by the keyboard
 function reachable() {
-  for (const frame of document.querySelectorAll(".scroll")) {
-    frame.toggleAttribute("tabindex", frame.scrollWidth > frame.clientWidth);
-    if (frame.hasAttribute("tabindex")) frame.tabIndex = 0;
+  for (const around of document.querySelectorAll(".scroll")) {
+    if (around.scrollWidth > around.clientWidth) around.tabIndex = 0;
+    else around.removeAttribute("tabindex");
   }
 }
 
@@ -96,8 +102,8 @@ async function drawSlide() {
   const found = await slide(number, state.slides[number]);
   if (!(found?.version >= state.slides[number])) return false;
   if ((looking ?? state.shown) !== number) return true; // gone on meanwhile
-  const place = `Slide ${which + 1} of the ${numbers.length} shown so far`;
-  at("which").textContent = number === state.shown ? `${place}: shown now` : `${place}: looking back`;
+  const place = `slide ${which + 1} of ${numbers.length} so far`;
+  at("which").textContent = number === state.shown ? `Shown now: ${place}` : `Looking back: ${place}`;
   const drawing = `${number} ${found.version}`;
   if (drawn === drawing) return true;
   if (drawn.split(" ")[0] !== String(number)) scrollTo(0, 0);

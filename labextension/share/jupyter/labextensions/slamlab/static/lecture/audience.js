@@ -183,7 +183,7 @@ export class Audience {
 
   async send() {
     const slide = this.place;
-    const html = await this.copy(this.deck.page);
+    const html = (await Promise.all(this.cells().map((cell) => this.copy(cell.node)))).join("\n");
     // gone on while it was copied: the change has ordered another copy
     if (this.told && slide >= 0 && slide === this.place) await this.tell("PUT", "/slide", { slide, html });
   }
@@ -193,7 +193,9 @@ export class Audience {
   }
 
   cells() {
-    return this.deck.panel.content.widgets.filter((cell) => this.deck.page.contains(cell.node) && seen(cell.node));
+    // notes are not shown; were they, they would still be no business of the class
+    const shared = (cell) => !["notes", "skip"].includes(cell.model.getMetadata("slideshow")?.slide_type);
+    return this.deck.panel.content.widgets.filter((cell) => this.deck.page.contains(cell.node) && seen(cell.node) && shared(cell));
   }
 
   // ---- a question ---------------------------------------------------------------------------------

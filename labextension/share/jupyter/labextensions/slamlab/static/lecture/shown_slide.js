@@ -62,9 +62,12 @@ class Copy {
     }
     if (node.tagName === "MJX-CONTAINER") {
       const formula = node.querySelector("math");
-      return formula ? this.made.importNode(formula, true) : this.element("code", node.getAttribute("aria-label") ?? "");
+      if (!formula) return this.element("code", node.getAttribute("aria-label") ?? "");
+      const copy = this.made.importNode(formula, true);
+      if (node.hasAttribute("display")) copy.setAttribute("display", "block");
+      return copy;
     }
-    if (node.tagName === "MATH" || node.tagName === "math") return this.made.importNode(node, true);
+    if (node.tagName === "math") return this.made.importNode(node, true);
     if (node.tagName === "IMG") {
       if (!node.naturalWidth) return null; // not loaded
       const plain = /^data:image\/(png|jpeg|gif|webp);base64,/.test(node.src);
