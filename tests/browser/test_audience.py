@@ -76,7 +76,7 @@ class Hall:
         """Open the class on this machine alone; what the process told."""
         self.deck.keyboard.press("a")
         self.deck.get_by_role("button", name="open it on this machine alone").click()
-        self.deck.locator(".slamlab-code").wait_for()
+        self.deck.locator(".slamlab-class-code").wait_for()
         self.told = starting.start(self.deck.url.rstrip("/"))
         return self.told
 

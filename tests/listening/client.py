@@ -45,7 +45,7 @@ class Client:
             await writer.drain()
             async with asyncio.timeout(PATIENCE):
                 return await hear(reader)
-        except (OSError, EOFError):
+        except (ConnectionError, EOFError):  # a TimeoutError is an OSError, too
             return b""
         finally:
             writer.close()

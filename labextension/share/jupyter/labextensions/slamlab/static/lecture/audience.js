@@ -103,7 +103,7 @@ export class Audience {
   async alive() {
     const told = await this.ask("GET", "/alive");
     this.here = told.phones;
-    const count = this.panel.querySelector(".slamlab-here");
+    const count = this.panel.querySelector(".slamlab-class-here");
     if (count) count.textContent = `${told.phones} ${told.phones === 1 ? "phone is" : "phones are"} here.`;
   }
 
@@ -155,14 +155,14 @@ export class Audience {
     picture.setAttribute("role", "img");
     picture.setAttribute("aria-label", `QR code of ${address}`);
     picture.append(document.importNode(new DOMParser().parseFromString(qr, "image/svg+xml").documentElement, true));
-    const way = made("div", "", made("p", "", "Scan this, or open"), made("p", "slamlab-address", `http://${address}`),
-      made("p", "", "and type"), made("p", "slamlab-code", `${code.slice(0, 4)} ${code.slice(4)}`), made("p", "slamlab-here"));
+    const way = made("div", "", made("p", "", "Scan this, or open"), made("p", "slamlab-class-address", `http://${address}`),
+      made("p", "", "and type"), made("p", "slamlab-class-code", `${code.slice(0, 4)} ${code.slice(4)}`), made("p", "slamlab-class-here"));
     const buttons = [button("hide", () => this.toggle())];
     if (addresses.length > 1) {
       buttons.push(button("another address of this machine", () => { this.address += 1; this.showWay(); }));
     }
     buttons.push(button("end it for the class", () => { this.end(); }));
-    this.panel.replaceChildren(made("h2", "", "The class"), made("div", "slamlab-way", picture, way),
+    this.panel.replaceChildren(made("h2", "", "The class"), made("div", "slamlab-class-way", picture, way),
       made("div", "slamlab-hands", ...buttons));
     this.alive().catch(() => {});
   }

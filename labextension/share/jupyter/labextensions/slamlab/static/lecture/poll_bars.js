@@ -12,9 +12,9 @@ function made(tag, name, ...children) {
 function row(letter, words, count, most, colour) {
   const filled = made("div");
   Object.assign(filled.style, { width: `${(100 * count) / most}%`, background: colour });
-  const bar = made("div", "slamlab-bar", filled);
+  const bar = made("div", "slamlab-vote-bar", filled);
   bar.setAttribute("aria-hidden", "true");
-  return made("li", "", made("div", "slamlab-row", made("strong", "", letter), words, made("span", "", String(count))), bar);
+  return made("li", "", made("div", "slamlab-vote-row", made("strong", "", letter), words, made("span", "", String(count))), bar);
 }
 
 const short = (number) => String(Number(number.toPrecision(3)));
