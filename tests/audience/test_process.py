@@ -13,7 +13,7 @@ import psutil
 import pytest
 
 from slamlab.audience import addresses, starting
-from tests.listening.client import Client
+from tests.listening.client import Client, run
 from tests.patience import PATIENCE, until
 
 PAGE = "http://localhost:8888"
@@ -118,7 +118,7 @@ def test_it_ends_when_told_tells_the_phones_and_leaves_nothing(home):
         return json.loads((await waiting)[2])
 
     told = starting.start(PAGE, port=0)
-    assert asyncio.run(attend(told))["over"]
+    assert run(attend(told))["over"]
     until(lambda: not runs(told["pid"]))
     assert left(home) == []
     assert list((home / "temporary").iterdir()) == []
@@ -145,8 +145,8 @@ def test_a_vote_stands_in_no_file_while_it_lasts_or_after(home):
     lecturer = Client(int(told["control"].rpartition(":")[2]))
     shown = {"Origin": PAGE, "Authorization": f"Bearer {told['key']}"}
     poll = {"question": "q", "text": "?", "choices": None, "unit": "m"}
-    assert asyncio.run(lecturer.ask("PUT", "/poll", poll, **shown))[0] == 200
-    cookie = asyncio.run(attend(told))
+    assert run(lecturer.ask("PUT", "/poll", poll, **shown))[0] == 200
+    cookie = run(attend(told))
     for path in left(home):
         text = path.read_text()
         assert "123456.75" not in text

@@ -2,8 +2,15 @@
 
 import asyncio
 import json
+from concurrent.futures import ThreadPoolExecutor
 
 from tests.patience import PATIENCE
+
+
+def run(coroutine):
+    """Run a coroutine in a loop of its own: a browser of other tests has one in this thread."""
+    with ThreadPoolExecutor(1) as other:
+        return other.submit(asyncio.run, coroutine).result()
 
 
 class Client:

@@ -11,7 +11,7 @@ from tornado.websocket import WebSocketHandler
 from slamlab.listening import guard
 from slamlab.listening.door import Door, Key
 from slamlab.listening.rates import Rate
-from tests.listening.client import Client, parsed
+from tests.listening.client import Client, parsed, run
 
 METHODS = ["GET", "HEAD", "POST", "PUT", "DELETE", "PATCH", "OPTIONS"]
 HANDSHAKE = {
@@ -71,10 +71,10 @@ def listening(access, origin=None, **bounds):
 
 def in_a_loop(test):
     @functools.wraps(test)
-    def run(**fixtures):
-        asyncio.run(test(**fixtures))
+    def in_it(**fixtures):
+        run(test(**fixtures))
 
-    return run
+    return in_it
 
 
 def admitted(door, client):
@@ -375,4 +375,4 @@ def test_the_listener_is_on_this_machine_alone_unless_told_otherwise():
         server.stop()
         return hosts
 
-    assert asyncio.run(where()) == {"127.0.0.1"}
+    assert run(where()) == {"127.0.0.1"}
