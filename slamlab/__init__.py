@@ -31,6 +31,8 @@ parallel         many runs on processes or a Dask cluster
 grading          judge, sandbox, gradebook, late policy, similarity report
 checks           what notebooks call: ``check``, ``hint``, ``ask``, ``validate``
 studies          tables of many runs, each made by a command
+listening        one guard for whatever listens on the network
+audience         a lecture's class: its phones see the slide and are asked; ``audience.start``
 cli              the command ``slamlab``
 
 Each room imports only rooms that stand above it in this list.

@@ -1,5 +1,6 @@
 // The lecture begins by a button of the notebook, the palette, or an address with ?lecture=1.
 
+import { addAudience } from "./audience.js";
 import { Deck } from "./deck.js";
 import { keepFile } from "./restore.js";
 import { useActions } from "./running.js";
@@ -52,5 +53,6 @@ async function lecture(panel, app, Widget, cell) {
   const deck = new Deck(panel, app);
   deck.ended.connect(() => kept.end());
   deck.start(cell);
+  addAudience(deck);
   panel.slamlabDeck = deck; // for who extends it, and for tests
 }

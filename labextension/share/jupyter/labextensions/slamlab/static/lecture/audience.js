@@ -1,0 +1,288 @@
+// The class in the lecture: its phones see the slide as it stands, and are asked. A process beside the kernel
+// (slamlab.audience) listens for them; this page sends it the slide that is shown, and gets counts alone.
+
+import { drawBars, made } from "./poll_bars.js";
+import { copyOf, seen } from "./shown_slide.js";
+
+const PAUSE = 500; // [ms] between two slides sent, at least
+const COUNTING = 1000; // [ms] between two looks at the counts
+const STYLE = new URL("audience.css", import.meta.url).href;
+
+const starting = (host) => `print(__import__("json").dumps(__import__("slamlab.audience").audience.start(${
+  JSON.stringify(location.origin)}, host=${JSON.stringify(host)})))`;
+
+function button(words, deed) {
+  const element = made("button", "", words);
+  element.type = "button";
+  element.onclick = (event) => {
+    deed();
+    if (event.detail) element.blur(); // clicked by a mouse: the deck's keys are the deck's again
+  };
+  return element;
+}
+
+// The question of a cell that asks one: {id, cell, unit, choices: elements or null, text}, or null.
+function questionOf(cell) {
+  const source = cell.model.sharedModel.getSource();
+  const text = cell.node.querySelector(".jp-OutputArea-output.jp-RenderedMarkdown");
+  const asked = /\bask\(\s*["']([^"']{1,60})["']/.exec(source);
+  if (!asked || !text || !seen(text)) return null;
+  const items = [...text.querySelectorAll("ul:last-of-type > li")];
+  const lettered = items.length > 1 && items.every((item, n) => item.firstElementChild?.textContent === "ABCDEFGH"[n]);
+  return { id: asked[1], unit: /\bunit=["']([^"']*)["']/.exec(source)?.[1] ?? "", text, items: lettered ? items : null };
+}
+
+export class Audience {
+  constructor(deck) {
+    this.deck = deck;
+    this.told = null; // where the process is
+    this.question = null; // the one that is open, with its choices' texts
+    this.timers = new Set();
+    this.sent = Promise.resolve(); // slides go out one after another
+    this.panel = made("section", "slamlab-class");
+    this.panel.setAttribute("aria-label", "The class");
+    this.panel.dataset.slamlabCloses = ""; // Escape closes it
+    this.strip = made("div", "slamlab-poll");
+    this.strip.setAttribute("role", "group");
+    this.strip.setAttribute("aria-label", "A question to the class");
+    this.bars = made("section", "slamlab-bars");
+    this.bars.setAttribute("aria-label", "What the class answers");
+    this.status = made("span");
+    this.status.setAttribute("role", "status");
+    if (!document.querySelector(`link[href="${STYLE}"]`)) {
+      document.head.append(Object.assign(document.createElement("link"), { rel: "stylesheet", href: STYLE }));
+    }
+    deck.button("class", "let the class see the slide on their phones, and ask them", () => this.toggle());
+    deck.key("a", "the class: address, code, phones", () => this.toggle());
+    deck.changed.connect(() => this.changed());
+    deck.ended.connect(() => this.end());
+  }
+
+  // ---- the process --------------------------------------------------------------------------------
+
+  async start(host) {
+    this.panel.replaceChildren(made("p", "", "Starting …"));
+    try {
+      this.told = JSON.parse(await this.deck.run(starting(host)));
+      await this.alive();
+    } catch (error) {
+      this.told = null;
+      this.offer(`It did not start: ${error.message ?? error}`);
+      return;
+    }
+    this.every(30000, () => this.alive());
+    this.address = 0;
+    this.showWay();
+    this.changed();
+  }
+
+  async ask(method, path, said) {
+    const answer = await fetch(this.told.control + path, {
+      method,
+      headers: { Authorization: `Bearer ${this.told.key}`, "Content-Type": "application/json" },
+      body: said && JSON.stringify(said),
+    });
+    const told = await answer.json();
+    if (!answer.ok) throw new Error(told.error);
+    return told;
+  }
+
+  // What is asked, with what goes wrong said in the strip.
+  async tell(method, path, said) {
+    try {
+      return await this.ask(method, path, said);
+    } catch (error) {
+      this.status.textContent = error instanceof TypeError
+        ? "The class's process does not answer. Press a, end it, and open it again." : String(error.message);
+      this.deck.layer.append(this.strip);
+      if (!this.status.isConnected) this.strip.append(this.status);
+      return null;
+    }
+  }
+
+  async alive() {
+    const told = await this.ask("GET", "/alive");
+    this.here = told.phones;
+    const count = this.panel.querySelector(".slamlab-class-here");
+    if (count) count.textContent = `${told.phones} ${told.phones === 1 ? "phone is" : "phones are"} here.`;
+  }
+
+  every(milliseconds, deed) {
+    const timer = setInterval(() => Promise.resolve(deed()).catch(() => {}), milliseconds);
+    this.timers.add(timer);
+    return timer;
+  }
+
+  end() {
+    if (this.told) this.ask("POST", "/end").catch(() => {});
+    for (const timer of this.timers) clearInterval(timer);
+    this.timers.clear();
+    clearTimeout(this.sending);
+    this.told = this.question = this.sending = null;
+    for (const element of [this.panel, this.strip, this.bars]) element.remove();
+  }
+
+  // ---- the panel: how to come in ------------------------------------------------------------------
+
+  toggle() {
+    if (this.panel.isConnected) {
+      this.panel.remove();
+      return;
+    }
+    this.deck.layer.append(this.panel);
+    if (this.told) this.showWay();
+    else this.offer("");
+    this.panel.querySelector("button")?.focus();
+  }
+
+  offer(problem) {
+    this.panel.replaceChildren(
+      made("h2", "", "The class"),
+      made("p", "", "Phones can see the slide that is shown, look back at earlier ones, and answer questions. They give no "
+        + "name, and nothing is kept after the lecture."),
+      made("p", "", "Nothing listens until you open it. The notebook, its files and its kernel cannot be reached from there."),
+      button("open it to phones on this network", () => this.start("0.0.0.0")),
+      button("open it on this machine alone, to try it", () => this.start("127.0.0.1")),
+      button("close", () => this.toggle()),
+      made("p", "", problem),
+    );
+  }
+
+  showWay() {
+    const { addresses, code } = this.told;
+    const { address, qr } = addresses[this.address % addresses.length];
+    const picture = made("div", "slamlab-qr");
+    picture.setAttribute("role", "img");
+    picture.setAttribute("aria-label", `QR code of ${address}`);
+    picture.append(document.importNode(new DOMParser().parseFromString(qr, "image/svg+xml").documentElement, true));
+    const way = made("div", "", made("p", "", "Scan this, or open"), made("p", "slamlab-class-address", `http://${address}`),
+      made("p", "", "and type"), made("p", "slamlab-class-code", `${code.slice(0, 4)} ${code.slice(4)}`), made("p", "slamlab-class-here"));
+    const buttons = [button("hide", () => this.toggle())];
+    if (addresses.length > 1) {
+      buttons.push(button("another address of this machine", () => { this.address += 1; this.showWay(); }));
+    }
+    buttons.push(button("end it for the class", () => { this.end(); }));
+    this.panel.replaceChildren(made("h2", "", "The class"), made("div", "slamlab-class-way", picture, way),
+      made("div", "slamlab-hands", ...buttons));
+    this.alive().catch(() => {});
+  }
+
+  // ---- the slide ----------------------------------------------------------------------------------
+
+  changed() {
+    if (!this.told) return;
+    this.drawStrip();
+    this.sending ??= setTimeout(() => {
+      this.sending = null;
+      this.sent = this.sent.then(() => this.send()).catch(console.error);
+    }, PAUSE);
+  }
+
+  // A long slide has several pages: what is shown is named by its first cell.
+  get place() { return this.deck.panel.content.widgets.indexOf(this.cells()[0]); }
+
+  async send() {
+    const slide = this.place;
+    const html = (await Promise.all(this.cells().map((cell) => this.copy(cell.node)))).join("\n");
+    // gone on while it was copied: the change has ordered another copy
+    if (this.told && slide >= 0 && slide === this.place) await this.tell("PUT", "/slide", { slide, html });
+  }
+
+  copy(element) {
+    return copyOf(element, (editor) => this.cells().find((cell) => cell.node.contains(editor))?.model.sharedModel.getSource() ?? "");
+  }
+
+  cells() {
+    // notes are not shown; were they, they would still be no business of the class
+    const shared = (cell) => !["notes", "skip"].includes(cell.model.getMetadata("slideshow")?.slide_type);
+    return this.deck.panel.content.widgets.filter((cell) => this.deck.page.contains(cell.node) && seen(cell.node) && shared(cell));
+  }
+
+  // ---- a question ---------------------------------------------------------------------------------
+
+  drawStrip() {
+    if (this.question) return;
+    const question = this.cells().map(questionOf).find(Boolean);
+    if (!question) {
+      this.strip.remove();
+      return;
+    }
+    this.status.textContent = "";
+    this.strip.replaceChildren(button("ask the class", () => this.open(question)), this.status);
+    this.deck.layer.append(this.strip);
+  }
+
+  async open(question) {
+    const html = await this.copy(question.text);
+    const words = question.items && await Promise.all(question.items.map((item) => this.copy(item)));
+    const lettered = /^<strong>[A-H]<\/strong>\s*/;
+    const choices = words && words.map((one) => one.replace(lettered, ""));
+    // the choices are the buttons: they need not stand in the text, too
+    const text = choices ? html.slice(0, html.lastIndexOf("<ul")) : html;
+    if (!await this.tell("PUT", "/poll", { question: question.id, text, choices, unit: question.unit })) return;
+    const plain = question.items?.map((item) => item.textContent.slice(1).trim());
+    this.question = { choices: plain ?? null, unit: question.unit };
+    this.counting = this.every(COUNTING, () => this.count());
+    this.drawControls(true);
+    this.count();
+  }
+
+  async count() {
+    const counts = await this.tell("GET", "/poll");
+    if (!counts || !this.question) return;
+    this.status.textContent = `${counts.answers} ${counts.answers === 1 ? "answer" : "answers"}, ${counts.phones} phones`;
+    drawBars(this.bars, this.question, counts);
+  }
+
+  drawControls(isOpen) {
+    const bars = button("", () => { this.show(!this.bars.isConnected); });
+    this.label = () => { bars.textContent = this.bars.isConnected ? "hide bars" : "show bars"; };
+    const hands = this.question.choices ? [button("show of hands", () => this.drawHands(isOpen))] : [];
+    const last = isOpen
+      ? button("close the poll", async () => { if (await this.tell("POST", "/poll/close")) { this.show(true); this.drawControls(false); } })
+      : button("done", () => this.done());
+    this.strip.replaceChildren(bars, ...hands, last, this.status);
+    this.deck.layer.append(this.strip);
+    this.label();
+  }
+
+  show(on) {
+    if (on) this.deck.layer.append(this.bars);
+    else this.bars.remove();
+    this.label();
+  }
+
+  drawHands(isOpen) {
+    const fields = this.question.choices.map((_, n) => {
+      const field = made("input");
+      Object.assign(field, { type: "number", min: 0, max: 10000, step: 1, value: 0 });
+      return [made("label", "", `${"ABCDEFGH"[n]} `, field), field];
+    });
+    const form = made("form", "slamlab-hands", ...fields.map(([label]) => label));
+    const count = made("button", "", "count them");
+    form.append(count, button("back", () => this.drawControls(isOpen)));
+    form.onsubmit = async (event) => {
+      event.preventDefault();
+      const hands = fields.map(([, field]) => Math.round(Number(field.value) || 0));
+      if (!await this.tell("PUT", "/hands", { hands })) return;
+      this.drawControls(isOpen);
+      this.count();
+    };
+    this.strip.replaceChildren(form, this.status);
+    fields[0][1].focus();
+  }
+
+  done() {
+    clearInterval(this.counting);
+    this.timers.delete(this.counting);
+    this.question = null;
+    this.bars.remove();
+    this.tell("DELETE", "/poll");
+    this.drawStrip();
+  }
+}
+
+// Give a deck its class.
+export function addAudience(deck) {
+  return new Audience(deck);
+}

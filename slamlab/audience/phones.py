@@ -1,0 +1,116 @@
+"""What phones may ask for: the page, the state, a slide shown, a picture of it; and their vote."""
+
+from importlib.resources import files
+
+from tornado.web import HTTPError
+
+from slamlab.listening.door import Refused
+from slamlab.listening.guard import Fixed, Guarded
+
+PAGE = {
+    "/": ("index.html", "text/html; charset=utf-8"),
+    "/phone.js": ("phone.js", "text/javascript; charset=utf-8"),
+    "/phone.css": ("phone.css", "text/css; charset=utf-8"),
+    "/favicon.ico": ("icon.svg", "image/svg+xml"),
+}
+WAITING = 25.0  # [s], of a phone for something new
+
+
+class Enter(Guarded):
+    """The token or the code, changed into a cookie."""
+
+    is_open = True
+
+    async def post(self):
+        door = self.settings["guard"].access
+        given = self.body().get("key")
+        if not isinstance(given, str):
+            raise HTTPError(400)
+        if self.client is None:
+            try:
+                cookie = door.enter(given, self.request.remote_ip)
+            except Refused as refused:
+                raise HTTPError(refused.status) from None
+            self.set_cookie(door.name, cookie, httponly=True, samesite="Strict", path="/")
+        await self.give({})
+
+
+class State(Guarded):
+    """The state, once it is newer than the one that the phone knows."""
+
+    def initialize(self, lecture):
+        self._lecture = lecture
+
+    async def get(self, known):
+        await self._lecture.newer_than(int(known), WAITING)
+        await self.give(self._lecture.state(self.client))
+
+
+class ShownSlide(Guarded):
+    """A slide that was shown; nothing is known of the others."""
+
+    def initialize(self, lecture):
+        self._lecture = lecture
+
+    async def get(self, number):
+        slide = self._lecture.slides.get(int(number))
+        if slide is None:
+            raise HTTPError(404)
+        await self.give({"html": slide.html, "version": slide.version})
+
+
+class Picture(Guarded):
+    """A picture of a slide that was shown."""
+
+    def initialize(self, lecture):
+        self._lecture = lecture
+
+    async def get(self, name):
+        found = self._lecture.picture(name)
+        if found is None:
+            raise HTTPError(404)
+        kind, content = found
+        await self.give(content, kind)
+
+
+class Vote(Guarded):
+    """One choice or one finite number."""
+
+    def initialize(self, lecture):
+        self._lecture = lecture
+
+    async def post(self):
+        said, poll = self.body(), self._lecture.poll
+        if poll is None or said.get("poll") != poll.number or not poll.is_open:
+            raise HTTPError(409)
+        try:
+            poll.vote(self.client, said.get("answer"))
+        except ValueError:
+            raise HTTPError(400) from None
+        await self.give({"mine": poll.vote_of(self.client)})
+
+
+def routes(lecture):
+    """The phones' whole table of routes.
+
+    Parameters
+    ----------
+    lecture : Lecture
+
+    Returns
+    -------
+    list of tornado's routes
+    """
+    folder, known = files("slamlab.audience") / "page", {"lecture": lecture}
+    page = [
+        (path, Fixed, {"content": (folder / name).read_bytes(), "kind": kind})
+        for path, (name, kind) in PAGE.items()
+    ]
+    return [
+        *page,
+        (r"/enter", Enter),
+        (r"/state/([0-9]{1,9})", State, known),
+        (r"/slide/([0-9]{1,3})", ShownSlide, known),
+        (r"/picture/([0-9a-f]{32})", Picture, known),
+        (r"/vote", Vote, known),
+    ]

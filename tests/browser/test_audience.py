@@ -1,0 +1,295 @@
+"""The class in a lecture: the lecturer's deck on one side, a phone of 390 pixels on the other."""
+
+import contextlib
+import functools
+import http.server
+import io
+import json
+import threading
+from contextlib import redirect_stdout
+
+import pytest
+from axe_playwright_python.sync_playwright import Axe
+
+from slamlab.audience import starting
+from tests.browser.jupyter import EXTENSION
+from tests.patience import PATIENCE
+
+LECTURE = EXTENSION / "labextensions" / "slamlab" / "static"
+
+
+class Files(http.server.SimpleHTTPRequestHandler):
+    """The extension's modules, and a deck that keeps the contract."""
+
+    def guess_type(self, path):
+        return "text/javascript" if str(path).endswith(".js") else super().guess_type(path)
+
+    def translate_path(self, path):
+        if path == "/":
+            return str(__file__).replace("test_audience.py", "fake_deck.html")
+        return super().translate_path(path)
+
+    def log_message(self, *_):
+        pass
+
+
+@pytest.fixture
+def notebook_page():
+    """The address of the lecturer's page."""
+    served = functools.partial(Files, directory=LECTURE)
+    with http.server.ThreadingHTTPServer(("127.0.0.1", 0), served) as server:
+        threading.Thread(target=server.serve_forever, daemon=True).start()
+        yield f"http://127.0.0.1:{server.server_port}"
+        server.shutdown()
+
+
+class Hall:
+    """The lecturer's page and the phones that came in."""
+
+    def __init__(self, browser, address):
+        self.browser, self.errors, self.abroad, self.contexts = browser, [], [], []
+        self.deck = self._page({"viewport": {"width": 1280, "height": 720}})
+        self.deck.expose_function("runInKernel", self._run)
+        self.deck.goto(address)
+        self.deck.wait_for_selector("body[data-ready]", state="attached")
+
+    def _page(self, options):
+        context = self.browser.new_context(**options)
+        self.contexts.append(context)
+        page = context.new_page()
+        page.set_default_timeout(1000 * PATIENCE)
+        page.on("pageerror", lambda error: self.errors.append(str(error)))
+        page.on("request", self._asked)
+        return page
+
+    def _asked(self, request):
+        if not request.url.startswith(("http://127.0.0.1:", "data:", "blob:")):
+            self.abroad.append(request.url)
+
+    def _run(self, program):
+        printed = io.StringIO()
+        with redirect_stdout(printed):
+            exec(program, {})
+        return printed.getvalue()
+
+    def open(self):
+        """Open the class on this machine alone; what the process told."""
+        self.deck.keyboard.press("a")
+        self.deck.get_by_role("button", name="open it on this machine alone").click()
+        self.deck.locator(".slamlab-class-code").wait_for()
+        self.told = starting.start(self.deck.url.rstrip("/"))
+        return self.told
+
+    def phone(self, width=390, **options):
+        """A phone whose owner has typed the address."""
+        page = self._page(
+            {"viewport": {"width": width, "height": 780}, "has_touch": True} | options
+        )
+        address = self.told["addresses"][0]["address"]
+        page.goto(f"http://{address}/")
+        return page
+
+    def come_in(self, **options):
+        """A phone whose owner has typed the code."""
+        phone = self.phone(**options)
+        phone.get_by_label("The code on the lecturer's screen").fill(self.told["code"].lower())
+        phone.get_by_role("button", name="come in").click()
+        phone.get_by_text("You are in.").wait_for()
+        return phone
+
+    def go(self, slide, step=0):
+        self.deck.evaluate("([slide, step]) => deck.go(slide, step)", [slide, step])
+
+    def close(self):
+        for context in self.contexts:
+            context.close()
+
+
+@pytest.fixture
+def hall(browser, notebook_page, tmp_path, monkeypatch):
+    monkeypatch.setenv("JUPYTER_RUNTIME_DIR", str(tmp_path))
+    made = Hall(browser, notebook_page)
+    yield made
+    with contextlib.suppress(Exception):
+        made.deck.evaluate("deck.ended.emit()")
+    made.close()
+    state = tmp_path / "slamlab-audience.json"
+    if state.exists():
+        with contextlib.suppress(OSError):
+            starting._ask(json.loads(state.read_text()), "POST", "/end")
+
+
+def faults(page, within="html"):
+    """Faults of accessibility, of every weight."""
+    found = Axe().run(page, context=within, options={"resultTypes": ["violations"]})
+    return [
+        f"{broken['id']}: {node['html'][:150]}"
+        for broken in found.response["violations"]
+        for node in broken["nodes"]
+    ]
+
+
+def test_a_phone_follows_the_slide_and_looks_back_but_never_ahead(hall):
+    hall.open()
+    phone = hall.come_in()
+    phone.get_by_role("heading", name="Odometry").wait_for()
+    assert phone.locator("#slide math msub").count() == 1
+    hall.go(1)
+    phone.get_by_role("heading", name="Two").wait_for()
+    text = phone.locator("#slide").inner_text()
+    assert "x = 1 < 2" in text
+    for hidden in (
+        "second step",
+        "notes",
+        "later fragment",
+        "not shown",
+        "only what is in sight",
+        "[1]",
+        "run",
+        "¶",
+        "bad",
+    ):
+        assert hidden not in text
+    assert phone.locator("#slide img").evaluate_all("all => all.map((one) => one.alt)") == [
+        "A drawing.",
+        "A sketch.",
+        "A map.",
+    ]
+    phone.wait_for_function(
+        "[...document.querySelectorAll('#slide img')].every((one) => one.naturalWidth > 0)"
+    )
+    assert phone.get_by_role("button", name="later").is_disabled()
+    phone.get_by_role("button", name="earlier").click()
+    phone.get_by_role("heading", name="Odometry").wait_for()
+    assert phone.get_by_role("button", name="earlier").is_disabled()
+    hall.go(1, 1)  # who looks back is not disturbed
+    hall.come_in().get_by_text("second step").wait_for()
+    hall.go(2)
+    phone.get_by_text("Looking back: slide 1 of 3 so far").wait_for()
+    phone.get_by_role("button", name="now").click()
+    phone.get_by_text("What does").first.wait_for()
+    phone.get_by_role("button", name="earlier").click()
+    phone.get_by_text("second step").wait_for()
+    assert hall.errors == hall.abroad == []
+
+
+def test_the_class_is_asked_and_its_answers_are_bars(hall):
+    hall.open()
+    hall.deck.get_by_role("button", name="hide").click()
+    phones = [hall.come_in() for _ in range(2)]
+    hall.go(2)
+    hall.deck.get_by_role("button", name="ask the class").click()
+    for phone, letter in zip(phones, "AB", strict=True):
+        phone.get_by_role("button", name=letter, exact=False).first.wait_for()
+        button = phone.locator(".choices button").nth("AB".index(letter))
+        assert button.bounding_box()["height"] >= 44
+        button.click()
+        phone.get_by_text("Your answer is in.").wait_for()
+        assert button.get_attribute("aria-pressed") == "true"
+    assert phones[0].locator(".choices button math").count() == 1
+    hall.deck.get_by_text("2 answers, 2 phones").wait_for()
+    phones[1].locator(".choices button").nth(0).click()  # changed
+    hall.deck.get_by_role("button", name="show bars").click()
+    hall.deck.locator(".slamlab-bars li", has_text="A").get_by_text("2", exact=True).wait_for()
+    hall.deck.get_by_role("button", name="show of hands").click()
+    hall.deck.get_by_role("spinbutton", name="B").fill("7")
+    hall.deck.get_by_role("button", name="count them").click()
+    hall.deck.locator(".slamlab-bars li", has_text="B").get_by_text("7", exact=True).wait_for()
+    hall.deck.get_by_role("button", name="hide bars").click()
+    assert hall.deck.locator(".slamlab-bars").count() == 0
+    hall.deck.get_by_role("button", name="close the poll").click()
+    phones[0].get_by_text("9 answers.").wait_for()
+    assert phones[0].locator(".choices").count() == 0
+    hall.deck.get_by_role("button", name="done").click()
+    phones[0].locator("#poll").wait_for(state="hidden")
+    assert hall.errors == hall.abroad == []
+
+
+def test_a_number_is_asked_for_and_a_comma_is_understood(hall):
+    hall.open()
+    hall.deck.get_by_role("button", name="hide").click()
+    phone = hall.come_in()
+    hall.go(3)
+    hall.deck.get_by_role("button", name="ask the class").click()
+    field = phone.get_by_label("Your number [m]")
+    field.fill("far")
+    phone.get_by_role("button", name="send").click()
+    phone.get_by_text("Please type a number").wait_for()
+    field.fill("2,5")
+    field.press("Enter")
+    phone.get_by_text("Your answer is in.").wait_for()
+    assert hall.deck.get_by_role("button", name="show of hands").count() == 0
+    hall.deck.get_by_role("button", name="close the poll").click()
+    phone.get_by_text("2.5 m").wait_for()
+    hall.deck.get_by_text("2.5 m", exact=True).wait_for()
+
+
+def test_the_end_of_the_lecture_is_said_in_words(hall):
+    hall.open()
+    phone = hall.come_in()
+    hall.deck.evaluate("deck.ended.emit()")
+    phone.get_by_text("The lecture is over.").wait_for()
+    assert hall.deck.locator(".slamlab-class").count() == 0
+
+
+def test_a_phone_that_loses_the_network_comes_back_by_itself(hall):
+    hall.open()
+    phone = hall.come_in()
+    phone.context.set_offline(True)
+    hall.go(1)
+    phone.get_by_text("No connection. Trying again").wait_for()
+    phone.context.set_offline(False)
+    phone.get_by_role("heading", name="Two").wait_for()
+    phone.reload()  # with the cookie it has
+    phone.get_by_role("heading", name="Two").wait_for()
+
+
+def test_a_wrong_code_is_said(hall):
+    told = hall.open()
+    phone = hall.phone()
+    phone.get_by_label("The code on the lecturer's screen").fill("AAAAAAAA")
+    phone.get_by_role("button", name="come in").click()
+    phone.get_by_text("This is not the code.").wait_for()
+    assert told["code"] not in phone.content()
+    hall.deck.locator(".slamlab-qr svg").wait_for()
+    assert hall.deck.get_by_role("img", name="QR code of").count() == 1
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("width", [320, 390])
+def test_nothing_on_the_phone_keeps_anybody_out_or_is_wider_than_it(hall, scheme, width):
+    hall.open()
+    hall.deck.get_by_role("button", name="hide").click()
+    phone = hall.phone(width=width, color_scheme=scheme)
+    phone.get_by_label("The code on the lecturer's screen").wait_for()
+    assert faults(phone) == []
+    phone.keyboard.type(hall.told["code"])  # the field has the focus
+    phone.keyboard.press("Enter")
+    phone.get_by_text("You are in.").wait_for()
+    hall.go(1)
+    phone.get_by_role("heading", name="Two").wait_for()
+    assert phone.locator(".scroll[tabindex] math").count() == 1, "a wide formula is out of reach"
+    assert phone.evaluate("document.documentElement.scrollWidth") <= width
+    assert faults(phone) == []
+    hall.go(2)
+    hall.deck.get_by_role("button", name="ask the class").click()
+    phone.locator(".choices button").first.wait_for()
+    assert faults(phone) == []
+    phone.locator(".choices button").first.focus()
+    phone.keyboard.press("Enter")
+    phone.get_by_text("Your answer is in.").wait_for()
+    assert phone.evaluate("document.documentElement.scrollWidth") <= width
+    hall.deck.get_by_role("button", name="close the poll").click()
+    phone.get_by_text("One answer.").wait_for()
+    assert faults(phone) == []
+
+
+def test_nothing_that_the_lecturer_sees_of_the_class_keeps_anybody_out(hall):
+    hall.open()
+    assert faults(hall.deck, "#layer") == []
+    hall.deck.get_by_role("button", name="hide").click()
+    hall.go(2)
+    hall.deck.get_by_role("button", name="ask the class").click()
+    hall.deck.get_by_role("button", name="show bars").click()
+    hall.deck.locator(".slamlab-bars li").first.wait_for()
+    assert faults(hall.deck, "#layer") == []
