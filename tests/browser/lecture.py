@@ -14,11 +14,12 @@ SEEN = """() => {
     const wide = [...page.querySelectorAll(".jp-OutputArea-output, .jp-RenderedMarkdown, .cm-scroller")]
         .filter((one) => isSeen(one) && one.scrollWidth > one.clientWidth + 1);
     const box = page.getBoundingClientRect();
-    const below = [...page.querySelectorAll(".jp-Cell")].filter((one) => isSeen(one)
-        && one.getBoundingClientRect().bottom > Math.min(box.bottom, innerHeight) + 1);
+    const outside = [...page.querySelectorAll(".jp-Cell")].filter((one) => isSeen(one)
+        && (one.getBoundingClientRect().bottom > Math.min(box.bottom, innerHeight) + 1
+            || one.getBoundingClientRect().top < -1));
     return {
         stop: Number(stop), stops: Number(stops), shrink: Number(shrink),
-        cut: page.scrollHeight > page.clientHeight + 1 || below.length > 0 || wide.length > 0,
+        cut: page.scrollHeight > page.clientHeight + 1 || outside.length > 0 || wide.length > 0,
         letters: Math.min(...letters(
             ".jp-RenderedMarkdown p, .jp-RenderedMarkdown li, .jp-RenderedMarkdown td, .cm-line, "
             + ".jp-OutputArea-output pre, mjx-container, .widget-label, .slamlab-telling")),

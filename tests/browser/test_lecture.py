@@ -169,13 +169,18 @@ def test_a_slider_is_hit_where_it_is_seen(lecture):
     while not lecture.page.locator(slider).count():
         lecture.press("PageDown")
     for key in ("0", "+", "-", "-"):  # at every zoom
+        lecture.page.evaluate("() => document.activeElement.blur()")  # the slider's keys are its own
         lecture.press(key)
         box = lecture.page.locator(slider).first.bounding_box()
         handle = lecture.page.locator(slider).first.locator(".noUi-handle")
         least, most = (float(handle.get_attribute(f"aria-value{end}")) for end in ("min", "max"))
         for share in (0.25, 0.75):
             x, y = box["x"] + share * box["width"], box["y"] + box["height"] / 2
-            lecture.page.mouse.click(x, y)
+            at = handle.bounding_box()
+            lecture.page.mouse.move(at["x"] + at["width"] / 2, at["y"] + at["height"] / 2)
+            lecture.page.mouse.down()
+            lecture.page.mouse.move(x, y, steps=4)
+            lecture.page.mouse.up()
             lecture.page.wait_for_function(
                 "([handle, least, most]) => { const now = handle.getAttribute('aria-valuenow');"
                 " return least <= now && now <= most; }",

@@ -59,6 +59,8 @@ export class Deck {
     const slide = this.slides.findLastIndex(({ cells }) => cells[0] <= cell);
     this.gather();
     this.go(this.stops.findIndex((stop) => stop.slide >= slide));
+    this.unscroll = () => this.#unscroll();
+    notebook.node.addEventListener("scroll", this.unscroll, true);
     this.observer = new ResizeObserver(() => this.#later());
     this.observer.observe(document.documentElement);
     notebook.widgets.forEach((one) => this.observer.observe(one.node));
@@ -93,7 +95,7 @@ export class Deck {
     this.shown = pages.findLast(({ cells }) => cells[0] <= this.cell) ?? pages[0];
     reveal(this.notebook, this.stops[this.at], this.shown.cells);
     layOut(this.page, this.notebook, this.shown, this.zoom);
-    this.notebook.node.scrollTop = 0;
+    this.#unscroll();
     Object.assign(this.layer.dataset, { stop: this.at, stops: this.stops.length, shrink: this.shown.shrink });
     this.changed.emit(this);
     this.#prepare();
@@ -134,6 +136,7 @@ export class Deck {
     const { panel, notebook, page } = this;
     if (!panel.node.classList.contains(PANEL)) return;
     this.observer.disconnect();
+    notebook.node.removeEventListener("scroll", this.unscroll, true);
     this.release();
     this.ended.emit(this);
     panel.node.hidePopover();
@@ -179,6 +182,13 @@ export class Deck {
       return measure();
     } finally {
       this.page.classList.remove("slamlab-measured");
+    }
+  }
+
+  // JupyterLab scrolls to its active cell; a slide stands still.
+  #unscroll() {
+    for (let one = this.page; one !== this.panel.node; one = one.parentElement) {
+      if (one.scrollTop || one.scrollLeft) one.scrollTo(0, 0);
     }
   }
 

@@ -3,7 +3,7 @@
 const CONTROL = ".jp-OutputArea-output input, .jp-OutputArea-output button, .jp-OutputArea-output select, "
   + ".jp-OutputArea-output [role=slider], .jp-OutputArea-output canvas, .jp-OutputArea-output [tabindex], "
   + ".jp-OutputArea-output summary, .jp-OutputArea-output a, .slamlab-layer *";
-const POINTED = `${CONTROL}, .jp-OutputArea-output.jupyter-widgets`; // a slider's track takes no key
+const POINTED = `${CONTROL}, .jp-OutputArea-output .jupyter-widgets`; // a slider's track takes no key
 const EDITOR = ".slamlab-unlocked .cm-content";
 const REMOTE = new Set(["PageDown", "PageUp", "F5", "Shift+F5", "Escape"]);
 const BROWSER = new Set(["F11", "F12", "Tab"]); // what the deck leaves to the browser
