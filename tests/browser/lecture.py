@@ -43,7 +43,7 @@ class Lecture:
 
     def start(self):
         """Start with the button, at the first slide."""
-        self.page.locator(".slamlab-start").click()
+        self.page.locator(".slamlab-lecture-start").click()
         self.page.wait_for_selector(".slamlab-deck .slamlab-bar")
         self.press("Home")
 

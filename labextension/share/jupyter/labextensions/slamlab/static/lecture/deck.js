@@ -93,7 +93,7 @@ export class Deck {
     this.at = Math.max(0, Math.min(k, this.stops.length - 1));
     const pages = this.#pages(this.slide);
     this.shown = pages.findLast(({ cells }) => cells[0] <= this.cell) ?? pages[0];
-    reveal(this.notebook, this.stops[this.at], this.shown.cells);
+    this.#reveal();
     layOut(this.page, this.notebook, this.shown, this.zoom);
     this.#unscroll();
     Object.assign(this.layer.dataset, { stop: this.at, stops: this.stops.length, shrink: this.shown.shrink });
@@ -147,7 +147,9 @@ export class Deck {
     page.classList.remove("slamlab-columns");
     for (const cell of notebook.widgets) {
       cell.node.classList.remove("slamlab-off", "slamlab-later", "slamlab-right", "slamlab-code");
-      cell.node.querySelectorAll(".slamlab-later").forEach((one) => one.classList.remove("slamlab-later"));
+      for (const one of cell.node.querySelectorAll(".slamlab-later, .slamlab-gone")) {
+        one.classList.remove("slamlab-later", "slamlab-gone");
+      }
       cell.node.querySelector(".slamlab-telling")?.remove();
       lockCode(cell, false);
     }
@@ -163,8 +165,10 @@ export class Deck {
     if (!this.layouts.has(number)) {
       const { cells } = this.slides[number];
       draw(this.notebook, cells);
-      const last = { cell: Infinity, step: Infinity };
-      const show = (some) => reveal(this.notebook, last, some);
+      const show = (some, lines, step = Infinity) => {
+        const stop = { cell: step < Infinity ? some[0] : Infinity, step };
+        reveal(this.notebook, stop, some, lines);
+      };
       const measure = () => pagesOf(this.page, this.notebook, cells, this.zoom, show);
       this.layouts.set(number, this.#measured(measure));
       const { slide, cell, step } = this.stops[this.at];
@@ -185,6 +189,10 @@ export class Deck {
     }
   }
 
+  #reveal() {
+    reveal(this.notebook, this.stops[this.at], this.shown.cells, this.shown.lines);
+  }
+
   // JupyterLab scrolls to its active cell; a slide stands still.
   #unscroll() {
     for (let one = this.page; one !== this.panel.node; one = one.parentElement) {
@@ -200,7 +208,7 @@ export class Deck {
     this.preparing = setTimeout(() => {
       if (!this.panel.node.classList.contains(PANEL) || this.page.contains(document.activeElement)) return;
       this.#pages(next);
-      reveal(this.notebook, this.stops[this.at], this.shown.cells);
+      this.#reveal();
       layOut(this.page, this.notebook, this.shown, this.zoom);
     }, 150);
   }

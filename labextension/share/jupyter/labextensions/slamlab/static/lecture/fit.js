@@ -1,5 +1,7 @@
 // A slide fills the screen: its page is zoomed, laid out in one column or two, or parted into pages.
 
+import { stepsOf } from "./stops.js";
+
 export const PAGE = { width: 960, height: 540 }; // pixels of a page that is neither zoomed nor shrunk
 const SHRINK = [1, 0.94, 0.88, 0.82, 0.76]; // below three quarters letters are too small for a hall
 const SMALL = [0.7, 0.6, 0.5, 0.4, 0.3]; // for one cell that is too tall: better small than cut off
@@ -15,12 +17,13 @@ export function zoomOf(size) {
 
 const isPicture = (cell) => Boolean(cell.node.querySelector(".jp-OutputArea-output img, canvas, .jupyter-widgets"));
 
-// Fit the cells of a slide into pages; `show(cells)` shows just these. Layouts cost time: the
+// Fit the cells of a slide into pages; `show(cells)` shows just these, `show(cells, lines, step)` of a
+// derivation as many lines at this step. Layouts cost time: the
 // largest letters are tried first, which mostly fit, then the smallest, then those between.
-// Returns [{cells, shrink, columns, figure}].
+// Returns [{cells, shrink, columns, figure, lines}].
 export function pagesOf(page, notebook, slide, zoom, show) {
-  const wayAt = (cells, shrink) => {
-    show(cells);
+  const wayAt = (cells, shrink, lines, step) => {
+    show(cells, lines, step);
     const shown = cells.map((index) => notebook.widgets[index]);
     const beside = shown.some(isPicture) && !shown.every(isPicture);
     const ways = (beside ? COLUMNS : COLUMNS.slice(0, 1))
@@ -68,8 +71,19 @@ function part(wayAt, rest, page, notebook, show, zoom) {
   }
   while (!way && --count) way = largest(wayAt, rest.slice(0, count));
   const tall = rest.slice(0, 1);
+  way ??= last(wayAt, tall, notebook);
   for (const shrink of way ? [] : SMALL) way ??= wayAt(tall, shrink);
   return way ?? { cells: tall, shrink: SMALL.at(-1), columns: "", figure: 1 };
+}
+
+// For a derivation that is too long: as many of its last lines as fit at every step.
+function last(wayAt, cells, notebook) {
+  const steps = stepsOf(notebook.widgets[cells[0]]);
+  for (let lines = steps - 1; lines > 0; lines--) {
+    const positions = Array.from({ length: steps - lines + 1 }, (_, k) => lines + k);
+    const ways = positions.map((step) => wayAt(cells, SHRINK.at(-1), lines, step));
+    if (ways.every(Boolean)) return { ...ways[0], lines };
+  }
 }
 
 // A way with its figure as large as it can be, and how wide that is; undefined if it does not fit.

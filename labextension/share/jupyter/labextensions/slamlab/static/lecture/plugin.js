@@ -38,7 +38,7 @@ export function lecturePlugin({ INotebookTracker, NotebookActions, ICommandPalet
 }
 
 function startButton(Widget, app) {
-  const button = element("button", "Lecture", "jp-ToolbarButtonComponent slamlab-start");
+  const button = element("button", "Lecture", "jp-ToolbarButtonComponent slamlab-lecture-start");
   button.title = "Show this notebook slide by slide, from this cell on";
   button.addEventListener("click", () => app.commands.execute(COMMAND));
   const node = element("div", "", "jp-ToolbarButton");

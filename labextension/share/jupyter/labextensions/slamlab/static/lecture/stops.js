@@ -15,7 +15,8 @@ export function htmlOf(cell) {
   return all.flat().join("");
 }
 
-const stepsOf = (cell) => htmlOf(cell).match(/class="[^"]*\bslamlab-step\b/g)?.length ?? 0;
+// Steps of a cell's outputs, such as lines of a derivation.
+export const stepsOf = (cell) => htmlOf(cell).match(/class="[^"]*\bslamlab-step\b/g)?.length ?? 0;
 
 const isFolded = (cell) => Boolean(cell.model.getMetadata("jupyter")?.outputs_hidden);
 
@@ -56,18 +57,21 @@ export function stopsOf(notebook, slide, number, breaks = []) {
 }
 
 // Show of a page (indices of cells) what belongs to a stop: what comes later keeps its room unseen.
-export function reveal(notebook, stop, page) {
+// Of a derivation too long for a page only the last `lines` are shown.
+export function reveal(notebook, stop, page, lines = Infinity) {
   notebook.widgets.forEach((cell, index) => {
     const here = page.includes(index);
-    const later = here && index > stop.cell;
     cell.node.classList.toggle("slamlab-off", !here);
-    cell.node.classList.toggle("slamlab-later", later);
+    cell.node.classList.toggle("slamlab-later", here && index > stop.cell);
     if (!here) return;
     const reached = index < stop.cell ? Infinity : index === stop.cell ? stop.step : -1;
     const folded = Number(isFolded(cell));
     if (folded) unfold(cell, reached >= 1);
-    cell.node.querySelectorAll(STEP).forEach((step, k) => {
-      step.classList.toggle("slamlab-later", reached < folded + k + 1);
+    const steps = cell.node.querySelectorAll(STEP);
+    const last = Math.min(reached - folded, steps.length); // the steps that are shown
+    steps.forEach((step, k) => {
+      step.classList.toggle("slamlab-later", k >= last);
+      step.classList.toggle("slamlab-gone", lines < Infinity && (k >= last || k < last - lines));
     });
   });
 }
