@@ -7,7 +7,8 @@ const EDITOR = ".slamlab-unlocked .cm-content";
 const ALWAYS = new Set(["PageDown", "PageUp", "F5", "Escape", "."]);
 const BROWSER = new Set(["F11", "F12", "Tab"]); // what the deck leaves to the browser
 
-const nameOf = (event) => {
+// A key as deck.keys names it.
+export const nameOf = (event) => {
   const shift = event.shiftKey && [" ", "F5", "Enter"].includes(event.key) ? "Shift+" : "";
   return `${event.ctrlKey || event.metaKey ? "Ctrl+" : ""}${shift}${event.key}`;
 };
