@@ -7,6 +7,7 @@ from itertools import pairwise
 
 from course.exercise import SolutionError, solution_regions
 from course.source import CHECK, ID, METADATA, heading
+from slamlab.coursework.overview import QUESTION
 
 TAGS = {
     "lecturer",
@@ -16,7 +17,6 @@ TAGS = {
     "raises-exception",
     "remove-input",
 }
-QUESTION = re.compile(r"\bask\(\s*\"([^\"]+)\"")
 SLIDES = {"slide", "subslide", "fragment", "notes", "skip", "-"}
 MAX_CELL_LINES = 30  # lines of a lesson's code cell
 

@@ -4,9 +4,9 @@ import base64
 import html
 import io
 
-from IPython.display import DisplayHandle, display
 from PIL import Image
 
+from slamlab.displays import show_bundle, show_controls
 from slamlab.views.figure_faults import report
 from slamlab.views.figure_words import words
 
@@ -83,33 +83,17 @@ def show(fig, alt, data=None):
     show_bundle(bundle(fig, alt, data))
 
 
-def show_bundle(shown):
-    """Show what :func:`bundle` made as a display of its own, where another can take its place.
-
-    Beside no widget a file keeps it, and shows it when it is opened again.
-
-    Parameters
-    ----------
-    shown : dict by MIME type
-
-    Returns
-    -------
-    DisplayHandle : its ``update(bundle, raw=True)`` shows another bundle instead
-    """
-    handle = DisplayHandle()
-    handle.display(shown, raw=True)
-    return handle
-
-
-def show_controls(box):
-    """Show a widget, or words where none can be: in a file, or where no kernel runs.
+def show_beside_still(box, still):
+    """Show a widget that draws in the browser, and its still picture for where it cannot.
 
     Parameters
     ----------
     box : Widget
+    still : dict by MIME type, what :func:`bundle` made
     """
-    words = {"text/plain": "Run this cell for its controls."}
-    display((box._repr_mimebundle_() or {}) | words, raw=True)
+    show_controls(box)
+    # kept by a file; beside the drawing that lives it is not seen (widgets.css)
+    show_bundle(still | {"text/html": f'<div class="slamlab-still">{still["text/html"]}</div>'})
 
 
 def _table(data):

@@ -5,8 +5,9 @@ import traceback
 
 import ipywidgets
 
+from slamlab.displays import show_bundle, show_controls
 from slamlab.views import play_button
-from slamlab.views.showing import bundle, show_bundle, show_controls
+from slamlab.views.showing import bundle
 
 
 def explore(draw, alt, play=None, **controls):

@@ -290,7 +290,7 @@ def test_what_is_stored_tells_nothing_of_the_machine_and_says_how_a_widget_lives
     # %%
     import pathlib, sys
     import ipywidgets
-    from slamlab.views.showing import show_controls
+    from slamlab.displays import show_controls
 
     print(pathlib.Path.home() / "x")
     print(sys.prefix)

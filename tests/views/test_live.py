@@ -8,6 +8,7 @@ import ipywidgets
 import pytest
 
 from slamlab import estimators, sources, views
+from slamlab.views import showing
 from slamlab.views.live import live_view, run_loop
 from slamlab.views.live.canvas import LiveCanvas
 from slamlab.views.live.controls import Controls
@@ -23,7 +24,7 @@ ALT = "a robot walks"
 @pytest.fixture
 def stored(monkeypatch):
     """What the cells of a notebook store."""
-    yield Displays(monkeypatch, live_view)
+    yield Displays(monkeypatch, showing)
     run_loop.stop()
 
 

@@ -12,7 +12,7 @@ from slamlab.views.live.drive_commands import velocities
 from slamlab.views.live.raster import RasterScreen
 from slamlab.views.live.run_loop import RunLoop, stop
 from slamlab.views.live.stepper import Stepper
-from slamlab.views.showing import bundle, show_bundle, show_controls
+from slamlab.views.showing import bundle, show_beside_still
 
 FIRST_READING_TIMEOUT = 3.0  # [s] that a notebook's cell waits for a reading
 
@@ -100,10 +100,7 @@ def live(
         stepper.drive(velocities(name, tops))
     still = bundle(still_picture(stepper.scene(), title, size), alt)
     loop.show()
-    show_controls(ipywidgets.VBox([Controls(loop, steppers).widget, shown.widget]))
-    # kept by a file, where no live view can be; beside one that lives it is not seen (widgets.css)
-    still["text/html"] = f'<div class="slamlab-still">{still["text/html"]}</div>'
-    show_bundle(still)
+    show_beside_still(ipywidgets.VBox([Controls(loop, steppers).widget, shown.widget]), still)
     return loop
 
 

@@ -35,11 +35,12 @@ function copyOf(cell) {
   };
 }
 
-// A stop of a deck, given by its number, within copies of all that stands around the page.
+// A stop of a deck, given by its number, within copies of all that stands around the page; nothing if
+// there is no such stop, or its slide is not laid out yet.
 export function pictureOf(deck, number) {
   const stop = deck.stops[number];
-  const pages = deck.layouts.get(stop.slide)
-    ?? [{ cells: deck.slides[stop.slide].cells, shrink: 1, columns: "", figure: 1 }]; // not laid out yet
+  const pages = deck.layouts.get(stop?.slide);
+  if (!pages) return "";
   const shown = pages.findLast(({ cells }) => cells[0] <= stop.cell) ?? pages[0];
   const widgets = []; // only this page's, each at its index
   for (const index of shown.cells) widgets[index] = copyOf(deck.notebook.widgets[index]);

@@ -88,17 +88,19 @@ function showPictures(told) {
   heard.knows = told.serial;
   document.body.dataset.drawn = told.at;
   present.show(told.present);
-  next.show(told.next, told.next ? "" : "This is the end.");
+  const coming = told.then === undefined ? "This is the end." : `${told.then} …`;
+  next.show(told.next, told.next ? "" : coming);
   at("notes").innerHTML = told.notes.join("<hr>") || "<p>There are no notes on this slide.</p>";
   at("questions").replaceChildren(...told.questions.flatMap(question));
   if (!told.questions.length) at("questions").textContent = "No question in this section.";
 }
 
-function question({ slide, html }) {
+function question({ slide, html, text }) {
   const where = document.createElement("p"), asked = document.createElement("div");
   where.className = "where";
   where.textContent = slide === state.slide ? "on this slide" : `on slide ${slide + 1}`;
-  asked.innerHTML = html;
+  if (html) asked.innerHTML = html;
+  else asked.textContent = text;
   return [where, asked];
 }
 

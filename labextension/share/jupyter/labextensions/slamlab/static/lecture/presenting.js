@@ -7,7 +7,7 @@ import { copied, pictureOf, stylesOf, stylesSignature } from "./picture.js";
 
 const PAGE = new URL("presenter.html", import.meta.url).href;
 const SIZE = "popup,width=1200,height=760";
-const PAUSE = 100; // ms that pictures wait for the next key
+const PAUSES = [100, 700]; // ms that pictures wait: for the next key; for what is drawn and laid out meanwhile
 const QUESTION = /\bask\(/;
 const OWN = new Set(["p", "f"]); // keys that mean another thing there
 
@@ -64,7 +64,7 @@ class Presenting {
     window.addEventListener("pagehide", ended);
     deck.changed.connect(told);
     deck.ended.connect(() => {
-      clearTimeout(this.drawing);
+      this.#wait();
       blanked.disconnect();
       sessionContext.statusChanged.disconnect(status);
       window.removeEventListener("pagehide", ended);
@@ -100,9 +100,11 @@ class Presenting {
       size: [window.innerWidth, window.innerHeight],
     });
     if (!this.heard) return; // nobody looks
-    clearTimeout(this.drawing);
-    this.drawing = setTimeout(() => this.#draw(), PAUSE);
+    this.#wait();
+    this.drawing = PAUSES.map((pause) => setTimeout(() => this.#draw(), pause));
   }
+
+  #wait() { this.drawing?.forEach(clearTimeout); }
 
   // Pictures of this stop and the next, notes and questions, unless they are known there.
   #draw() {
@@ -114,7 +116,8 @@ class Presenting {
     }
     const drawn = {
       present: pictureOf(deck, deck.at),
-      next: deck.at + 1 < deck.stops.length ? pictureOf(deck, deck.at + 1) : "",
+      next: pictureOf(deck, deck.at + 1),
+      then: deck.slides[deck.stops[deck.at + 1]?.slide]?.title,
       notes: this.#notes(),
       questions: this.#questions(),
     };
@@ -131,19 +134,19 @@ class Presenting {
   #notes() {
     const { notebook, slides, slide } = this.deck;
     return slides[slide].notes
-      .map((index) => copied(notebook.widgets[index].node.querySelector(".jp-RenderedMarkdown")).innerHTML);
+      .map((index) => notebook.widgets[index].node.querySelector(".jp-RenderedMarkdown"))
+      .filter(Boolean) // not drawn yet
+      .map((note) => copied(note).innerHTML);
   }
 
-  // The questions of this slide and of what is left of its section: [{slide, html}].
+  // The questions of this slide and of what is left of its section: [{slide, html, text}].
   #questions() {
     const { notebook, slides, slide } = this.deck;
     const [, last] = slidesOfSection(slides, slide);
     return slides.slice(slide, last + 1).flatMap(({ cells }, k) => cells
       .map((index) => notebook.widgets[index])
       .filter(({ model }) => model.type === "code" && QUESTION.test(model.sharedModel.getSource()))
-      .map(({ node }) => node.querySelector(".jp-OutputArea-output.jp-RenderedMarkdown"))
-      .filter(Boolean)
-      .map((asked) => ({ slide: slide + k, html: copied(asked).innerHTML })));
+      .map((cell) => ({ slide: slide + k, ...asked(cell) })));
   }
 
   // "", or what is wrong with the kernel: none, dead, starting, empty (nothing was run since it died).
@@ -160,4 +163,12 @@ class Presenting {
   #counts() {
     return this.deck.notebook.widgets.map(({ model }) => model.executionCount ?? "").join();
   }
+}
+
+// A question as it is drawn; as plain text before its slide was shown, or it was run.
+function asked({ node, model }) {
+  const drawn = node.querySelector(".jp-OutputArea-output.jp-RenderedMarkdown");
+  if (drawn) return { html: copied(drawn).innerHTML };
+  const text = model.outputs.length ? model.outputs.get(0).data["text/plain"] : model.sharedModel.getSource();
+  return { text: [text].flat().join("") };
 }
