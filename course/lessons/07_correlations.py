@@ -218,7 +218,9 @@ fig, axes = views.panels(["at first", "1 was seen", "2 was seen"], size=(9, 3.6)
 for ax, stage in zip(axes, stages, strict=True):
     views.correlation(correlation(stage), ["r", "1", "2"], ax=ax)
     ax.set(xlabel="", ylabel="")
-views.show(fig, "Three correlation matrices: block diagonal, then r and 1 joined, then all filled.")
+views.show(
+    fig, "Three correlation matrices: block diagonal, then two blocks joined, then all filled."
+)
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # **See:** white is zero. First nobody knows anybody; then r and 1 do; then the corner P_12 has
@@ -261,8 +263,10 @@ def frame(step, landmark):
 
 views.explore(
     frame,
-    "Map with ellipses beside the correlation matrix, which is filled but for landmark 0's rows; "
-    "landmark 5 and its neighbours are red.",
+    lambda step, landmark: (
+        "Map with ellipses beside the correlation matrix, which fills as landmarks are seen; "
+        f"the frame is about landmark {landmark}, the colours are its correlations."
+    ),
     play="step",
     step=(0, len(film) - 1, 37),
     landmark=(0, 15, 5),
@@ -488,10 +492,11 @@ low, high = band(3, 25)
 fig, ax = views.curves(
     np.arange(10, 91), averages, "time [s]", "NEES of the pose", "Average of 25 runs"
 )
-ax.axhspan(low, high, color=views.COLOURS["guide"], alpha=0.6, label="95 % band")
+views.band(ax, low, high, "95 % band")
 ax.set_yscale("log")
-ax.legend()
-views.show(fig, "With all terms NEES stays in its band at 3; without, it rises to about 300.")
+views.legend(ax)
+kept, dropped = (average.max() for average in averages.values())
+views.show(fig, f"With all terms NEES stays below {kept:.1f}; without, it rises to {dropped:.0f}.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # **See:** the solid curve stays in the grey band. The dashed one is out of it from the
@@ -650,11 +655,11 @@ fig, ax = views.curves(
 )
 ax.axhline(0.2, color=views.COLOURS["walls"], linewidth=1)
 ax.set_ylim(0, 0.47)
-ax.legend(ncols=2, fontsize=9, loc="upper center")
+views.legend(ax, ncols=2, loc="upper center")
 views.show(
     fig,
-    "With a compass the landmark falls to the line at 0.2 m, without one it stays above; vectors "
-    "go on falling, the compass's towards zero.",
+    f"With a compass the landmark falls to {compass[1][-1]:.2f} m, without one it stays at "
+    f"{no_compass[1][-1]:.2f}; vectors go on falling, the compass's towards zero.",
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}

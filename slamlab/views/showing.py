@@ -7,6 +7,7 @@ import io
 from PIL import Image
 
 from slamlab.displays import show_bundle, show_controls
+from slamlab.views.arrangement import arrange
 from slamlab.views.figure_faults import report
 from slamlab.views.figure_words import words
 
@@ -18,6 +19,7 @@ def png(fig):
     """Render a figure as PNG with a palette of 96 colours; deterministic: always the same bytes.
 
     A figure of lines and letters looks the same in a palette and takes well under half the bytes.
+    Titles and legends are first given room (:func:`slamlab.views.arrangement.arrange`).
 
     Parameters
     ----------
@@ -27,6 +29,7 @@ def png(fig):
     -------
     bytes
     """
+    arrange(fig)
     drawn, small = io.BytesIO(), io.BytesIO()
     fig.savefig(drawn, format="png", dpi=SHARPNESS * fig.dpi)
     picture = Image.open(drawn).convert("RGB")
@@ -57,14 +60,15 @@ def bundle(fig, alt, data=None):
     """
     if not isinstance(alt, str) or not alt.strip():
         raise ValueError("a figure needs alt text: say in a sentence what it shows")
+    picture = base64.b64encode(png(fig)).decode()
     report(fig, alt)
     alt = f"{words(fig)} {alt.strip()}"
     wide = round(fig.get_figwidth() * fig.dpi)
-    picture = (
+    shown = (
         f'<img class="slamlab-figure" width="{wide}" alt="{html.escape(alt)}" '
-        f'src="data:image/png;base64,{base64.b64encode(png(fig)).decode()}">'
+        f'src="data:image/png;base64,{picture}">'
     )
-    return {"text/html": picture + _table(data), "text/plain": alt}
+    return {"text/html": shown + _table(data), "text/plain": alt}
 
 
 def show(fig, alt, data=None):

@@ -260,3 +260,12 @@ def test_speed_and_seed_reach_the_loop(controls):
     asyncio.run(watch())
     assert (controls.loop.speed, controls.loop.seed, controls.loop.pair.count) == (50, 7, 2)
     assert isinstance(controls.seed, ipywidgets.BoundedIntText)
+
+
+def test_the_browser_tells_whether_its_reader_asked_for_reduced_motion(stored):
+    pair = Stepper(Walk, lambda source: Sum())
+    pair.reset(0)
+    canvas = RunLoop(pair, Heard()).screen
+    for told, calm in (({"calm": True}, True), ({"calm": "yes"}, False), ({}, False)):
+        canvas.say(kind="ready", **told)
+        assert canvas.calm is calm

@@ -104,4 +104,5 @@ def _connect(editor, board, rows):
 
 
 def _warning(text):
-    return f'<span style="color:#D55E00">{html.escape(text)}</span>'
+    # the page may be light or dark
+    return f'<span style="color:var(--jp-error-color1, #b83a00)">{html.escape(text)}</span>'

@@ -4,8 +4,10 @@ import ipywidgets
 import numpy as np
 
 from slamlab.layers import Points
-from slamlab.views.figures import COLOURS, UNIT, axes
-from slamlab.views.layer_drawing import draw, legend_below
+from slamlab.views.colours import COLOURS
+from slamlab.views.figures import UNIT, axes
+from slamlab.views.layer_drawing import draw
+from slamlab.views.legends import legend_below
 from slamlab.views.live.cell_views import loops_of_this_cell
 from slamlab.views.live.controls import Controls
 from slamlab.views.live.drive_commands import velocities
@@ -67,7 +69,7 @@ def live(
     seed : int, what source and estimator are made anew from
     speed : float, steps a second
     tops : (speed, turn rate) that the buttons command [m/s, rad/s]
-    play : bool, whether it runs as soon as a browser shows it
+    play : bool, whether it runs as soon as a browser shows it whose reader likes motion
     size : (width, height) [pixels]
     raster : bool, a picture of plain ipywidgets, for where anywidget is missing or not let in
 
