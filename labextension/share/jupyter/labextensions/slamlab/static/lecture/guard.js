@@ -4,7 +4,7 @@ const CONTROL = ".jp-OutputArea-output input, .jp-OutputArea-output button, .jp-
   + ".jp-OutputArea-output [role=slider], .jp-OutputArea-output canvas, .jp-OutputArea-output [tabindex], "
   + ".jp-OutputArea-output summary, .jp-OutputArea-output a, .slamlab-layer *";
 const EDITOR = ".slamlab-unlocked .cm-content";
-const ALWAYS = new Set(["PageDown", "PageUp", "F5", "Escape", "."]);
+const ALWAYS = new Set(["PageDown", "PageUp", "F5", "Escape", ".", "i", "p"]); // but while one types
 const BROWSER = new Set(["F11", "F12", "Tab"]); // what the deck leaves to the browser
 
 // A key as deck.keys names it.

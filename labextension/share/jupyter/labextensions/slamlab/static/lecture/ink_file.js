@@ -19,12 +19,10 @@ export class InkFile {
     const folder = this.path.split("/").slice(0, -1).join("/");
     const listed = (await this.contents.get(folder, { content: true })).content;
     if (!listed.some(({ path }) => path === this.path)) return []; // asking for none would be an error
-    const text = await this.#text();
-    try {
-      const { version, strokes } = JSON.parse(text);
-      if (version === VERSION && strokes.every(isStroke)) return strokes;
-    } catch {
-      // told below
+    for (const pause of [0, PAUSE]) { // another window may be writing it
+      await new Promise((done) => { setTimeout(done, pause); });
+      const strokes = strokesIn(await this.#text());
+      if (strokes) return strokes;
     }
     const aside = this.#free(listed.map(({ path }) => path));
     await this.contents.rename(this.path, aside);
@@ -39,7 +37,8 @@ export class InkFile {
     this.timer = setTimeout(() => this.flush(), PAUSE);
   }
 
-  // Write now what is still to be written; one after another. The server replaces the file in one go.
+  // Write now what is still to be written; one after another. The server writes in place and puts the
+  // former file back if that fails; only a server that is killed while it writes leaves a torn one.
   flush() {
     clearTimeout(this.timer);
     last = last.then(async () => {
@@ -71,6 +70,16 @@ export class InkFile {
     let number = 1;
     while (taken.includes(name(number))) number += 1;
     return name(number);
+  }
+}
+
+// The strokes of a file's text; undefined if it is none of ours.
+function strokesIn(text) {
+  try {
+    const { version, strokes } = JSON.parse(text);
+    return version === VERSION && strokes.every(isStroke) ? strokes : undefined;
+  } catch {
+    return undefined;
   }
 }
 
