@@ -19,6 +19,7 @@ LECTURERS_FOLDERS = (*FOLDERS, "solutions", "docs", "course")
 LECTURERS_FILES = (*FILES[:-1], "README.md", "Makefile", "CONTRIBUTING.md",
                    "requirements-test.lock")  # fmt: skip
 EXCLUDED = ("__pycache__", ".ipynb_checkpoints")
+INK = ".ink"  # in the name of what was drawn in a lecture: the lecturer's own
 TOP = "slam-course"
 TIMESTAMP = (1980, 1, 1, 0, 0, 0)  # of every file in a zip, the earliest it can hold
 LECTURER = {"notes", "lecturer"}  # slide type or tag of cells that students do not get
@@ -114,7 +115,7 @@ def _files(root, folders, names):
     return {
         path.relative_to(root).as_posix(): path.read_bytes()
         for path in paths
-        if not set(EXCLUDED) & set(path.parts)
+        if not set(EXCLUDED) & set(path.parts) and INK not in path.suffixes
     }
 
 

@@ -84,6 +84,15 @@ def test_the_same_project_gives_the_same_file(packed, tmp_path):
     assert (tmp_path / "again.zip").read_bytes() == packed.read_bytes()
 
 
+def test_what_was_drawn_in_a_lecture_stays_with_the_lecturer(tmp_path, monkeypatch):
+    (tmp_path / "notebooks").mkdir()
+    for name in ("07_a.ipynb", "07_a.ink.json", "07_a.ink.damaged.json", "07_a.ink.damaged-2.json"):
+        (tmp_path / "notebooks" / name).write_text("{}")
+    monkeypatch.setattr(pack, "LECTURERS_FOLDERS", ("notebooks",))
+    monkeypatch.setattr(pack, "LECTURERS_FILES", ())
+    assert list(pack.lecturers_contents(tmp_path)) == ["notebooks/07_a.ipynb"]
+
+
 def test_it_holds_every_lesson_and_exercise(packed):
     names = zipfile.ZipFile(packed).namelist()
     for folder in ("notebooks", "exercises"):

@@ -163,8 +163,8 @@ export class Deck {
   // The pages of a slide; laid out for the first time they may bring stops that were not known.
   #pages(number) {
     if (!this.layouts.has(number)) {
-      const { cells } = this.slides[number];
-      draw(this.notebook, cells);
+      const { cells, notes } = this.slides[number];
+      draw(this.notebook, [...cells, ...notes]);
       const show = (some, lines, step = Infinity) => {
         const stop = { cell: step < Infinity ? some[0] : Infinity, step };
         reveal(this.notebook, stop, some, lines);

@@ -6,9 +6,11 @@ const CONTROL = ".jp-OutputArea-output input, .jp-OutputArea-output button, .jp-
 const POINTED = `${CONTROL}, .jp-OutputArea-output .jupyter-widgets`; // a slider's track takes no key
 const EDITOR = ".slamlab-unlocked .cm-content";
 const REMOTE = new Set(["PageDown", "PageUp", "F5", "Shift+F5", "Escape"]);
+const SHORT = new Set([".", "i", "p"]); // remotes and tools, but while one types
 const BROWSER = new Set(["F11", "F12", "Tab"]); // what the deck leaves to the browser
 
-const nameOf = (event) => {
+// A key as deck.keys names it.
+export const nameOf = (event) => {
   const shift = event.shiftKey && [" ", "F5", "Enter"].includes(event.key) ? "Shift+" : "";
   return `${event.ctrlKey || event.metaKey ? "Ctrl+" : ""}${shift}${event.key}`;
 };
@@ -28,7 +30,7 @@ export function guard(deck) {
       return;
     }
     const typing = focus.matches("input:not([type=range]), textarea, select, [contenteditable=true]");
-    const own = REMOTE.has(name) || (name === "." && !typing); // no control has use for these
+    const own = REMOTE.has(name) || (SHORT.has(name) && !typing); // no control has use for these
     if (focus.closest(CONTROL) && !own) return;
     if (act(name, event)) return;
     event.stopImmediatePropagation();

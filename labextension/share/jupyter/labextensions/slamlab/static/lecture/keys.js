@@ -48,6 +48,7 @@ function leave(deck) {
   if (deck.locking?.()) return;
   if (deck.layer.classList.contains("slamlab-blank")) return deck.layer.classList.remove("slamlab-blank");
   const open = deck.layer.querySelector("[data-slamlab-closes]");
+  open?.dispatchEvent(new Event("slamlab-closed")); // who opened it may have more to put away
   if (open) return open.remove();
   deck.end();
 }

@@ -2,11 +2,14 @@
 
 import { addAudience } from "./audience.js";
 import { Deck } from "./deck.js";
+import { addInk } from "./ink.js";
+import { addPresenter } from "./presenting.js";
 import { keepFile } from "./restore.js";
 import { useActions } from "./running.js";
 import { element } from "./overview.js";
 
 const COMMAND = "slamlab:lecture";
+const EXTENSIONS = [addAudience, addPresenter, addInk]; // each is given the deck once it is shown
 const asked = new URLSearchParams(window.location.search).has("lecture");
 
 export function lecturePlugin({ INotebookTracker, NotebookActions, ICommandPalette, Widget }) {
@@ -53,6 +56,6 @@ async function lecture(panel, app, Widget, cell) {
   const deck = new Deck(panel, app);
   deck.ended.connect(() => kept.end());
   deck.start(cell);
-  addAudience(deck);
-  panel.slamlabDeck = deck; // for who extends it, and for tests
+  panel.slamlabDeck = deck; // for tests
+  for (const extend of EXTENSIONS) extend(deck);
 }

@@ -20,7 +20,7 @@ export const stepsOf = (cell) => htmlOf(cell).match(/class="[^"]*\bslamlab-step\
 
 const isFolded = (cell) => Boolean(cell.model.getMetadata("jupyter")?.outputs_hidden);
 
-// The slides of a notebook: {cells: indices, notes: texts, minutes, title}.
+// The slides of a notebook: {cells, notes: indices, minutes, title}.
 export function slidesOf(notebook) {
   const slides = [];
   let section = { title: "", minutes: 0 };
@@ -35,7 +35,7 @@ export function slidesOf(notebook) {
     }
     if (!slides.length) return;
     const slide = slides.at(-1);
-    if (type === "notes") slide.notes.push(text);
+    if (type === "notes") slide.notes.push(index);
     if (isShown(cell)) slide.cells.push(index);
   });
   return slides;

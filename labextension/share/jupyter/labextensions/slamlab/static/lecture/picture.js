@@ -1,0 +1,86 @@
+// What a stop looks like, as HTML that needs nothing of the notebook: for the presenter's window.
+
+import { layOut } from "./fit.js";
+import { reveal } from "./stops.js";
+
+const inert = document.implementation.createHTMLDocument(""); // in which no image is loaded
+
+// A copy of an element of the page, its canvases as images.
+export function copied(element) {
+  const copy = inert.importNode(element, true);
+  const drawn = [...element.querySelectorAll("canvas")];
+  copy.querySelectorAll("canvas").forEach((canvas, k) => {
+    const image = inert.createElement("img");
+    for (const { name, value } of canvas.attributes) image.setAttribute(name, value);
+    try {
+      image.src = drawn[k].toDataURL();
+    } catch {
+      image.alt = "a picture that cannot be copied"; // it holds an image of another host
+    }
+    canvas.replaceWith(image);
+  });
+  return copy;
+}
+
+// A copy of a cell, which stops.js and fit.js treat as they treat the cell.
+function copyOf(cell) {
+  const node = copied(cell.node);
+  return {
+    node,
+    model: cell.model,
+    get outputHidden() { return cell.outputHidden; },
+    set outputHidden(_) { // only ever unfolded
+      node.querySelector(".jp-OutputPlaceholder")?.replaceWith(copied(cell.outputArea.node));
+    },
+  };
+}
+
+// A stop of a deck, given by its number, within copies of all that stands around the page; nothing if
+// there is no such stop, or its slide is not laid out yet.
+export function pictureOf(deck, number) {
+  const stop = deck.stops[number];
+  const pages = deck.layouts.get(stop?.slide);
+  if (!pages) return "";
+  const shown = pages.findLast(({ cells }) => cells[0] <= stop.cell) ?? pages[0];
+  const widgets = []; // only this page's, each at its index
+  for (const index of shown.cells) widgets[index] = copyOf(deck.notebook.widgets[index]);
+  reveal({ widgets }, stop, shown.cells, shown.lines);
+  let tree = inert.importNode(deck.page, false);
+  for (const index of shown.cells) tree.append(widgets[index].node);
+  layOut(tree, { widgets }, shown, deck.zoom);
+  for (let outer = deck.page; outer !== deck.panel.node;) {
+    outer = outer.parentElement;
+    const around = inert.importNode(outer, false);
+    around.append(tree);
+    tree = around;
+  }
+  tree.removeAttribute("popover"); // or it would have to be opened
+  if (number === deck.at) tree.append(overlay(deck));
+  return tree.outerHTML;
+}
+
+// What is drawn over the slide.
+function overlay(deck) {
+  const layer = inert.importNode(deck.layer, false);
+  layer.append(...[...deck.layer.querySelectorAll(":scope > svg")].map(copied));
+  return layer;
+}
+
+// The styles of this page and the marks of its theme: {sheets: [{href} or {text}], html, body}.
+export function stylesOf() {
+  const sheets = [...document.styleSheets, ...document.adoptedStyleSheets]
+    .filter((sheet) => !sheet.disabled)
+    .map((sheet) => sheet.href ? { href: sheet.href } : { text: rules(sheet), id: sheet.ownerNode?.id });
+  const marks = (element) => [...element.attributes].map(({ name, value }) => [name, value]);
+  return { sheets, html: marks(document.documentElement), body: marks(document.body) };
+}
+
+// Rules may be added one by one, as those of formulas are: a style's text does not tell them.
+const rules = (sheet) => [...sheet.cssRules].map(({ cssText }) => cssText).join("\n");
+
+// Changes whenever the styles do, near enough.
+export function stylesSignature() {
+  const sheets = [...document.styleSheets, ...document.adoptedStyleSheets];
+  const count = (sheet) => sheet.href ? sheet.href : sheet.cssRules.length;
+  return [...sheets.map(count), document.body.dataset.jpThemeName].join();
+}
