@@ -25,7 +25,7 @@ SEEN = """() => {
             + ".jp-OutputArea-output pre, mjx-container, .widget-label, .slamlab-telling")),
         shown: [...page.querySelectorAll(".jp-Cell")].filter(isSeen)
             .map((one) => one.dataset.windowedListIndex).join()
-            + "/" + page.querySelectorAll(".slamlab-later").length,
+            + "/" + page.querySelectorAll(".jp-Cell:not(.slamlab-off) .slamlab-later").length,
     };
 }"""
 
