@@ -153,6 +153,21 @@ def to_points(degrees, millimetres, mount, pose):
 """,
     ),
     (
+        "02-to-points",
+        "rows appended to a list, of which none is np.array([])",
+        """
+def to_points(degrees, millimetres, mount, pose):
+    c, s = np.cos(pose[2]), np.sin(pose[2])
+    x0, y0 = pose[0] + c * mount[0] - s * mount[1], pose[1] + s * mount[0] + c * mount[1]
+    rows = []
+    for d, mm in zip(degrees, millimetres):
+        if mm > 0:
+            a = pose[2] + mount[2] - np.radians(d)
+            rows.append([x0 + mm / 1000 * np.cos(a), y0 + mm / 1000 * np.sin(a)])
+    return np.array(rows)
+""",
+    ),
+    (
         "02-noise",
         "factor and np.where",
         """
@@ -779,21 +794,6 @@ def to_points(degrees, millimetres, mount, pose):
     at = pose[:2] + np.array([[c, -s], [s, c]]) @ mount[:2]
     a, r = pose[2] - np.radians(degrees[back]), millimetres[back] / 1000
     return at + np.column_stack([r * np.cos(a), r * np.sin(a)])
-""",
-    ),
-    (
-        "02-to-points",
-        "no rows give shape (0,)",
-        """
-def to_points(degrees, millimetres, mount, pose):
-    c, s = np.cos(pose[2]), np.sin(pose[2])
-    x0, y0 = pose[0] + c * mount[0] - s * mount[1], pose[1] + s * mount[0] + c * mount[1]
-    rows = []
-    for d, mm in zip(degrees, millimetres):
-        if mm > 0:
-            a = pose[2] + mount[2] - np.radians(d)
-            rows.append([x0 + mm / 1000 * np.cos(a), y0 + mm / 1000 * np.sin(a)])
-    return np.array(rows)
 """,
     ),
     (
