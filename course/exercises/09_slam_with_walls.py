@@ -90,8 +90,9 @@ def _():
 #
 # **Your task.** x and P after the update, over the whole state: v = z − h, S = H P Hᵀ + R,
 # K = P Hᵀ S⁻¹, x ← x + K v, P ← P − K S Kᵀ. The map holds one wall or more; the wall may be behind
-# the robot, and the robot may head for −x, where θ and α jump from π to −π. It does not matter
-# whether the angles in the new x lie within ±π.
+# the robot, and the robot may head for −x, where θ and α jump from π to −π. A wall may be so near
+# that x has the robot beyond it: then the ρ' that is expected is negative, and remains so. It does
+# not matter whether the angles in the new x lie within ±π.
 
 
 # %%

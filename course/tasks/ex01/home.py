@@ -82,7 +82,7 @@ def home(start, steps, docked):
             total += abs(z[-1]) ** 2 + 9 * abs(np.exp(1j * headings[-1]) - 1) ** 2
         return total
 
-    factor = min(np.linspace(0.88, 1.12, 121), key=gaps)
+    factor = min(np.linspace(0.8, 1.2, 201), key=gaps)
     steps = steps / [1, 1, factor]
     found, turn = [np.zeros(1)], np.exp(1j * start[2])
     for lap in laps:

@@ -6,12 +6,6 @@ TASK = "11-localise"
 MUTANTS = 120  # of the solution: a run takes long
 
 WAYS = {
-    "always drawn": """
-def localise(rows, weights, u, C, p, z, R, rng):
-    rows = move(rows, u, C, rng)
-    weights = normalise(np.log(weights) + log_likelihoods(rows, p, z, R))
-    return rows[draw(weights, rng)], np.full(len(rows), 1 / len(rows))
-""",
     "weights multiplied, a list returned": """
 def localise(rows, weights, u, C, p, z, R, rng):
     n, rows = len(rows), move(rows, u, C, rng)
@@ -56,7 +50,7 @@ def localise(rows, weights, u, C, p, z, R, rng):
     logs = np.array([np.log(w) + log_likelihoods(x[None], p, z, R)[0] for x, w in zip(rows, weights)])
     weights = np.exp(logs - np.logaddexp.reduce(logs))
     weights = weights / weights.sum()
-    if effective_size(weights) < 0.6 * n:
+    if 2 * effective_size(weights) < n:
         rows = np.array([rows[i] for i in draw(weights, rng)])
         weights = np.repeat(1 / n, n)
     return rows, weights
@@ -196,6 +190,13 @@ SLIPS = (
         (WHEN, "effective_size(weights) < len(rows) / 10"),
     ),
     Slip(
+        "always-drawn",
+        "You draw although the cloud is worth more than half its samples: each draw loses some of "
+        "them, and gains nothing then.",
+        (WHEN, "True"),
+        (WHEN, "effective_size(weights) < 0.9 * len(rows)"),
+    ),
+    Slip(
         "condition-turned",
         "You draw when the cloud is worth much, and not when it is worth little.",
         (WHEN, WHEN.replace("<", ">")),
@@ -282,11 +283,11 @@ STUMBLES = (
     Stumble("raised", ("move(rows, u, C, rng)", "move(rows, u, rng)")),
 )
 
-OFTEN = "to draw more often than one must is right as well: the check asks what a cloud is worth"
+TIE = "no cloud is worth exactly half its samples"
 EQUIVALENT = {
-    f"if {WHEN}: ->": OFTEN,
-    "if np.sum(weights**2) * n >= 2: ->": OFTEN,
-    "if 1 / (weights @ weights) < n / 2: ->": OFTEN,
-    "if effective_size(weights) <= 0.5 * n: ->": OFTEN,
-    "if effective_size(weights) < 0.6 * n: ->": OFTEN,
+    f"if {WHEN}: -> if {WHEN.replace('<', '<=')}:": TIE,
+    "if np.sum(weights**2) * n >= 2: -> if np.sum(weights**2) * n > 2:": TIE,
+    "if 1 / (weights @ weights) < n / 2: -> if 1 / (weights @ weights) <= n / 2:": TIE,
+    "if effective_size(weights) <= 0.5 * n: -> if effective_size(weights) < 0.5 * n:": TIE,
+    "if 2 * effective_size(weights) < n: -> if 2 * effective_size(weights) <= n:": TIE,
 }

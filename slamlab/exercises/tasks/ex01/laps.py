@@ -11,7 +11,7 @@ import numpy as np
 from slamlab.exercises.tasks.ex01.motions import chain
 
 DRIVES, STEP = 16, 0.5  # drives of a set, length of a step [m], nearly
-LEAST, MOST = 0.07, 0.12  # a turn is told too large or too small by a share between these
+LEAST, MOST = 0.01, 0.18  # a turn is told too large or too small by a share between these
 TURN, LENGTH = 0.010, 0.015  # σ of each turn beside that [rad], σ of each length, as a share
 CROOKED = 0.015  # how far a wall's points lie from its line [m]: no turn is quite 0
 

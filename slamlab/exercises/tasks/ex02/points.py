@@ -47,6 +47,11 @@ def _squarely(rng):
     }
 
 
+def _in_any_order(rng):
+    inputs = turns(rng, 3)
+    return inputs | {"degrees": rng.permutation(inputs["degrees"], axis=1)}
+
+
 def _polar(inputs):
     """(n, k) ranges [m], bearings, counter-clockwise [rad], and which of them came back."""
     r = inputs["millimetres"] / 1000
@@ -164,6 +169,7 @@ TO_POINTS = Task(
         Probe("readings of which none came back", _of(scans=2, readings=5, empty=5)),
         Probe("a single reading", _of(scans=3, readings=1, empty=0)),
         Probe("two readings, one of them empty", _of(scans=3, readings=2, empty=1)),
+        Probe("readings whose degrees do not ascend", _in_any_order),
         Probe("a long scan", _of(scans=1, readings=200, empty=20)),
         Probe("readings of one millimetre", _of(scans=2, metres=(0.001, 0.001))),
         Probe("readings of 40 m", _of(scans=2, metres=(20, 40))),

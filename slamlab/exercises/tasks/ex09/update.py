@@ -66,6 +66,16 @@ def _far_off(rng):
     return inputs | {"z": inputs["z"] + [4.0, 0.0]}  # more than π: ρ' is not to be wrapped
 
 
+def _on_its_other_side(rng):
+    """Walls a few centimetres ahead, which the robot is believed to have driven through."""
+    inputs = sights(rng, 4, 2)
+    for x, z, j in zip(inputs["x"], inputs["z"], inputs["j"], strict=True):
+        ahead = models.h_line(x[:3], x[3 + 2 * j : 5 + 2 * j])[0]
+        x[3 + 2 * j] -= ahead + rng.uniform(0.1, 0.2)  # now ρ' is expected below zero
+        z[0] = rng.uniform(0.05, 0.1)
+    return inputs
+
+
 def _uncorrelated(rng):
     inputs = sights(rng, 2, 2)
     return inputs | {"P": inputs["P"] * np.eye(7), "R": inputs["R"] * np.eye(2)}
@@ -122,6 +132,7 @@ UPDATE = Task(
         Probe("a map of six walls", lambda rng: sights(rng, 6, 6)),
         Probe("a sight that is just as expected", _as_expected),
         Probe("a wall four metres farther off than expected", _far_off),
+        Probe("a wall that the robot is believed to have passed", _on_its_other_side),
         Probe("errors that share nothing", _uncorrelated),
     ),
     shapes=lambda inputs: {"x": inputs["x"].shape, "P": inputs["P"].shape},

@@ -79,6 +79,8 @@ def _copies_right(moved, want, rows, weights):
         return False
     if np.ptp(weights) > 1e-9 / n:
         return bool(np.abs(got - due).max() < SAME * n)
+    if np.ptp(want) > 1e-9 / n and 1 / np.sum(want**2) > n / 2 * (1 + SAME):
+        return False  # drawn though the cloud was worth more than half its samples
     # Poisson at most: seven deviations, and some for those that are hardly ever drawn
     return bool((np.abs(got - due) < 7 * np.sqrt(due) + 7).all())
 
@@ -159,10 +161,11 @@ LOCALISE = Task(
         Law(
             "drawn",
             1,
-            "where wheels do not err, the samples are the moved ones, drawn by their weights",
+            "where wheels do not err, the samples are the moved ones, drawn by their weights, and "
+            "only if the cloud is worth less than half",
             _drawn_right,
-            asks="Which samples do you draw, and by which weights? What if all likelihoods are "
-            "smaller than the smallest float?",
+            asks="When do you draw, and by which weights? What if all likelihoods are smaller "
+            "than the smallest float?",
             main=False,
         ),
     ),

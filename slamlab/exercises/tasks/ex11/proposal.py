@@ -91,6 +91,14 @@ def _at_the_seam(rng):
     return i | {"after": _driven(i["before"], drives)}
 
 
+def _along_y(rng):
+    """Robots that head along y: nothing of their way is in x."""
+    i = looks(rng, 4)
+    drives, up = _drives(i), np.where(np.arange(SAMPLES) % 2, 1, -1) * np.pi / 2
+    i["before"][..., 2] = up
+    return i | {"after": _driven(i["before"], drives)}
+
+
 def _as_the_wheels(rng):
     """Drawn as the wheels err: the weights stay as they are."""
     i = looks(rng, 4)
@@ -143,6 +151,7 @@ PROPOSAL = Task(
         Probe("one covariance for all", lambda r: looks(r, 4, alike=True), ("alike",)),
         Probe("samples that are hundreds of σ off", lambda r: looks(r, 4, far=50.0), ("far",)),
         Probe("headings that cross ±π", _at_the_seam, ALL),
+        Probe("headings along y", _along_y, ALL),
         Probe("robots that drive backwards", lambda r: looks(r, 3, backwards=True), ALL),
         Probe("samples drawn as the wheels err", _as_the_wheels, ALL),
         Probe("samples that stay where they are", _at_rest, ALL),

@@ -1,0 +1,1 @@
+"""Independent answers to exercise 05: right ones, and students' mistakes."""

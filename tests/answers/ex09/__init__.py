@@ -1,0 +1,1 @@
+"""Independent answers to exercise 09: right ones, and students' mistakes."""

@@ -1,0 +1,1 @@
+"""Independent answers to exercise 12: right ones, and students' mistakes."""
