@@ -19,7 +19,7 @@ display(slider, said, HTML({FIGURE!r}))
 print("pid", os.getpid())"""
 STEPS = '<p>one <b class="slamlab-step">two</b> <b class="slamlab-step">three</b></p>'
 SLIDES = 5
-START = ".slamlab-start"
+START = ".slamlab-lecture-start"
 
 
 def _cell(cell, kind=None, **metadata):
