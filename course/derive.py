@@ -15,10 +15,10 @@ from course.exercise import (
     solution_metadata,
     strip_solutions,
 )
+from course.links import with_links
 from course.lint import lint
 from course.source import ROOT, Cell, CourseError, Source, read
 from slamlab.exercises import catalogue
-from course.ways import with_ways
 from slamlab.exercises.report import points
 
 _TASK_HEADING = re.compile(r"^## .*\S", re.MULTILINE)
@@ -68,7 +68,7 @@ def derive(path, root=ROOT):
     if exercise:
         source = replace(source, cells=_with_points(source.cells, exercise))
         last = [Cell("code", VALIDATE, "validate", source.cells[-1].line, {})]
-    source = replace(source, cells=with_ways(source, last))
+    source = replace(source, cells=with_links(source, last))
     return [
         Derived(
             source,

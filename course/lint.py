@@ -6,7 +6,9 @@ import re
 from itertools import pairwise
 
 from course.exercise import SolutionError, solution_regions
+from course.figure_lint import figure_problems
 from course.source import CHECK, ID, METADATA, heading
+from slamlab.coursework.overview import QUESTION
 
 TAGS = {
     "lecturer",
@@ -16,7 +18,6 @@ TAGS = {
     "raises-exception",
     "remove-input",
 }
-QUESTION = re.compile(r"\bask\(\s*\"([^\"]+)\"")
 SLIDES = {"slide", "subslide", "fragment", "notes", "skip", "-"}
 MAX_CELL_LINES = 30  # lines of a lesson's code cell
 
@@ -96,10 +97,13 @@ def _code(source, cell):
     if lines and lines[-1].rstrip().endswith(";"):
         yield len(lines), "a semicolon at the end does not hide a value here: write `_ = ...`"
     try:
-        compile(cell.text, "<cell>", "exec", ast.PyCF_ALLOW_TOP_LEVEL_AWAIT | ast.PyCF_ONLY_AST)
+        tree = compile(
+            cell.text, "<cell>", "exec", ast.PyCF_ALLOW_TOP_LEVEL_AWAIT | ast.PyCF_ONLY_AST
+        )
     except SyntaxError as error:
         yield error.lineno or 0, f"no plain Python: {error.msg}"
         return
+    yield from figure_problems(tree)
     try:
         marked = solution_regions(cell.text)
     except SolutionError as error:

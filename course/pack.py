@@ -8,6 +8,7 @@ import zipfile
 from pathlib import Path
 
 from slamlab.coursework import originals
+from slamlab.coursework.file_writing import json_bytes
 
 ROOT = Path(__file__).resolve().parents[1]
 HANDOUT = Path(__file__).parent / "handout"  # files that students get in place of the project's
@@ -19,7 +20,7 @@ LECTURERS_FILES = (*FILES[:-1], "README.md", "Makefile", "CONTRIBUTING.md",
                    "requirements-test.lock")  # fmt: skip
 EXCLUDED = ("__pycache__", ".ipynb_checkpoints")
 TOP = "slam-course"
-TIMESTAMP = (1980, 1, 1, 0, 0, 0)  # no time in a zip: the same files give the same bytes
+TIMESTAMP = (1980, 1, 1, 0, 0, 0)  # of every file in a zip, the earliest it can hold
 LECTURER = {"notes", "lecturer"}  # slide type or tag of cells that students do not get
 _PICTURE = re.compile(r"!\[[^]]*\]\(([^)]+)\)")
 
@@ -45,7 +46,7 @@ def contents(root=ROOT):
             found[name] = without_notes(found[name])
     notebooks = {name: data for name, data in found.items() if name.endswith(".ipynb")}
     archive = io.BytesIO()
-    originals.pack(notebooks, archive)
+    write_zip(archive, notebooks)
     return dict(sorted((found | {originals.ARCHIVE: archive.getvalue()}).items()))
 
 
@@ -75,22 +76,32 @@ def without_notes(data):
     bytes
     """
     notebook = json.loads(data)
-    notebook["cells"] = [cell for cell in notebook["cells"] if not LECTURER & _marks(cell)]
-    text = json.dumps(notebook, indent=1, sort_keys=True, ensure_ascii=False)
-    return text.encode() + b"\n"
+    notebook["cells"] = [cell for cell in notebook["cells"] if not LECTURER & marks(cell)]
+    return json_bytes(notebook)
 
 
 def pack(target, files):
-    """Write a zip file.
+    """Write a pack: a zip file that unpacks into one folder.
 
     Parameters
     ----------
     target : Path, ending in .zip
     files : dict, name in the pack to bytes
     """
+    write_zip(target, {f"{TOP}/{name}": data for name, data in files.items()})
+
+
+def write_zip(target, files):
+    """Write a zip file; the same files give the same bytes.
+
+    Parameters
+    ----------
+    target : Path or file to write
+    files : dict, name to bytes
+    """
     with zipfile.ZipFile(target, "w", zipfile.ZIP_DEFLATED) as packed:
         for name, data in files.items():
-            info = zipfile.ZipInfo(f"{TOP}/{name}", TIMESTAMP)
+            info = zipfile.ZipInfo(name, TIMESTAMP)
             info.compress_type = zipfile.ZIP_DEFLATED
             info.external_attr = 0o644 << 16
             packed.writestr(info, data)
@@ -107,7 +118,8 @@ def _files(root, folders, names):
     }
 
 
-def _marks(cell):
+def marks(cell):
+    """What a cell is marked as: its slide type and its tags, a set."""
     metadata = cell["metadata"]
     return {metadata.get("slideshow", {}).get("slide_type"), *metadata.get("tags", [])}
 

@@ -7,6 +7,7 @@ geometry         poses in the plane: wrapping angles, composition, transforms
 readings         what every source yields: scans, landmark observations, odometry
 layers           what an estimator shows: named layers of plain arrays
 files            text files, published recordings
+displays         what a notebook shows, in a form that its file keeps
 models           motion and observation models, their Jacobians, noise, derivation by sympy
 worlds           walls and circles, exact ray casting, ready worlds
 simulation       range scanners, a differential-drive robot with encoders, a wall follower
@@ -23,6 +24,7 @@ views            every drawing and widget: figures, sliders, the live view, the 
 
 The course's own machinery:
 
+derivation       derivations line by line, each line checked by machine: ``derive``
 exercises        what each task asks, and the laws its answers are judged by
 coursework       a student's folder: progress, reset, update
 parallel         many runs on processes or a Dask cluster

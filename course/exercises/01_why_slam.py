@@ -107,7 +107,7 @@ def _():
     views.draw(ax, WALLS)
     views.draw(ax, Poses("truth", track(START, tour())))
     views.draw(ax, Poses("naive", track(START, tour(np.radians(3)))), label="odometry")
-    ax.legend(loc="center")
+    views.legend(ax, loc="center")
     views.show(fig, alt="The true lap closes; the lap of the odometry leaves the corridor.")
 
 
@@ -244,16 +244,18 @@ def _():
     rng, n, d, sigma = np.random.default_rng(3), 60, 0.5, np.radians(1.0)
     lengths = d * np.arange(n + 1)
     fig, ax = views.chart("way driven [m]", "sideways of the line [m]", "300 robots, 1° a step")
+    spread, ends = np.array([drift(k, d, sigma) for k in range(n + 1)]), []
     for robot in range(300):
         steps = np.column_stack([np.full(n, d), np.zeros(n), sigma * rng.standard_normal(n)])
         sideways = track(START, steps)[:, 1]
+        ends.append(sideways[-1])
         label = "robots" if robot == 0 else None
         ax.plot(lengths, sideways, color=views.COLOURS["naive"], lw=0.4, alpha=0.4, label=label)
-    spread = np.array([drift(k, d, sigma) for k in range(n + 1)])
     for sign, label in ((2, "your ± 2 standard deviations"), (-2, None)):
-        ax.plot(lengths, sign * spread, color="black", lw=2, label=label)
-    ax.legend(loc="upper left")
-    views.show(fig, alt="Three hundred tracks fan out; the formula's curves hold 95 % of them.")
+        ax.plot(lengths, sign * spread, color=views.COLOURS["truth"], lw=2, label=label)
+    views.legend(ax, loc="upper left")
+    held = np.mean(np.abs(ends) <= 2 * spread[-1])
+    views.show(fig, alt=f"{len(ends)} tracks fan out; {held:.0%} end between the formula's curves.")
 
 
 # %% [markdown]
@@ -352,7 +354,7 @@ def _():
         steps[k, 2] += np.radians(1)
         harm.append(100 * np.hypot(*track(START, steps)[-1, :2]))
     fig, ax = views.chart("error of 1° made after [m]", "moves the end by [cm]", "One lap of 42 m")
-    ax.plot(0.5 * np.arange(1, n + 1), harm, color="black")
+    ax.plot(0.5 * np.arange(1, n + 1), harm, color=views.COLOURS["truth"])
     views.show(fig, alt="A curve that is zero at both ends of the lap and highest half way round.")
 
 

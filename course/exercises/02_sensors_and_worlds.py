@@ -379,12 +379,12 @@ def _():
         beam = np.tile(np.arange(24), (24, 1))
         ax.plot(beam[people], scans[people], ".", color=views.COLOURS["naive"], label="people")
         ax.plot(beam[~people], scans[~people], ".", color=views.COLOURS["corrected"], label="wall")
-        ax.legend()
+        views.legend(ax)
         return fig
 
     views.explore(
         draw,
-        alt="Readings of 24 beams: those of walls lie close together, those of people below them.",
+        alt="Readings of each beam: those of walls lie close together, those of people below them.",
         number=(0, 20, 3),
         blocked=(0.0, 0.4, 0.2),
         step_in_cm=(1, 8, 4),

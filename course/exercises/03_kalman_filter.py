@@ -384,7 +384,7 @@ def _():
     ax.fill_between(seconds, xs[:, 0] - two_sigma, xs[:, 0] + two_sigma, color=blue, alpha=0.2)
     ax.plot(seconds, told[3], ".", color=views.COLOURS["scan"], label="read")
     ax.set_ylim(-0.5, 13)
-    ax.legend(loc="upper center", ncol=3)
+    views.legend(ax, loc="upper center", ncols=3)
     views.show(fig, alt="Your position follows the true one; ghosts lie scattered around.")
 
 

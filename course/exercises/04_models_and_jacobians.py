@@ -161,7 +161,9 @@ def _():
     placed = np.array([g(pose, one) for pose, one in zip(poses, seen, strict=True)])
     line = layers.Poses("the line of sight", [x, [*g(x, z), x[2] + z[1]]])
     fig, _ = views.cloud(placed, {"your P_nn, 95 %": P_nn}, layers=[line])
-    views.show(fig, alt="500 places where the landmark may be and the ellipse of your P_nn.")
+    views.show(
+        fig, alt=f"{len(placed)} places where the landmark may be, and the ellipse of your P_nn."
+    )
 
 
 # %% [markdown]
@@ -263,7 +265,7 @@ def show_drive(method, name):
     ellipse = layers.Ellipses(name, np.array([mean[:2]]), np.array([covariance[:2, :2]]))
     fig, _ = views.cloud(ends, {}, layers=[ellipse])
     views.show(
-        fig, alt=f"The ends of 500 robots bend like a banana; over them the ellipse: {name}."
+        fig, alt=f"The ends of {len(ends)} robots bend like a banana; over them an ellipse: {name}."
     )
 
 

@@ -344,9 +344,7 @@ def _():
             layers.Points("landmark", beacons[:m]),
             layers.Ellipses("robot", [x[:2], at[:2]], [P[:2, :2], left[:2, :2]]),
         ]
-    fig, three = views.side_by_side(shown, size=(9, 3.4))
-    for ax in three:
-        views.legend(ax, loc="lower left", fontsize=9)
+    fig, _ = views.side_by_side(shown, size=(9, 3.4))
     views.show(fig, alt="Three maps: a robot's doubt after one, two and three ranges.")
 
 

@@ -90,7 +90,7 @@ def _():
     for ax, covariance in zip(axes, [P, P_first, P_both], strict=True):
         views.correlation(correlation(covariance), ["r", "p1", "p2"], ax=ax)
         ax.set(xlabel="", ylabel="", aspect="equal", adjustable="box")
-    views.show(fig, alt="Three correlation matrices: diagonal, then r and p1 linked, then all.")
+    views.show(fig, alt="Three correlation matrices: diagonal, then two blocks linked, then all.")
     sigmas = [np.sqrt(C[3, 3]) for C in (P, P_first, P_both)]
     print("σ of p1's x [m], before and after each sight:", np.round(sigmas, 3))
 
@@ -239,7 +239,9 @@ def _():
         "P_ab ignored": fuse(np.zeros(2), P_a, np.zeros(2), P_b, 0 * P_ab)[1],
     }
     fig, _ = views.cloud(errors, claims)
-    views.show(fig, alt="The errors of 500 fused estimates and two ellipses claimed for them.")
+    views.show(
+        fig, alt=f"The errors of {len(errors)} fused estimates and two ellipses claimed for them."
+    )
 
 
 # %% [markdown]
@@ -311,7 +313,7 @@ def _():
         means[f"correlations {name}"] = found.mean(axis=0)
     low, high = band(4, runs)
     fig, ax = views.curves(np.arange(1, steps + 1), means, "step", "mean NEES of 60 runs")
-    ax.axhspan(low, high, color=views.COLOURS["guide"], zorder=0)
+    views.band(ax, low, high)
     views.show(fig, alt="Mean NEES over steps: inside its band, and far above it when forgotten.")
 
 

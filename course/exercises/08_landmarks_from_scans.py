@@ -135,7 +135,7 @@ def _():
     firsts, seconds = (rng.multivariate_normal(z, R, 500) for z, R in ((z1, R1), (z2, R2)))
     seen = [corner(a, R1, b, R2)[0] for a, b in zip(firsts, seconds, strict=True)]
     fig, _ = views.cloud(seen, {"your P, 95 %": corner(z1, R1, z2, R2)[1]})
-    views.show(fig, alt="500 corners as seen, and the ellipse of your P.")
+    views.show(fig, alt=f"{len(seen)} corners as seen, and the ellipse of your P.")
 
 
 # %% [markdown]
@@ -385,7 +385,7 @@ def segment(points, share):
 check("08-segments")
 
 # %% [markdown]
-# One of these rooms, a colour a wall:
+# One of these rooms, a colour and a mark a wall:
 
 
 # %%
@@ -407,9 +407,11 @@ def _():
     labels = np.asarray(segment(points.copy(), 0.015))
     fig, ax = views.axes("Your walls, and in grey what is of none")
     for k in np.unique(labels):
-        colour = views.COLOURS["guide"] if k < 0 else f"C{int(k) % 10}"
+        colour, _, mark = views.SERIES[int(k) % len(views.SERIES)]
+        style = {"color": colour, "marker": mark, "markersize": 4}
+        grey = {"color": views.COLOURS["walls"], "markersize": 4}
         of = layers.Points("scan", points[labels == k])
-        views.draw(ax, of, color=colour, markersize=4 if k < 0 else 6, label="_walls")
+        views.draw(ax, of, label="_walls", **(grey if k < 0 else style))
     views.draw(ax, layers.Poses("robot", [np.zeros(3)]))
     views.show(fig, alt="A scan of a room with clutter; the readings of each wall in a colour.")
 

@@ -84,7 +84,7 @@ def _():
     views.draw(ax, Points("samples", np.column_stack([w * np.cos(theta), w * np.sin(theta)])))
     views.draw(ax, Boxes("your box", [box]))
     views.legend(ax)
-    views.show(fig, alt="500 end points of drives on an arc and your box round them.")
+    views.show(fig, alt=f"{len(w)} end points of drives on an arc and your box round them.")
 
 
 # %% [markdown]
@@ -156,7 +156,7 @@ def _():
         views.boxes.sector(ax, corner, *ring, alpha=0.2)
     views.draw(ax, Boxes("robot", [box]))
     views.boxes.edges(ax, lines, ("far", "near", "left", "right"))
-    ax.legend(loc="upper left")
+    views.legend(ax, loc="upper left")
     views.show(fig, alt="Four pieces of rings between your four edges.")
 
 
@@ -284,10 +284,10 @@ def _():
     fig, ax = views.boxes.scene("Your ring", (-3.2, 3.4, -1.2, 3.4))
     views.draw(ax, Points("samples", agree), color=views.COLOURS["scan"])
     views.draw(ax, Boxes("robot", [robot]))
-    views.draw(ax, Boxes("before", [box]), color=views.COLOURS["guide"])
+    views.draw(ax, Boxes("before", [box]))
     if kept is not None:
         views.draw(ax, Boxes("after", [kept]), color=views.COLOURS["corrected"], linewidth=2.5)
-    ax.legend(loc="upper right")
+    views.legend(ax, loc="upper right")
     views.show(
         fig, alt="Places on two arcs within a box, and the smaller box that your ring returns."
     )
@@ -436,11 +436,11 @@ def _():
         poses = poses[(np.abs(off) <= bounds[:, None]).all(axis=0)]
     fig, ax = views.boxes.scene("Yours, and one round", (-0.7, 1.6, -0.9, 0.6))
     views.draw(ax, Points("agree with all", poses[:, :2]), color=views.COLOURS["scan"])
-    for name, box, colour in (("before", robot, "guide"), ("yours", yours[0], "corrected")):
+    for name, box, colour in (("before", robot, "before"), ("yours", yours[0], "corrected")):
         views.draw(ax, Boxes(name, [box]), color=views.COLOURS[colour], linewidth=2.5)
     one_round = look(robot, heading, objects, z, bounds)[0]
     views.draw(ax, Boxes("one round", [one_round]), color=views.COLOURS["naive"])
-    ax.legend(loc="upper right")
+    views.legend(ax, loc="upper right")
     views.show(
         fig, alt="Poses that agree with all, your box round them, and the wider ones before."
     )

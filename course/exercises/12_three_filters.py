@@ -119,16 +119,16 @@ check("12-lost")
 # %% name="three-runs"
 @attempt
 def _():
-    k = np.arange(60)
+    k, limit = np.arange(60), 0.12
     runs = {
         "it wobbles": 0.05 + 0.03 * np.sin(k / 4),
         "it comes back": 0.03 + 0.3 * np.exp(-(((k - 25) / 6) ** 2)),
         "it drifts away": 0.045 + 0.0001 * k**2 + 0.05 * np.sin(k / 3),
     }
-    dated = {f"{name}: {lost_since(run, 0.12):.0f}": run for name, run in runs.items()}
+    dated = {f"{name}: {lost_since(run, limit):.0f}": run for name, run in runs.items()}
     fig, ax = views.curves(k, dated, "reading", "error of the position [m]", "Lost since when?")
-    ax.axhline(0.12, color=views.COLOURS["guide"])
-    views.show(fig, alt="Errors of three runs over time, and the limit of 0.12 m.")
+    ax.axhline(limit, color=views.COLOURS["limit"], linestyle="dashdot")
+    views.show(fig, alt=f"Errors of three runs over time, and the limit of {limit} m.")
 
 
 # %% [markdown]

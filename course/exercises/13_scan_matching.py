@@ -105,7 +105,7 @@ def _():
     views.draw(ax, Segments("scan", F), label="F, first look")
     ends = carry(T, F.reshape(-1, 2)).reshape(-1, 4)
     views.draw(ax, Segments("map", ends), label="F, carried by T")
-    ax.legend(loc="lower right")
+    views.legend(ax, loc="lower right")
     views.show(fig, alt="Two looks at a wall, and an F in front of it, carried by the motion.")
 
 

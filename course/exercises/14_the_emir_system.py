@@ -259,7 +259,8 @@ def _():
     counts = {"as sent": path, "unwrapped": unwrap(path)}
     time = 0.1 * np.arange(len(path))
     fig, _ = views.curves(time, counts, "t [s]", "path [counts]", "ahead, then back")
-    views.show(fig, alt="A saw-tooth between −128 and 127, and the way that rises and then falls.")
+    between = f"A saw-tooth between {path.min()} and {path.max()}"
+    views.show(fig, alt=f"{between}, and the way that rises and then falls.")
 
 
 # %% [markdown]

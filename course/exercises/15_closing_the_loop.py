@@ -183,7 +183,7 @@ def _():
         fig, ax = views.axes(title, size=(5.5, 4.5))
         views.draw(ax, Segments("loop", loops))
         views.draw(ax, Poses("corrected", poses), marker=".", markersize=6)
-        ax.legend(loc="center")
+        views.legend(ax, loc="center")
         return fig
 
     views.explore(draw, alt="A ring of ten poses and its loop after some steps.", steps=(0, 6, 3))
@@ -274,9 +274,7 @@ def _():
         "by wheels": [Poses("truth", truth), Poses("naive", start)],
         "wheels and nine distances": [Poses("truth", truth), Poses("corrected", poses)],
     }
-    fig, all_axes = views.side_by_side(shown, size=(9, 3.8))
-    for ax in all_axes:
-        ax.legend(loc="center")
+    fig, _ = views.side_by_side(shown, size=(9, 3.8))
     views.show(fig, alt="An open ring of poses beside the true one, and a ring that lies on it.")
 
 
@@ -471,10 +469,7 @@ def _():
             off = np.sqrt(np.mean(np.sum((track - truth)[:, :2] ** 2, axis=1)))
             name = "naive" if title == "by wheels" else "corrected"
             shown[f"{title}: {off:.2f} m off"] = [Poses("truth", truth), Poses(name, track)]
-        fig, all_axes = views.side_by_side(shown, size=(9, 4))
-        for ax in all_axes:
-            ax.legend(loc="center")
-        return fig
+        return views.side_by_side(shown, size=(9, 4))[0]
 
     views.explore(
         draw, alt="Two laps by wheels and as mapped, over the true ones.", drive=(0, 20, 3)

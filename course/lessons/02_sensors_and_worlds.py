@@ -95,7 +95,7 @@ views.draw(ax, Segments("scan", flight), linestyle="--")
 for name, wall in four.items():
     ax.annotate(name, wall[2:], xytext=(6, 4), textcoords="offset points")
 ax.margins(0.15)
-views.show(fig, "A beam at 25 degrees: one wall crosses it, the others lie behind, beside, along.")
+views.show(fig, "A beam: one wall crosses it, the others lie behind, beside, along.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # **See:** only the wall "in the way" is met. The other three are ways in which the *lines* cross,
@@ -227,7 +227,7 @@ seen = ideal.scan(room, np.zeros(3), np.random.default_rng(0))
 fig, (left, right) = views.panels(["polar: r over β", "Cartesian"], (10, 4), shared=False)
 left.plot(np.degrees(seen.angles), seen.ranges, ".", color=views.COLOURS["scan"], markersize=3)
 left.set(aspect="auto", xlabel="bearing β [degrees]", ylabel="range r [m]")
-views.draw(right, Segments("walls", room.outline()), color=views.COLOURS["guide"])
+views.draw(right, Segments("walls", room.outline()))
 views.draw(right, Points("scan", seen.points()), markersize=5)
 views.draw(right, Poses("robot", [[0, 0, 0]]))
 views.show(fig, "Left, ranges over angles in arcs and jumps; right, the same as points on walls.")
@@ -356,7 +356,7 @@ labels = "angle of incidence ι [degrees]", "σ / r [%]", "400 readings of each 
 fig, ax = views.curves(np.degrees(grid), predicted, *labels)
 ax.plot(np.degrees(slant), 100 * shares, ".", color=views.COLOURS["scan"], label="simulated")
 ax.set(ylim=(0, 2), xlim=(0, 85))
-ax.legend()
+views.legend(ax)
 views.show(fig, "The spread of each beam lies on the predicted curve, which rises at a slant.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
@@ -493,7 +493,10 @@ def by_sound(cone_in_degrees):
 
 views.explore(
     by_sound,
-    "With a cone of 25 degrees the door in the wall is closed but for a single direction.",
+    lambda cone_in_degrees: (
+        f"A wall with a door as a cone of {cone_in_degrees:.0f} degrees hears it: the wider the "
+        "cone, the narrower the door."
+    ),
     cone_in_degrees=(0, 40, 25),
 )
 
@@ -679,7 +682,8 @@ claims = {
 measured = {device_name: 1000 * sigma_bin}
 in_mm = {name: 1000 * sigma for name, sigma in claims.items()}
 fig, ax = views.growth(r_bin.round(1), measured, in_mm, "range r [m]", "σ [mm]", "At rest")
-views.show(fig, "The measured spread is below 0.4 % at 3 m and above it at 11 m: it grows with r².")
+share = [f"{s / r:.1%} of the range at {r:.0f} m" for r, s in zip(r_bin, sigma_bin, strict=True)]
+views.show(fig, f"The spread grows with r²: {share[0]}, {share[-1]}.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # **See:** the marks cross the line of our guess at about 7 m: the real device is more than twice
@@ -806,7 +810,7 @@ benches = {
 fig, ax = views.curves(r_bin, benches, "range r [m]", "σ / r [%]", "σ at rest, by the median")
 ax.plot(r_bin, 100 * sigma_bin / r_bin, "o", color=views.COLOURS["truth"], label=device_name)
 ax.set_ylim(0, 1)
-ax.legend()
+views.legend(ax)
 views.show(
     fig, "The preset follows the real device's rise with range; the first guess stays level."
 )

@@ -106,7 +106,7 @@ def two_bells(range_sigma):
 
 views.explore(
     two_bells,
-    "Three bells: wheels at 4 m, wide; range finder at 5 m; the fused one between, narrowest.",
+    "Three bells: left the wheels', right the range finder's; the fused one between, narrowest.",
     range_sigma=(0.1, 2.0, 0.3),
 )
 
@@ -159,7 +159,11 @@ def rolling(steps):
 
 
 views.explore(
-    rolling, "1000 carts after two seconds: a streak that leans to the right.", steps=(0, 12, 4)
+    rolling,
+    lambda steps: (
+        f"Carts after {steps * T:.1f} s: the longer they roll, the more they form a streak."
+    ),
+    steps=(0, 12, 4),
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
@@ -443,7 +447,7 @@ views.explore(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** contours of a bowl. The dot (orange) corrects half the position and leaves the speed
+# **See:** contours of a bowl. The dot (red) corrects half the position and leaves the speed
 # alone; the star (blue) is K = P Hᵀ S⁻¹, at the bottom. Nothing you do with the sliders gets lower.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
@@ -474,8 +478,10 @@ claims = {"Joseph's form": joseph, "P − K S Kᵀ": short}
 fig, ax = views.curves(alphas, claims, "α: gain / best gain", "trace P⁺ (m and m/s, squared)")
 ax.plot(alphas, carts, "o", color=views.COLOURS["truth"], label="100 000 carts")
 ax.axhline(0, color=views.COLOURS["guide"])
-ax.legend()
-views.show(fig, "Joseph's curve goes through the carts, lowest at 1; the short form falls below 0.")
+views.legend(ax)
+views.show(
+    fig, "Joseph's curve goes through the carts, lowest at the best gain; the short form falls."
+)
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # **See:** Joseph's form tells what happens to the carts for every gain, and is lowest at α = 1. The
@@ -564,13 +570,13 @@ def band_chart(component, quantity):
 # %% slideshow={"slide_type": "slide"}
 fig, ax = band_chart(0, "position [m]")
 ax.plot(seconds, zs, ".", color=views.COLOURS["scan"], label="measured")
-ax.legend(loc="upper left")
+views.legend(ax, loc="upper left")
 views.show(fig, "Truth inside the filter's band, which swells while nothing is measured.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # **See:** the filter (blue) follows the truth (black) more closely than the single measurements do.
 # While nothing is measured the band swells, and one measurement later it is narrow again. Who only
-# adds up the pushes (orange, dashed) loses the cart: lesson 01's drift. In numbers, where there was
+# adds up the pushes (red, dashed) loses the cart: lesson 01's drift. In numbers, where there was
 # a measurement:
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
@@ -581,7 +587,7 @@ for name, found in {"measured": zs[:, 0], "filter": xs[:, 0], "pushes only": dea
 
 # %% slideshow={"slide_type": "fragment"}
 fig, ax = band_chart(1, "speed [m/s]")
-ax.legend(loc="lower center")
+views.legend(ax, loc="lower center")
 views.show(fig, "The speed, never measured, is followed within its band.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
@@ -654,15 +660,15 @@ def nees_chart(believed_slip):
         found, P = errors_of(share**2 * Q)
         shown[name] = nees(found, P).mean(axis=0)
     fig, ax = views.curves(seconds, shown, "time [s]", "NEES, mean of 200 drives [1]")
-    ax.axhspan(low, high, color=views.COLOURS["guide"], alpha=0.6, label="95 % band")
+    views.band(ax, low, high, "95 % band")
     ax.set_ylim(0, 8)
-    ax.legend(loc="upper left")
+    views.legend(ax, loc="upper left")
     return fig
 
 
 views.explore(
     nees_chart,
-    "NEES of the right filter stays in its band about 2; the too sure one rises above it.",
+    "NEES of the right filter stays in its band; of one too sure it is above, too modest below.",
     believed_slip=(0.1, 3.0, 0.5),
 )
 

@@ -52,7 +52,7 @@ fig, ax = views.axes("One lap, counted by the wheels", size=(4.4, 4))
 views.draw(ax, Poses("truth", run.truth.poses))
 views.draw(ax, Poses("naive", by_odometry), label="odometry alone")
 views.draw(ax, Points("landmark", run.landmarks), label="landmarks", markersize=9)
-views.legend(ax, loc="center", fontsize=9)
+views.legend(ax, loc="center")
 views.show(fig, "The true lap closes; odometry's lap ends more than two metres off.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
@@ -251,7 +251,7 @@ laps = {
 fig, both = views.side_by_side(laps, size=(8, 4))
 for ax in both:
     ax.lines[-1].set(markersize=8)
-    views.legend(ax, loc="center", fontsize=9)
+    views.legend(ax, loc="center")
 views.show(fig, "Left, ellipses that grow and stay large; right, small ones on the true lap.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
@@ -272,9 +272,15 @@ title = "The error and what the filter believes of it"
 fig, ax = views.curves(steps, lines, "step", "[m]", title, size=(5.4, 3.1))
 looking = np.array([len(reading.observations.ids) > 0 for reading in run])
 ax.lines[2].set(color=ax.lines[1].get_color(), linestyle="dashed")
-ax.plot(steps[looking], np.full(looking.sum(), -0.4), "|", color="black", label="sees a landmark")
+ax.plot(
+    steps[looking],
+    np.full(looking.sum(), -0.4),
+    "|",
+    color=views.COLOURS["truth"],
+    label="sees a landmark",
+)
 ax.set_ylim(-0.45, 0.5)
-views.legend(ax, loc="upper right", fontsize=9, ncols=3)
+views.legend(ax, loc="upper right", ncols=3)
 views.show(fig, "The error of y stays within a band that widens where no landmark is seen.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
@@ -345,7 +351,7 @@ for n, agreeing in ((1, one_agrees[:300]), (2, both_agree[:150])):
 fig, both = views.side_by_side(beliefs, size=(7.6, 3.6))
 for ax in both:
     ax.lines[-1].set(markersize=9)
-    views.legend(ax, loc="upper right", fontsize=9)
+    views.legend(ax, loc="upper right")
 views.show(fig, "With one landmark the poses form an arc round it; with two, a small cloud.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
@@ -379,7 +385,7 @@ def with_eyes(metres):
 
 views.explore(
     with_eyes,
-    "With eyes that reach 1.5 m the ellipses grow large where no landmark is near.",
+    "The shorter its eyes reach, the larger the ellipses where no landmark is near.",
     metres=(0.8, 5.0, 1.5),
 )
 
@@ -455,9 +461,9 @@ def against_band(values, runs, title, begin=0):
     """NEES over the steps on a logarithmic scale, with the 95 % band."""
     steps = begin + np.arange(len(next(iter(values.values()))))
     fig, ax = views.curves(steps, values, "step", "mean NEES [1]", title, size=(5.4, 3.2))
-    ax.axhspan(*band(3, runs), color=views.COLOURS["guide"], alpha=0.6, label="95 % band")
+    views.band(ax, *band(3, runs), "95 % band")
     ax.set(yscale="log", ylim=(2, 15 * max(map(np.max, values.values()))))
-    views.legend(ax, loc="upper right", fontsize=9, ncols=2)
+    views.legend(ax, loc="upper right", ncols=2)
     return fig
 
 
@@ -625,7 +631,7 @@ fig, ax = views.growth(
     "squared error [m²]",
     size=(5, 3.3),
 )
-views.show(fig, "The measured squared errors lie on the line 1/k over 64 sightings.")
+views.show(fig, f"The measured squared errors lie on the falling line over {looks[-1]} sightings.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # **See:** 1/k, as with the mean of k numbers: that is what each little filter computes.

@@ -572,10 +572,11 @@ errors = {
     "the filter's σ": [np.sqrt(np.trace(P[:2, :2])) for _, P, _ in kept],
 }
 fig, ax = views.curves(np.arange(101), errors, "step", "position [m]", size=(6.5, 3.2))
+own = errors["the filter's error"]
 views.show(
     fig,
-    "The filter's error and its σ grow to half a metre at step 70 and fall to 5 cm; "
-    "odometry's error goes on growing.",
+    f"The filter's error grows to {own.max():.1f} m at step {own.argmax()} and falls to "
+    f"{100 * own[-1]:.0f} cm, its σ with it; odometry's error goes on growing.",
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
@@ -628,7 +629,7 @@ titles = [f"step {before}: about to close", f"step {after}: closed"]
 fig, all_axes = views.panels(titles, size=(9.6, 3.8))
 for ax, k in zip(all_axes, (before, after), strict=True):
     draw_map(ax, k)
-views.legend(all_axes[1], loc="upper left", bbox_to_anchor=(1, 1), fontsize=9)
+views.legend(all_axes[1], loc="upper left", bbox_to_anchor=(1, 1))
 views.show(fig, "Before, the ellipses grow along the round; six scans later all of them are small.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
@@ -960,9 +961,9 @@ means = {
 low, high = evaluation.band(3, RUNS)
 steps = np.arange(SETTLED, LOOP.steps + 1)
 fig, ax = views.curves(steps, means, "step", "mean NEES of the pose", size=(6.5, 3.2))
-ax.axhspan(low, high, color=views.COLOURS["guide"], alpha=0.4, label="band, 95 %")
+views.band(ax, low, high, "band, 95 %")
 ax.set_ylim(0)
-ax.legend(loc="lower right")
+views.legend(ax, loc="lower right")
 views.show(
     fig,
     "This robot's NEES stays in the band, the worse one's climbs out of it, falls back "

@@ -28,6 +28,7 @@ import sympy as sp
 from IPython.display import Markdown
 
 from slamlab import models, views
+from slamlab.derivation import blockwise, derive, symmetric
 from slamlab.estimators.mak_slam import MakSlam, Q_arc
 from slamlab.evaluation import band, correlation, nees
 from slamlab.filters import CompressedMAK
@@ -52,7 +53,7 @@ from slamlab.studies.consistency import errors_of
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 Z, of = sp.ZeroMatrix, sp.MatrixSymbol
-P_rr, P_11, P_22 = of("P_rr", 3, 3), of("P_11", 2, 2), of("P_22", 2, 2)
+P_rr, P_11, P_22 = symmetric("P_rr", 3), symmetric("P_11", 2), symmetric("P_22", 2)
 P = sp.BlockMatrix([[P_rr, Z(3, 2), Z(3, 2)], [Z(2, 3), P_11, Z(2, 2)], [Z(2, 3), Z(2, 2), P_22]])
 P
 
@@ -61,7 +62,7 @@ P
 # about 2:
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-H_r, H_p, R, S = of("H_r", 2, 3), of("H_p", 2, 2), of("R", 2, 2), of("S", 2, 2)
+H_r, H_p, R, S = of("H_r", 2, 3), of("H_p", 2, 2), of("R", 2, 2), symmetric("S", 2)
 H_1 = sp.BlockMatrix([[H_r, H_p, Z(2, 2)]])
 H_1
 
@@ -84,45 +85,46 @@ S_1 = sp.block_collapse(H_1 * P * H_1.T) + R
 S_1
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# We keep calling it S. The gain W = P Hᵀ S⁻¹ (the thesis' letter for our K):
+# We keep calling it S. With the gain W = P Hᵀ S⁻¹ (the thesis' letter for our K) the robot moves,
+# landmark 1 moves, landmark 2 stays. What happens to the covariance, for any P and any H?
 
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-sp.block_collapse(PHt * S.I)
-
-# %% [markdown] slideshow={"slide_type": "slide"}
-# The robot moves, landmark 1 moves, landmark 2 stays. The covariance becomes P − W S Wᵀ. Put W in;
-# S⁻¹ S S⁻ᵀ stands in the middle, and S is symmetric:
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-(S.I * S * S.I.T).subs(S.T, S).doit()
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# So the new covariance is P − P Hᵀ S⁻¹ H P. Its blocks:
-
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-def updated(P, H):
-    """The blocks of P − P Hᵀ S⁻¹ H P."""
-    blocks = sp.block_collapse(P - P * H.T * S.I * H * P).blocks
-    names = "r12"
-    return {a + b: blocks[i, j] for i, a in enumerate(names) for j, b in enumerate(names) if j >= i}
-
-
-first = updated(P, H_1)
-first["rr"]
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-first["r1"]
-
-# %% [markdown] slideshow={"slide_type": "slide"}
-# There it is: a product of five matrices, none of them zero. One sighting corrected both, so both
-# now share its error. And landmark 2?
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-print("P_r2 =", first["r2"], "  P_12 =", first["12"], "  P_22 =", first["22"])
+# %% slideshow={"slide_type": "slide"} tags=["nbval-check-output"]
+any_P, any_H, W = symmetric("P", 7), of("H", 2, 7), of("W", 7, 2)
+update = (
+    derive("P_new", any_P - W * S * W.T, "an update takes away W S Wᵀ")
+    .step("put the gain in", given={W: any_P * any_H.T * S.I})
+    .step("multiply: S⁻¹ S falls out, and S and P are symmetric", lambda line: line.doit())
+)
+update
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# Untouched. A **correlation** is born where one sighting corrects two estimates.
+# Now in blocks. P Hᵀ is a column, as above:
+
+
+# %% slideshow={"slide_type": "fragment"}
+def sighting(P, H):
+    PHt, given = blockwise(P * H.T), {any_P: P, any_H: H}
+    return (
+        derive("P_new", update.result, "any update, as derived")
+        .step("in blocks; P Hᵀ is a column", P - PHt * S.I * PHt.T, given)
+        .step("multiply block by block", blockwise)
+    )
+
+
+# %% [markdown] slideshow={"slide_type": "slide"}
+# **Predict** which blocks are zero after the first sighting.
+
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+seen = H_1  # what is seen: change this line
+sighting(P, seen)
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# There it is, P_r1: a product of five matrices, none of them zero. One sighting corrected both, so
+# both now share its error. And landmark 2? Untouched: two zeros and the old P_22. A **correlation**
+# is born where one sighting corrects two estimates.
+#
+# **Try** `sp.BlockMatrix([[Z(2, 3), -H_p, H_p]])`, a sensor that tells only how landmark 2 lies to
+# landmark 1: the robot's row stays as it was, and P_12 is born at once.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* Say it with people: two friends correct their watches by each other. From then
@@ -147,22 +149,25 @@ sp.block_collapse(P_then * H_2.T)
 # that robot.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-second = updated(P_then, H_2)
-second["r2"]
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-second["12"]
+sighting(P_then, H_2)
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# Two landmarks that were **never seen together** are correlated, by way of the robot. And nothing
-# is zero any more:
+# Look at P_12, the second row's last block: two landmarks that were **never seen together** are
+# correlated, by way of the robot. And nothing is zero any more:
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* Compare with what the class wrote down. The usual mistake is P_12 = 0 at the
 # end: "they have nothing to do with each other". Ask then what happens to 1 when we learn that the
 # robot stood 10 cm further left.
 
+
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+def by_name(blocks):
+    names = "r12"
+    return {a + b: blocks[i, j] for i, a in enumerate(names) for j, b in enumerate(names) if j >= i}
+
+
+first, second = (by_name(sighting(*pair).result.blocks) for pair in ((P, H_1), (P_then, H_2)))
 for when, blocks in (("first", first), ("second", second)):
     zero = [f"P_{block}" for block, value in blocks.items() if value.is_ZeroMatrix]
     print(f"zero after the {when} sighting:", ", ".join(zero) or "none")
@@ -213,7 +218,9 @@ fig, axes = views.panels(["at first", "1 was seen", "2 was seen"], size=(9, 3.6)
 for ax, stage in zip(axes, stages, strict=True):
     views.correlation(correlation(stage), ["r", "1", "2"], ax=ax)
     ax.set(xlabel="", ylabel="")
-views.show(fig, "Three correlation matrices: block diagonal, then r and 1 joined, then all filled.")
+views.show(
+    fig, "Three correlation matrices: block diagonal, then two blocks joined, then all filled."
+)
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # **See:** white is zero. First nobody knows anybody; then r and 1 do; then the corner P_12 has
@@ -256,8 +263,10 @@ def frame(step, landmark):
 
 views.explore(
     frame,
-    "Map with ellipses beside the correlation matrix, which is filled but for landmark 0's rows; "
-    "landmark 5 and its neighbours are red.",
+    lambda step, landmark: (
+        "Map with ellipses beside the correlation matrix, which fills as landmarks are seen; "
+        f"the frame is about landmark {landmark}, the colours are its correlations."
+    ),
     play="step",
     step=(0, len(film) - 1, 37),
     landmark=(0, 15, 5),
@@ -483,10 +492,11 @@ low, high = band(3, 25)
 fig, ax = views.curves(
     np.arange(10, 91), averages, "time [s]", "NEES of the pose", "Average of 25 runs"
 )
-ax.axhspan(low, high, color=views.COLOURS["guide"], alpha=0.6, label="95 % band")
+views.band(ax, low, high, "95 % band")
 ax.set_yscale("log")
-ax.legend()
-views.show(fig, "With all terms NEES stays in its band at 3; without, it rises to about 300.")
+views.legend(ax)
+kept, dropped = (average.max() for average in averages.values())
+views.show(fig, f"With all terms NEES stays below {kept:.1f}; without, it rises to {dropped:.0f}.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # **See:** the solid curve stays in the grey band. The dashed one is out of it from the
@@ -645,11 +655,11 @@ fig, ax = views.curves(
 )
 ax.axhline(0.2, color=views.COLOURS["walls"], linewidth=1)
 ax.set_ylim(0, 0.47)
-ax.legend(ncols=2, fontsize=9, loc="upper center")
+views.legend(ax, ncols=2, loc="upper center")
 views.show(
     fig,
-    "With a compass the landmark falls to the line at 0.2 m, without one it stays above; vectors "
-    "go on falling, the compass's towards zero.",
+    f"With a compass the landmark falls to {compass[1][-1]:.2f} m, without one it stays at "
+    f"{no_compass[1][-1]:.2f}; vectors go on falling, the compass's towards zero.",
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}

@@ -206,7 +206,8 @@ fig, ax = views.curves(
     "Error of the direction of a wall",
 )
 ax.set(yscale="log", xticks=range(0, 181, 30))
-views.show(fig, "The error of y = a x + b explodes at 0 and 180 degrees, the other stays at 0.2.")
+usual = worst["total least squares"].mean()
+views.show(fig, f"The error of y = a x + b explodes at both ends, the other stays at {usual:.1f}°.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # **See:** the scale is logarithmic. Total least squares errs by 0.2° whatever the direction; the
@@ -342,7 +343,9 @@ draw_all(
     (Points("fits", 1000 * off_truth), {"color": views.COLOURS["scan"]}),
     (Ellipses("R, 95 %", [[0, 0]], [1e6 * R]), {"linewidth": 2}),
 )
-views.show(fig, "1000 errors of distance and direction form a slanted streak; the ellipse fits.")
+views.show(
+    fig, f"{len(fits)} errors of distance and direction form a slanted streak; the ellipse fits."
+)
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # **See:** one slanted streak, and R's ellipse lies on it. Turn the line a little about the seen
@@ -424,7 +427,7 @@ def drawn_guess(ax, points, line, rows, inside):
     blue = {"marker": "o", "markersize": 5, "color": views.COLOURS["corrected"]}
     draw_all(
         ax,
-        (Points("scan", points), {"color": views.COLOURS["guide"]}),
+        (Points("scan", points), {"color": views.COLOURS["before"]}),
         (Points("in the window", points[rows]), {"markersize": 7}),
         (Points("agree", points[inside]), blue),
         (guessed, {"color": views.COLOURS["truth"]}),
@@ -452,7 +455,7 @@ def try_guess(reading, window=25, band=0.015, needed=21):
 
 views.explore(
     try_guess,
-    "A window of 25 readings on a wall 3 m away: only a few of them agree with its line.",
+    "A window of readings, the line guessed from it, and the readings that agree with the line.",
     reading=(0, len(turn["situation-1"].points()) - 1, 200),
 )
 
@@ -497,7 +500,10 @@ shares = {
 fig, ax = views.curves(
     reach, shares, "distance of the wall [m]", "share that passes", "Windows on one wall"
 )
-views.show(fig, "The share within 15 mm falls from 1 at half a metre to nothing beyond 1.6 metres.")
+last = reach[np.flatnonzero(next(iter(shares.values())))[-1]]
+views.show(
+    fig, f"The share in a fixed band falls from all to none beyond {last:.1f} m; in σ it stays."
+)
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # **See:** the fixed band lets everything pass at 0.8 m, half at 1.2 m, and nothing from 2 m on.
@@ -766,7 +772,10 @@ fig, ax = views.axes("Walls and corners in one scan", size=(6.6, 5.2))
 draw_all(
     ax,
     (Points("scan", scan.points()), {}),
-    (Segments("walls found", [line.ends.ravel() for line in found]), {"color": "black"}),
+    (
+        Segments("walls found", [line.ends.ravel() for line in found]),
+        {"color": views.COLOURS["truth"]},
+    ),
     (Ellipses("corners, 95 %, ×10", *zip(*seen_to_end, strict=True)), {"linewidth": 2}),
     (Poses("robot", [HOME]), {}),
     loc="upper left",

@@ -69,7 +69,8 @@ for n in (1, 4, 12):
 rows = {f"reading {k + 1}": span for k, span in enumerate(zip(low, high, strict=True))}
 rows["all agree"] = low.max(), high.min()
 fig, _ = views.boxes.intervals(rows, wall, "distance [m]", "", "Twelve readings, one wall")
-views.show(fig, "Twelve intervals of 20 cm and their small overlap, which holds the true wall.")
+overlap = f"{100 * (high.min() - low.max()):.1f} cm"
+views.show(fig, f"{len(tape)} intervals and their overlap of {overlap}, which holds the true wall.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # **See:** every bar crosses the dashed truth, so the blue overlap does, too. It is narrow because
@@ -149,7 +150,7 @@ fig, ax = views.axes("Two intervals of angles that meet twice", size=(5, 4))
 for name, interval, radius in (("wide", wide, 1.0), ("behind", behind, 1.3)):
     colour = views.COLOURS["box" if name == "wide" else "scan"]
     views.boxes.directions(ax, (0, 0), interval, radius, name, facecolor=colour, edgecolor=colour)
-ax.legend(loc="upper right")
+views.legend(ax, loc="upper right")
 views.show(fig, "A wide and a backward slice of a circle overlap in two separate pieces.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
@@ -233,11 +234,11 @@ fig, ax = views.axes("800 drives of 0.9 to 1.1 m, heading ± 0.5 rad", size=(6, 
 views.draw(ax, Points("samples", ends), color=views.COLOURS["scan"], markersize=4)
 for name, rows, colour in (("interval", box, "corrected"), ("corners only", corners_only, "naive")):
     views.draw(ax, Boxes(name, [rows]), color=views.COLOURS[colour], linewidth=2)
-ax.legend(loc="center left")
+views.legend(ax, loc="center left")
 views.show(fig, "End points on an arc; the corners' box cuts the arc's right end off.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** the orange box from the four corners ends at 0.97 m and leaves the bulge of the arc
+# **See:** the red box from the four corners ends at 0.97 m and leaves the bulge of the arc
 # outside. The blue interval box touches the samples on all sides: sound, and no wider than it must
 # be.
 
@@ -343,7 +344,7 @@ WINDOW = -2.6, 4.6, -2.0, 4.0
 fig, ax = views.boxes.scene("One sighting from one point", WINDOW)
 views.boxes.sector(ax, (0, 0), around(z[0], bounds[0]), around(direction, d_abs), "possible places")
 views.boxes.edges(ax, edges_at_0, NAMES)
-ax.legend(loc="lower left")
+views.legend(ax, loc="lower left")
 views.show(fig, "A piece of a ring enclosed by four lines, their shaded sides outside.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
@@ -409,7 +410,7 @@ for x in robot[:2]:
         views.boxes.sector(ax, (x, y), around(z[0], bounds[0]), around(direction, d_abs), alpha=0.2)
 views.draw(ax, Boxes("robot", [robot]))
 views.boxes.edges(ax, lines, NAMES)
-ax.legend(loc="lower left")
+views.legend(ax, loc="lower left")
 views.show(fig, "Four pieces of rings seen from the box's corners, all within the pushed edges.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
@@ -463,15 +464,18 @@ for name, line in zip(NAMES, lines, strict=True):
 
 
 # %% slideshow={"slide_type": "fragment"}
+LABELS = {"before": "before", "corrected": "now"}
+
+
 def step_by_step(step):
     title = f"after the {NAMES[step - 1]} edge" if step else "before the first edge"
     fig, ax = views.boxes.scene(title, WINDOW)
-    for name, row, colour in (("before", step - 1, "guide"), ("now", step, "corrected")):
-        box = Boxes(f"box {name}", [boxes[max(row, 0)]])
-        views.draw(ax, box, color=views.COLOURS[colour], linewidth=2.5)
+    for name, row in (("before", step - 1), ("corrected", step)):
+        box = Boxes(name, [boxes[max(row, 0)]])
+        views.draw(ax, box, label=f"box {LABELS[name]}", linewidth=2.5)
     views.draw(ax, Points("true object", [object_at]), color=views.COLOURS["truth"], markersize=10)
     views.boxes.edges(ax, lines[:step][-1:], NAMES[:step][-1:])
-    ax.legend(loc="lower left")
+    views.legend(ax, loc="lower left")
     return fig
 
 
@@ -552,7 +556,7 @@ middle_of = np.mean(robot_known[:2]), np.mean(robot_known[2:])
 views.boxes.directions(ax, middle_of, seen, 3.0, "bearings, from the middle")
 views.draw(ax, Boxes("robot", [robot_known]))
 views.draw(ax, Boxes("object", [known]), color=views.COLOURS["landmark"])
-ax.legend(loc="upper left")
+views.legend(ax, loc="upper left")
 views.show(fig, "A slice of directions from the robot's box that covers the object's box.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
@@ -636,10 +640,12 @@ shares = {"of all possible places": [100 * cut_off(d) for d in half_widths]}
 fig, ax = views.curves(
     half_widths, shares, "d_abs [rad]", "cut off [%]", "Edges beyond a right angle"
 )
-ax.axvline(np.pi / 2, color=views.COLOURS["guide"], label="π/2")
-ax.legend()
+ax.axvline(np.pi / 2, color=views.COLOURS["limit"], linestyle="dashdot", label="π/2")
+views.legend(ax)
 views.show(
-    fig, "The share of possible places cut off is zero up to π/2 and climbs to nearly all beyond."
+    fig,
+    "The share of possible places cut off is zero up to a right angle and climbs beyond to "
+    f"{shares['of all possible places'][-1]:.0f} %.",
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
@@ -733,8 +739,8 @@ print("the robot's box holds the truth:", inside(bor.robot, true_pose))
 
 # %% slideshow={"slide_type": "subslide"}
 fig, ax = views.axes("A chair is taken for the post", size=(7, 4))
-for name, row, colour in (("before", before, "guide"), ("after", bor.robot, "corrected")):
-    views.draw(ax, Boxes(f"robot {name}", [row]), color=views.COLOURS[colour], linewidth=2)
+for name, row, label in (("before", before, "before"), ("corrected", bor.robot, "after")):
+    views.draw(ax, Boxes(name, [row]), label=f"robot {label}", linewidth=2)
 things = (
     ("post", post[::2], "landmark"),
     ("chair", chair, "naive"),
@@ -742,7 +748,7 @@ things = (
 )
 for name, at, colour in things:
     views.draw(ax, Points(name, [at[:2]]), color=views.COLOURS[colour], markersize=12)
-ax.legend(loc="lower right")
+views.legend(ax, loc="lower right")
 views.show(fig, "The robot's box shrinks to a wrong place: the true robot stands outside of it.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}

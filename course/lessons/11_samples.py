@@ -109,7 +109,7 @@ def frame(step):
         (Poses("truth", truth), {}),
     ):
         views.draw(ax, layer, **style)
-    views.legend(ax, loc="upper left", bbox_to_anchor=(1, 1), fontsize=9)
+    views.legend(ax, loc="upper left", bbox_to_anchor=(1, 1))
     return fig
 
 
@@ -163,7 +163,7 @@ P = A @ np.diag([0.05, 0.05, 0.5]) ** 2 @ A.T + np.diag([0.06, 0, 0]) ** 2
 title = "3 m with a heading in doubt"
 fig, ax = views.cloud(ends, {"its own covariance": np.cov(ends.T)}, title, size=(5.2, 4.4))
 views.draw(ax, Ellipses("A P Aᵀ + Q", [[3.0, 0]], [P[:2, :2]]), color=views.COLOURS["naive"])
-views.legend(ax, loc="lower left", fontsize=9)
+views.legend(ax, loc="lower left")
 views.show(fig, "A cloud bent to a banana; the linearised ellipse is a straight upright line.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
@@ -370,7 +370,7 @@ def weighed(sensor):
     fig, ax = views.axes(worth, size=(5.6, 3.8))
     views.draw(ax, Samples("sample", rows, weights))
     views.draw(ax, Points("landmark", mark), markersize=10)
-    views.legend(ax, loc="upper left", fontsize=9)
+    views.legend(ax, loc="upper left")
     return fig
 
 
@@ -554,7 +554,7 @@ def sets(picture):
     ):
         views.draw(ax, layer, **style)
     ax.set(xlim=(-7, 7), ylim=(-3, 11), adjustable="box")
-    views.legend(ax, loc="upper left", bbox_to_anchor=(1, 1), fontsize=9)
+    views.legend(ax, loc="upper left", bbox_to_anchor=(1, 1))
     return fig
 
 

@@ -331,7 +331,7 @@ for ax, layers in zip(all_axes, shown.values(), strict=True):
     for label, layer in layers.items():
         views.draw(ax, layer, label=label)
     ax.set(xlim=(-0.12, 0.33), ylim=(-0.3, 0.3))
-    views.legend(ax, loc="lower left", fontsize=9)
+    views.legend(ax, loc="lower left")
 views.show(fig, "Two scans: a concave corner between its walls, a convex one seen from outside.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
@@ -448,7 +448,7 @@ def at_once(step):
             named = {"label": "_"} if isinstance(layer, Points) else {}
             views.draw(ax, layer, zorder=4 if layer.name == "robot" else 2, **named)
         ax.set(xlim=(-0.65, 1.45), ylim=(-1.5, 0.6))
-        views.legend(ax, loc="lower center", ncols=2, fontsize=9)
+        views.legend(ax, loc="lower center", ncols=2)
     return fig
 
 
@@ -486,8 +486,8 @@ fig, ax = views.curves(
     "One drive, four estimates",
     size=(8, 4),
 )
-ax.axhline(100 * LOST, color=views.COLOURS["guide"])
-views.show(fig, "Errors of four estimates over a drive, and the limit of 12 cm.")
+ax.axhline(100 * LOST, color=views.COLOURS["limit"], linestyle="dashdot")
+views.show(fig, f"Errors of four estimates over a drive, and the limit of {100 * LOST:.0f} cm.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # **See:** the grey line is the limit. MAK's curve grows while no known corner is in sight and drops
@@ -511,7 +511,7 @@ def drawn(title_of):
         for layer in (walls, Points("scan", scan_points(drive, way[name]))):
             views.draw(ax, layer)
         ax.set(xlim=(-0.65, 1.45), ylim=(-1.25, 0.6))
-        views.legend(ax, loc="lower center", ncols=2, fontsize=9)
+        views.legend(ax, loc="lower center", ncols=2)
     return fig
 
 

@@ -262,13 +262,11 @@ for name, mirrors in {"naive": True, "corrected": False}.items():
     _, R_wall = best_motion(*looks, mirrors)
     ends = carried(R_wall, inside).reshape(-1, 4)
     views.draw(ax, Segments(name, ends), label=f"carried with det {np.linalg.det(R_wall):+.0f}")
-ax.legend(loc="lower right")
-views.show(
-    fig, "With det −1 robot and chest lie behind the wall, mirrored; with det +1 in front of it."
-)
+views.legend(ax, loc="lower right")
+views.show(fig, "Mirrored, robot and chest lie behind the wall; turned, in front of it.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** orange, the better fit of the wall, by 0.7 mm; and the robot with the chest of drawers at
+# **See:** red, the better fit of the wall, by 0.7 mm; and the robot with the chest of drawers at
 # its left stands inside out *behind* it, the chest at its right. Blue, the mended R: the wall fits
 # all but as well, and nothing has moved. A long wall is the everyday case: across it there is only
 # noise, and noise does not know left from right.
@@ -465,9 +463,7 @@ def pictures(source, matcher):
 
 # %% slideshow={"slide_type": "fragment"}
 fig = pictures(simulation("polygon", np.random.default_rng(1)), point_to_point)
-views.show(
-    fig, "Naive map of true odometry: sharp. The map after plain ICP: walls doubled by 3 cm."
-)
+views.show(fig, "Naive map of true odometry: sharp. The map after plain ICP: walls doubled.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # **See:** plain ICP makes it *worse*. Look at the lower walls on the right: they are twice as
@@ -710,7 +706,8 @@ fig, _ = views.side_by_side(
     },
     size=(6.4, 3),
 )
-views.show(fig, "As printed: two polygons, turned against each other by 45°. Mended: one polygon.")
+apart = abs(np.degrees(printed[2] - mended[-1][2]))
+views.show(fig, f"As printed: two polygons, turned by {apart:.0f}°. Mended: one polygon.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # **See:** the first motion is lost, all that follows hangs on the wrong place, and the second scan
@@ -768,9 +765,8 @@ for name, matcher in patient.items():
 fig, _ = views.cells(
     basins, metres, turns, "place off by [m]", "heading off by [°]", size=(8.5, 3.6)
 )
-views.show(
-    fig, "Plain ICP comes home up to about 45°, match(search=0) up to 30°, match from everywhere."
-)
+shares = ", ".join(f"{name} {np.mean(table):.0%}" for name, table in basins.items())
+views.show(fig, f"Who comes home from how far, a table each; from all places: {shares}.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # **See:** left, the basin of plain ICP: it forgives a metre, but hardly more than 45°. In the
@@ -893,7 +889,7 @@ shown = {
 }
 fig, (ax, _) = views.side_by_side(shown, size=(7.2, 3.3))
 ax.set(xlim=(-3, 3), ylim=(-2.4, 2.4))
-views.show(fig, "The same two walls twice, covered by both scans; the robot stands 60 cm farther.")
+views.show(fig, "The same two walls twice, covered by both scans; the robot stands farther on.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # **See:** both pictures fit, to the noise. No one could say which is right: two straight walls look

@@ -31,6 +31,7 @@ import sympy as sp
 from scipy.spatial import cKDTree
 
 from slamlab import estimators, sources, views, worlds
+from slamlab.devices.clock import SimulatedClock
 from slamlab.devices.emir import Calibration, commands
 from slamlab.devices.emir.frames import COMMAND, Framer, checksum, frame
 from slamlab.devices.emir.wheel_odometry import Odometry
@@ -314,7 +315,8 @@ fits = {
 }
 title = "the second look over the first, by odometry"
 fig, ax = views.curves(fronts, fits, "front mounted at [°]", "misfit [cm]", title, (5.5, 3.2))
-views.show(fig, "One curve has a deep notch at 0°; the other stays high everywhere.")
+notch = fronts[np.argmin(fits["clockwise"])]
+views.show(fig, f"One curve has a deep notch at {notch}°; the other stays high everywhere.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # **See:** one sign and one front fit, all else does not. The notch says "clockwise, front at 0°",
@@ -771,10 +773,10 @@ LIDAR_PORT = None  # such as "/dev/ttyUSB0" or "COM3"
 EMIR_PORT = None  # such as "/dev/rfcomm0" or "COM12"
 
 
-def robot(rng, calibration=None):
+def robot(rng, calibration=None, clock=None):
     """Lidar and eMIR as a source of readings: yours, or emulated ones in the room."""
     if EMIR_PORT is None:
-        return EmulatedDevices(worlds.room(), rng, calibration)
+        return EmulatedDevices(worlds.room(), rng, calibration, clock)
     return devices(f"{LIDAR_PORT or ''},{EMIR_PORT}", calibration)
 
 
@@ -813,7 +815,8 @@ def counts_of(emir, order, *argument):
     return np.array([unwrapped(column)[-1] for column in np.transpose(seen)])
 
 
-with robot(np.random.default_rng(7)) as source:
+# emulators need not keep you waiting: for them it is simulated time that passes
+with robot(np.random.default_rng(7), clock=SimulatedClock()) as source:
     emulated = getattr(source, "bench", None)
     marks = [emulated and emulated.body.pose]
     counts = [counts_of(source.emir, source.emir.translate, 1.0, 100)]

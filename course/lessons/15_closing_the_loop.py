@@ -92,7 +92,7 @@ def maps(shown, size, where="center"):
     for ax, layers in zip(all_axes, shown.values(), strict=True):
         for layer in layers:
             views.draw(ax, layer, label=LABELS.get(type(layer)))
-        views.legend(ax, loc=where, fontsize=9)
+        views.legend(ax, loc=where)
     return fig
 
 
@@ -306,10 +306,10 @@ for ax, found in zip(all_axes, matched_pairs.values(), strict=True):
         views.draw(ax, claimed, label=label)
     views.draw(ax, Points("scan", 1e3 * e[:, :2]), label="e", markersize=7)
     ax.set(xlabel="x of e [mm]", ylabel="y of e [mm]")
-views.legend(all_axes[0], loc="upper right", fontsize=9)
+views.legend(all_axes[0], loc="upper right")
 views.show(
     fig,
-    "Errors of 60 matches at four turns, and two ellipses: that of e turns with them, the other "
+    "Errors of matches at four turns, and two ellipses: that of e turns with them, the other "
     "stays as it was.",
 )
 
@@ -722,7 +722,7 @@ costs = {
 }
 fig, ax = views.curves(x, costs, "χ² of an edge", "cost", "What an edge may ask for", (5.6, 3))
 views.show(
-    fig, "A straight line; a curve that bends at 11 and levels off near 34; a falling weight."
+    fig, f"A straight line; a curve that levels off near {max(costs['robust: ρ']):.0f}; a weight."
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}

@@ -4,9 +4,9 @@ import html
 from dataclasses import dataclass
 
 import ipywidgets
-from IPython.display import DisplayHandle, display
 
 from slamlab.coursework import progress_records
+from slamlab.displays import show_bundle, show_controls
 
 
 @dataclass(frozen=True)
@@ -31,19 +31,22 @@ class Question:
 
     def __init__(self, id, text, judge):
         self.id, self._judge = id, judge
-        self._text, self._told = text, DisplayHandle()
+        self._text = text
+        self._told = None  # the display of what is said, once it is shown
 
-    def show(self, controls, words):
-        """Show text, controls and an empty place for the reason.
+    def show(self, *controls):
+        """Show text, controls with one that opens the answer, and an empty place for the reason.
 
         Parameters
         ----------
-        controls : Widget
-        words : str, what stands for the controls where there are none
+        controls : Widgets
         """
-        display({"text/markdown": self._text, "text/plain": self._text}, raw=True)
-        display((controls._repr_mimebundle_() or {}) | {"text/plain": words}, raw=True)
-        self._told.display({"text/html": "", "text/plain": ""}, raw=True)
+        tell = ipywidgets.Button(description="show me", tooltip="open the answer without guessing")
+        tell.on_click(lambda _: self.tell())
+        row = ipywidgets.HBox([*controls, tell], layout=ipywidgets.Layout(flex_flow="row wrap"))
+        show_bundle({"text/markdown": self._text, "text/plain": self._text})
+        show_controls(row, "Run this cell to answer.")
+        self._told = show_bundle({"text/html": "", "text/plain": ""})
 
     def answer(self, given):
         """Take an answer: say what is to be said of it, and keep it in the progress.
@@ -99,7 +102,7 @@ def ask_choice(id, text, choices, right):
         )
         button.on_click(lambda _, letter=letter: question.answer(letter))
         buttons.append(button)
-    question.show(_row(question, *buttons), "Run this cell to answer.")
+    question.show(*buttons)
     return question
 
 
@@ -142,11 +145,5 @@ def ask_number(id, text, right, tolerance, unit, reason, wrong):
     )
     button = ipywidgets.Button(description="answer", tooltip="say whether this is right")
     button.on_click(lambda _: question.answer(field.value))
-    question.show(_row(question, field, button), "Run this cell to answer.")
+    question.show(field, button)
     return question
-
-
-def _row(question, *controls):
-    show = ipywidgets.Button(description="show me", tooltip="open the answer without guessing")
-    show.on_click(lambda _: question.tell())
-    return ipywidgets.HBox([*controls, show], layout=ipywidgets.Layout(flex_flow="row wrap"))

@@ -203,7 +203,7 @@ def picture(result, naive=None):
     Figure
     """
     from slamlab.layers import Ellipses, Grid, Points, Poses
-    from slamlab.views import COLOURS, draw, legend, panels
+    from slamlab.views import COLOURS, draw, legend_below, panels
 
     layers = [] if naive is result.estimator else result.estimator.layers()
     groups = {"naive": [], "corrected": []}
@@ -223,7 +223,7 @@ def picture(result, naive=None):
                 COLOURS["robot"] if what == "track" else COLOURS.get(layer.name, COLOURS[title])
             )
             draw(ax, layer, label=f"{title} {what}", color=colour)
-        legend(ax, loc="best", fontsize="small")
+    legend_below(fig)
     fig.suptitle(result.source.name.rpartition("/")[2])
     return fig
 

@@ -1,5 +1,6 @@
 """Writing files so that being killed at any moment loses nothing."""
 
+import json
 import os
 import tempfile
 from datetime import datetime
@@ -30,6 +31,21 @@ def write(path: Path, data: bytes):
     except BaseException:
         Path(name).unlink(missing_ok=True)
         raise
+
+
+def json_bytes(value) -> bytes:
+    """JSON as Jupyter writes a notebook: a line an entry, keys in order.
+
+    Parameters
+    ----------
+    value : what JSON can hold
+
+    Returns
+    -------
+    bytes
+    """
+    text = json.dumps(value, indent=1, sort_keys=True, ensure_ascii=False)
+    return text.encode() + b"\n"
 
 
 def keep_beside(path: Path, now: datetime) -> Path:

@@ -6,7 +6,7 @@ from datetime import datetime
 from pathlib import Path
 
 from slamlab.coursework import originals
-from slamlab.coursework.file_writing import keep_beside, write
+from slamlab.coursework.file_writing import json_bytes, keep_beside, write
 from slamlab.coursework.originals import OriginalError
 
 _TASK = re.compile(r"(\d\d)-[a-z0-9-]+")
@@ -66,10 +66,10 @@ def _name(folder, what):
     task = _TASK.fullmatch(what)
     number = _NUMBER.fullmatch(what)
     if task:
-        pattern = rf"exercises/(ex)?{task[1]}_.*"
+        pattern = rf"exercises/ex{task[1]}_.*"
     elif number:
         lesson = (number[1] or "").lower().startswith("lesson")
-        kind = "notebooks/" if lesson or int(number[2]) == 0 else "exercises/(ex)?"
+        kind = "notebooks/" if lesson or int(number[2]) == 0 else "exercises/ex"
         pattern = rf"{kind}{number[2].zfill(2)}_.*"
     else:
         pattern = re.escape(_relative(folder, what))
@@ -107,7 +107,7 @@ def _with_task_reset(path, handed_out, task):
         if cell["id"] not in places:  # deleted: it comes back in front of its check
             check = [place for place, each in enumerate(own) if each.get("id") == task]
             own.insert(check[0] if check else len(own), cell)
-    return dump(notebook)
+    return json_bytes(notebook)
 
 
 def task_cells(cells, task):
@@ -122,9 +122,3 @@ def task_cells(cells, task):
                 return found
             found = []
     return []
-
-
-def dump(notebook):
-    """A notebook as Jupyter writes it; bytes."""
-    text = json.dumps(notebook, indent=1, sort_keys=True, ensure_ascii=False)
-    return text.encode() + b"\n"

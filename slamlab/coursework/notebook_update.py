@@ -8,9 +8,8 @@ from datetime import datetime
 from pathlib import Path
 
 from slamlab.coursework import originals
-from slamlab.coursework.file_writing import keep_beside, write
+from slamlab.coursework.file_writing import json_bytes, keep_beside, write
 from slamlab.coursework.folder import FOLDERS
-from slamlab.coursework.notebook_reset import dump
 from slamlab.coursework.originals import OriginalError
 
 SWAPPED = ("slamlab", "labextension", "docs")  # folders that nobody writes in
@@ -81,7 +80,7 @@ def _bring(folder, new, name, now):
         return f"{name}: replaced"
     merged = merge_answers(json.loads(own), json.loads(old) if old else None, json.loads(target))
     kept = keep_beside(path, now)
-    write(path, dump(merged))
+    write(path, json_bytes(merged))
     return f"{name}: new text around your cells; the old one is {kept.name}"
 
 

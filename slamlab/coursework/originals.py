@@ -60,21 +60,6 @@ def original(folder: Path, name: str) -> bytes:
     return _git(folder, "show", f"HEAD:./{name}")
 
 
-def pack(notebooks, target):
-    """Pack notebooks as the archive of handed-out forms.
-
-    Parameters
-    ----------
-    notebooks : dict, name such as "exercises/ex04_models_and_jacobians.ipynb" to bytes
-    target : Path or file to write
-    """
-    with zipfile.ZipFile(target, "w", zipfile.ZIP_DEFLATED) as packed:
-        for name in sorted(notebooks):
-            info = zipfile.ZipInfo(name, (1980, 1, 1, 0, 0, 0))
-            info.compress_type = zipfile.ZIP_DEFLATED
-            packed.writestr(info, notebooks[name])
-
-
 def _opened(archive):
     try:
         return zipfile.ZipFile(archive)

@@ -8,7 +8,8 @@ from pathlib import Path
 from slamlab.exercises import catalogue
 from slamlab.exercises.report import number
 
-_QUESTION = re.compile(r"\bask\(\s*\"([^\"\\]+)\"")
+QUESTION = re.compile(r"\bask\(\s*\"([^\"\\]+)\"")
+"""A question and its id, where a cell asks it."""
 
 
 @dataclass(frozen=True)
@@ -130,7 +131,7 @@ def _questions(folder, id):
             continue
         for cell in cells:
             if cell.get("cell_type") == "code":
-                asked += _QUESTION.findall("".join(cell.get("source", "")))
+                asked += QUESTION.findall("".join(cell.get("source", "")))
     return asked
 
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from filelock import FileLock, Timeout
 
-from slamlab.coursework.file_writing import keep_beside, write
+from slamlab.coursework.file_writing import json_bytes, keep_beside, write
 
 NAME = "progress.json"
 KINDS = ("tasks", "questions", "validated", "minutes")
@@ -56,8 +56,7 @@ def change(folder: Path, change, now: datetime) -> bool:
                 keep_beside(path, now)
             progress = read(folder)
             change(progress)
-            text = json.dumps(progress, indent=1, sort_keys=True, ensure_ascii=False)
-            write(path, text.encode() + b"\n")
+            write(path, json_bytes(progress))
     except (OSError, Timeout):
         return False
     return True

@@ -15,7 +15,7 @@ import numpy as np
 from slamlab.exercises.drives import StudentError
 from slamlab.exercises.drives.arguments import CHANGED
 from slamlab.exercises.families import FAMILIES
-from slamlab.exercises.law import Diagnosis
+from slamlab.exercises.law import Mistake
 from slamlab.exercises.outputs import measured
 
 SIZE = 4  # numbers of a fingerprint
@@ -107,7 +107,7 @@ def of_answers(task, sets, answers):
     return {part: fingerprint(arrays) for part, arrays in parts.items()}
 
 
-def recognise(task, sets, answers) -> Diagnosis | None:
+def recognise(task, sets, answers) -> Mistake | None:
     """Name the mistake that explains an answer, if exactly one does.
 
     One program that computes all of it explains it best; else one that computes all that is wrong.
@@ -120,7 +120,7 @@ def recognise(task, sets, answers) -> Diagnosis | None:
 
     Returns
     -------
-    Diagnosis or None
+    Mistake or None
     """
     table = tables(task.id[:2]).get(task.id)
     if table is None:
@@ -134,7 +134,7 @@ def recognise(task, sets, answers) -> Diagnosis | None:
     for programs in explaining:
         label = _single(set(table.labels[programs].tolist()), table.slips)
         if label:
-            return Diagnosis(table.names[label], table.hints[label], lambda inputs, outputs: True)
+            return Mistake(table.names[label], table.hints[label])
     return None
 
 

@@ -44,19 +44,29 @@ class Law:
 
 
 @dataclass(frozen=True)
-class Diagnosis:
-    """A diagnosis: a mistake that is told by a property of random or tolerated outputs, and its
-    hint.
+class Mistake:
+    """A mistake that has a name.
 
     Parameters
     ----------
     name : str, short; stands in the record
     hint : str, for the student
-    matches : (inputs, outputs) -> bool
     """
 
     name: str
     hint: str
+
+
+@dataclass(frozen=True)
+class Diagnosis(Mistake):
+    """A diagnosis: a mistake that is told by a property of random or tolerated outputs.
+
+    Parameters
+    ----------
+    name, hint : as of :class:`Mistake`
+    matches : (inputs, outputs) -> bool
+    """
+
     matches: Callable[[Arrays, Arrays], bool]
 
 

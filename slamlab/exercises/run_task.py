@@ -48,7 +48,7 @@ def run_and_tell(task: Task, namespace) -> Verdict:
         verdict, answers = task.failed(error.kind, error.message), {MAIN: error}
     if verdict.full or verdict.kind not in (None, "raised", "malformed"):
         return verdict
-    verdict = recognised(task, verdict, lambda *_: answers)
+    verdict = recognised(task, verdict, lambda: (sets, answers))
     tried = {name: sets[name] for name in answers}
     try:
         case = cases.smallest(task, tried, answers, lambda inputs: task.drive(namespace, inputs))
@@ -57,14 +57,15 @@ def run_and_tell(task: Task, namespace) -> Verdict:
     return replace(verdict, case=case_text.format_case(task, case)) if case else verdict
 
 
-def recognised(task: Task, verdict: Verdict, run) -> Verdict:
+def recognised(task: Task, verdict: Verdict, answered) -> Verdict:
     """A verdict with the mistake that its fingerprint tells.
 
     Parameters
     ----------
     task : Task
     verdict : Verdict, not full
-    run : (task, sets) -> answers, asked for the open inputs; raises StudentError
+    answered : () -> sets, answers, of the open inputs; called where they are needed only, may
+        raise StudentError
 
     Returns
     -------
@@ -73,9 +74,8 @@ def recognised(task: Task, verdict: Verdict, run) -> Verdict:
     unknown = task.id not in fingerprints.tables(task.id[:2])
     if unknown or verdict.problem or verdict.diagnosis == IDLE.name:
         return verdict
-    sets = task.draw(OPEN_SEED)
     try:
-        mistake = fingerprints.recognise(task, sets, run(task, sets))
+        mistake = fingerprints.recognise(task, *answered())
     except StudentError:
         return verdict
     return replace(verdict, diagnosis=mistake.name, hint=mistake.hint) if mistake else verdict

@@ -14,7 +14,7 @@ from slamlab.exercises import outputs as came_back
 from slamlab.exercises.drives import Arrays, Drive, StudentError
 from slamlab.exercises.drives.arguments import CHANGED
 from slamlab.exercises.drives.input_sets import MAIN
-from slamlab.exercises.law import Diagnosis, Law
+from slamlab.exercises.law import Diagnosis, Law, Mistake
 from slamlab.exercises.verdict import LawResult, Verdict
 
 OPEN_SEED = b"open"
@@ -30,13 +30,12 @@ UNCHANGED = Law(
 )
 """The law of every task: what is changed in place spoils what the caller does next."""
 
-IDLE = Diagnosis(
+IDLE = Mistake(
     "idle",
     "Whatever it is given, the answer is the same or is one of the arguments: compute it from "
     "them.",
-    lambda inputs, outputs: True,
 )
-"""Diagnosis of a degenerate answer: it may obey a law by chance, but earns nothing."""
+"""What is said of a degenerate answer: it may obey a law by chance, but earns nothing."""
 
 
 @dataclass(frozen=True)

@@ -14,6 +14,7 @@ from pathlib import Path
 from slamlab import __version__
 from slamlab.exercises.drives import StudentError
 from slamlab.exercises.run_task import recognised
+from slamlab.exercises.task import OPEN_SEED
 from slamlab.grading import similarity, submissions
 from slamlab.grading.gradebook_rows import attempt_key
 from slamlab.grading.records import Record
@@ -120,11 +121,16 @@ def judge_notebook(
     begin, judging = time.monotonic(), time.thread_time()
     with WorkerClient(exercise, cells, workers.start, stop, unredacted) as client:
 
-        def judge_one(task):
+        def answered(task, seed):
             sets = task.draw(seed)
+            return sets, client.run(task, sets)
+
+        def judge_one(task):
             try:
-                verdict = task.judge(sets, client.run(task, sets))
-                return verdict if verdict.full else recognised(task, verdict, client.run)
+                verdict = task.judge(*answered(task, seed))
+                if verdict.full:
+                    return verdict
+                return recognised(task, verdict, lambda: answered(task, OPEN_SEED))
             except StudentError as error:
                 return task.failed(error.kind, error.message)
 

@@ -5,6 +5,8 @@ of the normal. Unlike y = a x + b it has no walls it cannot fit.
 """
 
 from dataclasses import dataclass
+from functools import cached_property
+from math import atan2, cos, sin
 
 import numpy as np
 
@@ -12,6 +14,7 @@ from slamlab.geometry import wrap
 from slamlab.models.parameters import SensorModel
 
 ITERATIONS = 3  # of Gauss-Newton
+MAX_EMPTY = 3  # empty beams in a row that happen by chance; more are a view into nothing
 
 
 @dataclass(frozen=True)
@@ -62,6 +65,11 @@ class Cloud:
     def __len__(self):
         return len(self.ranges)
 
+    @cached_property
+    def after_gap(self):
+        """(n,) bool, whether more than a few empty beams lie between a point and the one before."""
+        return np.diff(self.beams, prepend=self.beams[-1:]) % self.total > MAX_EMPTY + 1
+
     def variance(self, rows, rho, alpha):
         """(k,) measurement noise: variance of some points across a line they may lie on [m²].
 
@@ -108,8 +116,8 @@ def total_least_squares(points):
     """
     centre = points.mean(axis=0)
     x, y = (points - centre).T
-    alpha = 0.5 * np.arctan2(-2 * (x @ y), y @ y - x @ x)
-    return _outward(centre[0] * np.cos(alpha) + centre[1] * np.sin(alpha), alpha)
+    alpha = 0.5 * atan2(-2 * (x @ y), y @ y - x @ x)
+    return _outward(centre[0] * cos(alpha) + centre[1] * sin(alpha), alpha)
 
 
 def fit(cloud, rows, start=None, iterations=ITERATIONS):
@@ -133,7 +141,7 @@ def fit(cloud, rows, start=None, iterations=ITERATIONS):
     points, angles = cloud.points[rows], cloud.angles[rows]
     rho, alpha = total_least_squares(points) if start is None else start
     for _ in range(iterations):
-        c, s = np.cos(alpha), np.sin(alpha)
+        c, s = cos(alpha), sin(alpha)
         weights = 1 / cloud.variance(rows, rho, alpha)
         residual, t = points @ [c, s] - rho, points @ [-s, c]
         total, first, second = weights.sum(), weights @ t, weights @ (t * t)

@@ -7,6 +7,7 @@ scan (region growing). This stands where others split and merge (split-and-merge
 """
 
 from dataclasses import dataclass
+from math import cos, sin
 
 import numpy as np
 from scipy.special import gammainc
@@ -15,7 +16,6 @@ from slamlab.landmarks.line_fitting import Line, cloud, fit, total_least_squares
 
 MAX_MISSES = 40  # hypotheses in a row that fail, then the search ends
 MAX_GROWTHS = 8  # rounds of region growing at most; three or four reach the ends
-MAX_EMPTY = 3  # empty beams in a row that happen by chance; more are a view into nothing
 
 
 @dataclass(frozen=True)
@@ -119,11 +119,11 @@ def _sample_and_grow(points, free, rng, ransac):
 
 
 def _residuals(points, rows, line, ransac):
-    """Residuals of points to a line (ρ, α), outward, and the inlier band: (k,), (k,) [m]."""
+    """Residuals of points to a line (ρ, α), outward, and the inlier band: (k,), (k,) or () [m]."""
     rho, alpha = line
-    residuals = points.points[rows] @ [np.cos(alpha), np.sin(alpha)] - rho
+    residuals = points.points[rows] @ [cos(alpha), sin(alpha)] - rho
     if ransac.band is not None:
-        return residuals, np.full(len(residuals), ransac.band)
+        return residuals, ransac.band
     return residuals, ransac.sigmas * np.sqrt(points.variance(rows, rho, alpha))
 
 
@@ -134,24 +134,29 @@ def _connected_inliers(points, free, line, seed, ransac):
     back, it may go on.
     """
     beams = points.beams
-    opposite = np.searchsorted(beams, (beams[seed] + points.total // 2) % points.total)
-    order = np.roll(np.arange(len(points)), -opposite)  # no wall reaches round the robot to there
-    residuals, band = _residuals(points, order, line, ransac)
-    inliers = np.flatnonzero((np.abs(residuals) <= band) & free[order])
+    residuals, band = _residuals(points, slice(None), line, ransac)
+    inliers = ((np.abs(residuals) <= band) & free).nonzero()[0]
     if not len(inliers):
         return inliers
-    along = points.points[order] @ [-np.sin(line[1]), np.cos(line[1])]
-    through = residuals > band
-    through[1:] |= np.diff(beams[order]) % points.total > MAX_EMPTY + 1
-    views = np.diff(np.cumsum(through)[inliers])  # one may be noise
-    apart, neighbours = np.abs(np.diff(along[inliers])), np.diff(inliers) == 1
+    # begin opposite to the seed: no wall reaches round the robot to there
+    opposite = beams.searchsorted((beams[seed] + points.total // 2) % points.total)
+    turned = inliers.searchsorted(opposite)
+    inliers = np.concatenate([inliers[turned:], inliers[:turned]])
+    places = inliers - opposite  # in that order
+    places[places < 0] += len(points)
+    along = points.points[inliers] @ [-sin(line[1]), cos(line[1])]
+    through = ((residuals > band) | points.after_gap).cumsum()
+    views = np.diff(through[inliers])  # one may be noise
+    if 0 < turned < len(inliers):
+        views[len(inliers) - turned - 1] += through[-1]  # from the last beam to the first
+    apart, neighbours = np.abs(np.diff(along)), np.diff(places) == 1
     holes = (views > 1) | (views == 1) & (apart > ransac.gap)
-    ends = np.flatnonzero(holes | ~neighbours & (apart > ransac.max_hidden * ransac.gap))
-    nearest = np.abs(inliers - (seed - opposite) % len(points)).argmin()
-    k = np.searchsorted(ends, nearest)
+    ends = (holes | ~neighbours & (apart > ransac.max_hidden * ransac.gap)).nonzero()[0]
+    nearest = np.abs(places - (seed - opposite) % len(points)).argmin()
+    k = ends.searchsorted(nearest)
     first = ends[k - 1] + 1 if k else 0
     last = ends[k] + 1 if k < len(ends) else len(inliers)
-    return order[inliers[first:last]]
+    return inliers[first:last]
 
 
 def _refit_without_shared(points, found, ransac):

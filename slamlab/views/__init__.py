@@ -4,7 +4,8 @@ Drawing takes plain arrays (:mod:`slamlab.layers`): it computes no pose and no m
 
 Read in this order:
 
-- ``figures``: axes and colours; ``layer_drawing``: what an estimator shows
+- ``colours``: one a meaning; ``figures``: axes; ``layer_drawing``: what an estimator shows
+- ``legends``, ``arrangement``, ``covering``: where legends and titles find room
 - ``figure_faults``: what a machine can see to be wrong with a figure
 - ``showing``, ``figure_words``: how a figure reaches a notebook, and its alternative text
 - ``comparison``, ``box_drawing``, ``heatmap``, ``interval_plot``, ``loglog_plot``, ``matrix_plot``,
@@ -14,12 +15,14 @@ Read in this order:
 """
 
 from slamlab.views import box_drawing as boxes
+from slamlab.views.colours import COLOURS, SERIES
 from slamlab.views.comparison import cloud, curves
-from slamlab.views.figures import COLOURS, axes, chart, panels
+from slamlab.views.figures import axes, band, chart, panels
 from slamlab.views.frame_sketches import frames
 from slamlab.views.heatmap import cells
 from slamlab.views.interval_plot import shares
-from slamlab.views.layer_drawing import draw, legend, legend_below, side_by_side
+from slamlab.views.layer_drawing import colour, draw, side_by_side
+from slamlab.views.legends import legend, legend_below
 from slamlab.views.linked_map import linked
 from slamlab.views.live import apart, live
 from slamlab.views.loglog_plot import growth
@@ -31,12 +34,15 @@ from slamlab.views.sliders import explore
 
 __all__ = [
     "COLOURS",
+    "SERIES",
     "apart",
     "axes",
+    "band",
     "boxes",
     "cells",
     "chart",
     "cloud",
+    "colour",
     "correlation",
     "curves",
     "draw",

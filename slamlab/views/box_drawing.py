@@ -3,7 +3,9 @@
 import numpy as np
 from matplotlib.patches import Polygon, Wedge
 
-from slamlab.views.figures import COLOURS, axes, chart
+from slamlab.views.colours import COLOURS
+from slamlab.views.figures import axes, chart
+from slamlab.views.legends import legend
 
 # told apart without colour, too
 _EDGE_STYLES = {
@@ -130,5 +132,5 @@ def intervals(rows, truth, xlabel, ylabel, title=None, last=1, size=(6, 4)):
         ax.plot([low, high], [height, height], color=colour, linewidth=6 if result else 3)
     ax.axvline(truth, color=COLOURS["truth"], linestyle="dashed", label="truth")
     ax.set_yticks(heights, labels=list(rows))
-    ax.legend(loc="upper right")
+    legend(ax)
     return fig, ax

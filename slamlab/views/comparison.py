@@ -6,16 +6,10 @@ import numpy as np
 from matplotlib.ticker import MaxNLocator
 
 from slamlab.layers import Ellipses, Points
-from slamlab.views.figures import COLOURS, axes, chart
-from slamlab.views.layer_drawing import draw, legend
-
-# told apart without colour, too
-_STYLES = [
-    (COLOURS["corrected"], "solid"),
-    (COLOURS["naive"], "dashed"),
-    (COLOURS["landmark"], "dotted"),
-    (COLOURS["truth"], "dashdot"),
-]
+from slamlab.views.colours import COLOURS, SERIES
+from slamlab.views.figures import axes, chart
+from slamlab.views.layer_drawing import draw
+from slamlab.views.legends import legend
 
 
 def cloud(samples, covariances, title=None, size=(6, 4.5), layers=()):
@@ -35,11 +29,10 @@ def cloud(samples, covariances, title=None, size=(6, 4.5), layers=()):
     """
     fig, ax = axes(title, size)
     xy = np.asarray(samples, dtype=float)[:, :2]
-    draw(ax, Points("samples", xy), color=COLOURS["scan"], alpha=0.6)
-    for (name, covariance), (colour, line) in zip(covariances.items(), cycle(_STYLES)):
+    draw(ax, Points("samples", xy), color=COLOURS["scan"])
+    for (name, covariance), (colour, line, _) in zip(covariances.items(), cycle(SERIES)):
         ellipse = Ellipses(name, [xy.mean(axis=0)], [np.asarray(covariance)[:2, :2]])
-        _, entry = draw(ax, ellipse, color=colour, linewidth=2, linestyle=line)
-        entry.set_linestyle(line)
+        draw(ax, ellipse, color=colour, linewidth=2, linestyle=line)
     for layer in layers:
         draw(ax, layer, color=COLOURS["truth"])
     legend(ax)
@@ -64,7 +57,7 @@ def curves(x, ys, xlabel, ylabel, title=None, size=(6, 3.5)):
     fig, ax = chart(xlabel, ylabel, title, size)
     if np.asarray(x).dtype.kind in "iu":
         ax.xaxis.set_major_locator(MaxNLocator(integer=True))
-    for (name, y), (colour, line) in zip(ys.items(), cycle(_STYLES)):
+    for (name, y), (colour, line, _) in zip(ys.items(), cycle(SERIES)):
         ax.plot(x, y, color=colour, linestyle=line, linewidth=2, label=name)
-    ax.legend()
+    legend(ax)
     return fig, ax

@@ -3,11 +3,13 @@
 import os
 from pathlib import Path
 
-from matplotlib.collections import Collection
-from matplotlib.lines import Line2D
 from matplotlib.text import Text
 
+from slamlab.views.colours import contrast
+from slamlab.views.covering import lying_in
+
 LETTERS = 9.0  # the least size of letters [pt of the page]
+LETTER_CONTRAST = 4.5  # the least contrast of letters to the paper [1]
 REPORT = "SLAMLAB_FIGURE_FAULTS"  # a file to which the faults of all figures shown are added
 
 
@@ -27,7 +29,12 @@ def faults(fig):
     shown = [text for text in fig.findobj(Text) if text.get_visible() and text.get_text().strip()]
     small = sorted({text.get_text() for text in shown if text.get_fontsize() < LETTERS})
     found += [f"letters smaller than {LETTERS:g} pt: {text!r}" for text in small[:3]]
+    found += [f"letters too faint: {text!r}" for text in _faint(fig, shown)]
     whole = fig.bbox.padded(1.0)
+    legends = [*fig.legends, *(ax.get_legend() for ax in fig.axes if ax.get_legend())]
+    for box in (legend.get_window_extent() for legend in legends):
+        if not (whole.contains(*box.min) and whole.contains(*box.max)):
+            found.append("cut off at the edge: a legend")
     for text in _headings(fig):
         box = text.get_window_extent()
         if text in shown and not (whole.contains(*box.min) and whole.contains(*box.max)):
@@ -56,40 +63,16 @@ def _headings(fig):
 
 
 def _covered(fig):
-    """Names of the artists that lie under a legend."""
+    """Names of what lies under a legend."""
     for ax in fig.axes:
         legends = [legend for legend in (ax.get_legend(), *fig.legends) if legend is not None]
         for legend in legends:
-            box = legend.get_window_extent()
-            for artist in (*ax.lines, *ax.collections):
-                if artist.get_visible() and _lies_in(artist, ax, box):
-                    yield artist.get_label().lstrip("_")
+            yield from lying_in(ax, legend.get_window_extent())
 
 
-def _lies_in(artist, ax, box):
-    inside = box.intersection(box, ax.get_window_extent())
-    if inside is None:
-        return False
-    if isinstance(artist, Line2D):
-        points = artist.get_transform().transform(artist.get_xydata())
-        if artist.get_linestyle() not in ("None", "none", "", " "):
-            path = artist.get_path().transformed(artist.get_transform())
-            return bool(path.intersects_bbox(inside, filled=False))
-        return _any_within(points, inside)
-    if isinstance(artist, Collection):
-        offsets = artist.get_offset_transform().transform(artist.get_offsets())
-        if len(artist.get_paths()) > 1 or len(offsets) <= 1:
-            shift = artist.get_transform()
-            return any(
-                path.transformed(shift).intersects_bbox(inside, filled=False)
-                for path in artist.get_paths()
-                if len(path.vertices)
-            )
-        return _any_within(offsets, inside)
-    return False
-
-
-def _any_within(points, box):
-    (left, bottom), (right, top) = box.min, box.max
-    x, y = points.T
-    return bool(((x > left) & (x < right) & (y > bottom) & (y < top)).any())
+def _faint(fig, shown):
+    """Letters that can hardly be read on the paper; what stands on a picture is not judged."""
+    on_pictures = {text for ax in fig.axes if ax.images for text in ax.texts}
+    for text in shown:
+        if text not in on_pictures and contrast(text.get_color()) < LETTER_CONTRAST:
+            yield text.get_text()

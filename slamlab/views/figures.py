@@ -1,30 +1,14 @@
-"""Figures of Matplotlib: axes in metres, panels, charts, and the colours of the whole course.
+"""Figures of Matplotlib: axes in metres, panels, charts, bands.
 
 Figures are made without pyplot: nothing global is opened, so nothing has to be closed.
 """
 
-import textwrap
-
 from matplotlib.figure import Figure
 
-# colour-blind-safe palette of Okabe and Ito: told apart with any kind of colour vision
-COLOURS = {
-    "truth": "#000000",
-    "walls": "#7F7F7F",
-    "naive": "#D55E00",
-    "corrected": "#0072B2",
-    "map": "#0072B2",
-    "scan": "#E69F00",
-    "robot": "#CC79A7",
-    "landmark": "#009E73",
-    "box": "#56B4E9",
-    "sample": "#CC79A7",
-    "guide": "#BBBBBB",
-    "perpendicular": "#BBBBBB",
-}
+from slamlab.views.colours import COLOURS, SERIES
 
 CSS_DPI = 96  # pixels of a page to an inch of print: text of 10 pt is as large as 10 pt of a page
-LETTER = 9  # pixels of the page to a letter of a title, about
+CYCLE = [colour for colour, *_ in SERIES]  # of what is drawn without a colour
 UNIT = 80  # pixels of a page to a unit of a figure's size; 11 units fill a notebook's page
 
 
@@ -79,10 +63,9 @@ def panels(titles, size=(11, 5), shared=True):
         # "datalim" would fight with shared axes
         ax.set_aspect("equal", adjustable="box" if shared else "datalim")
         ax.set(xlabel="x [m]", ylabel="y [m]")
+        ax.set_prop_cycle(color=CYCLE)
         if title:
-            # beside others it must not run into theirs
-            letters = max(12, int(UNIT * size[0] / len(titles) / LETTER))
-            ax.set_title(textwrap.fill(title, letters))
+            ax.set_title(title)
     return fig, list(all_axes)
 
 
@@ -102,8 +85,27 @@ def chart(xlabel, ylabel, title=None, size=(6, 4)):
     fig = empty(size)
     ax = fig.subplots()
     ax.set(xlabel=xlabel, ylabel=ylabel)
+    ax.set_prop_cycle(color=CYCLE)
     ax.grid(color=COLOURS["guide"], linewidth=0.5)
     ax.set_axisbelow(True)
     if title:
         ax.set_title(title)
     return fig, ax
+
+
+def band(ax, low, high, label=None):
+    """Draw a band across a chart, such as where 95 % of values lie: shaded, its edges drawn.
+
+    Parameters
+    ----------
+    ax : Axes
+    low, high : float, of the axis that points up
+    label : str or None, for the legend
+
+    Returns
+    -------
+    Patch
+    """
+    edge = {"edgecolor": COLOURS["limit"], "linestyle": "dashdot", "linewidth": 0.8}
+    # the shade may be faint, for the edges are not
+    return ax.axhspan(low, high, facecolor=f"{COLOURS['guide']}66", label=label, zorder=0, **edge)

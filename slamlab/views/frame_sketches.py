@@ -3,7 +3,8 @@
 import numpy as np
 from matplotlib.patches import Arc
 
-from slamlab.views.figures import COLOURS, axes
+from slamlab.views.colours import COLOURS
+from slamlab.views.figures import axes
 
 
 def frames(pose, landmark):
@@ -58,4 +59,4 @@ def _angle(ax, x, y, radius, start, end, name, colour):
     ax.add_patch(Arc((x, y), 2 * radius, 2 * radius, theta1=low, theta2=high, color=colour, lw=1.5))
     middle = (start + end) / 2
     place = (x + 1.12 * radius * np.cos(middle), y + 1.12 * radius * np.sin(middle))
-    ax.annotate(name, place, ha="center", va="center", color=colour, fontsize="large")
+    ax.annotate(name, place, ha="center", va="center", fontsize="large")

@@ -3,10 +3,9 @@
 import numpy as np
 from matplotlib.ticker import PercentFormatter
 
-from slamlab.views.figures import COLOURS, chart
-
-# told apart without colour, too
-_MARKERS = [("o", COLOURS["corrected"]), ("s", COLOURS["naive"]), ("^", COLOURS["landmark"])]
+from slamlab.views.colours import SERIES
+from slamlab.views.figures import chart
+from slamlab.views.legends import legend
 
 
 def shares(rows, xlabel, title=None, size=(7, 3.2)):
@@ -27,7 +26,7 @@ def shares(rows, xlabel, title=None, size=(7, 3.2)):
     fig, ax = chart(xlabel, "", title, size)
     labels = list(next(iter(rows.values())))
     apart = 0.5 / len(rows)  # names share a row
-    for k, ((name, of), (marker, colour)) in enumerate(zip(rows.items(), _MARKERS, strict=False)):
+    for k, ((name, of), (colour, _, marker)) in enumerate(zip(rows.items(), SERIES, strict=False)):
         share, low, high = np.array([of[label] for label in labels], dtype=float).T
         y = np.arange(len(labels)) + (k - (len(rows) - 1) / 2) * apart
         ax.errorbar(
@@ -43,5 +42,5 @@ def shares(rows, xlabel, title=None, size=(7, 3.2)):
     ax.set(xlim=(-0.02, 1.02), ylim=(len(labels) - 0.5, -0.5))
     ax.xaxis.set_major_formatter(PercentFormatter(1.0))
     if len(rows) > 1:
-        ax.legend()
+        legend(ax)
     return fig, ax

@@ -3,13 +3,14 @@
 import numpy as np
 from matplotlib.collections import LineCollection, PatchCollection
 from matplotlib.colors import to_rgb
-from matplotlib.lines import Line2D
 from matplotlib.markers import MarkerStyle
 from matplotlib.patches import Ellipse, Rectangle
 from matplotlib.path import Path
 
 from slamlab.layers import Boxes, Ellipses, Grid, Points, Poses, Samples, Segments
-from slamlab.views.figures import COLOURS, panels
+from slamlab.views.colours import COLOURS, DASHES
+from slamlab.views.figures import panels
+from slamlab.views.legends import legend_below
 
 # 95 % of a Gaussian in the plane lies within this Mahalanobis distance: √χ²(0.95, 2)
 SIGMAS_95 = 2.4477
@@ -26,7 +27,7 @@ def draw(ax, layer, **style):
     Parameters
     ----------
     ax : Axes
-    layer : a layer of :mod:`slamlab.layers`; its name gives the colour and the legend's entry
+    layer : a layer of :mod:`slamlab.layers`; its name gives colour, dash and the legend's entry
     style : what matplotlib's artists take, such as ``color``, ``label``, ``alpha``
 
     Returns
@@ -39,7 +40,10 @@ def draw(ax, layer, **style):
     """
     usual = colour(layer)
     function, _ = _KINDS[type(layer)]
-    artists = function(ax, layer, {"color": usual, "label": layer.name} | style)
+    usual = {"color": usual, "label": layer.name}
+    if layer.name in DASHES and type(layer) in _OF_LINES:
+        usual["linestyle"] = DASHES[layer.name]
+    artists = function(ax, layer, usual | style)
     ax.autoscale_view()
     return artists
 
@@ -84,54 +88,6 @@ def side_by_side(layers_by_title, size=(11, 5), shared=True):
             draw(ax, layer)
     legend_below(fig)
     return fig, all_axes
-
-
-def legend_below(fig):
-    """Legend of all panels below them, where it covers nothing; one entry a label, made anew.
-
-    Parameters
-    ----------
-    fig : Figure, laid out by constraints, as all figures of the course
-
-    Returns
-    -------
-    Legend
-    """
-    for old in list(fig.legends):
-        old.remove()
-    entries = {}
-    for ax in fig.axes:
-        for handle, label in zip(*ax.get_legend_handles_labels(), strict=True):
-            entries.setdefault(label, handle)
-    columns = max(1, int(fig.get_figwidth() / 1.3))
-    made = fig.legend(
-        entries.values(), entries, loc="outside lower center", ncols=columns, frameon=False
-    )
-    _enlarge(made)
-    return made
-
-
-def legend(ax, **style):
-    """Legend with enlarged markers, so that the small points of a map can be seen.
-
-    Parameters
-    ----------
-    ax : Axes
-    style : what matplotlib's legend takes, such as ``loc``
-
-    Returns
-    -------
-    Legend
-    """
-    made = ax.legend(**style)
-    _enlarge(made)
-    return made
-
-
-def _enlarge(legend):
-    for handle in legend.legend_handles:
-        if isinstance(handle, Line2D) and handle.get_marker() == ".":
-            handle.set_markersize(8)
 
 
 def _points(ax, layer, style):
@@ -193,7 +149,8 @@ def _outlined(ax, patches, style):
     colour, label = style.pop("color"), style.pop("label")
     outline = {"facecolor": "none", "edgecolor": colour, "linewidth": 1.2} | style
     collection = ax.add_collection(PatchCollection(patches, match_original=False, **outline))
-    return [collection, *ax.plot([], [], color=colour, label=label)]
+    dash = style.get("linestyle", "solid")
+    return [collection, *ax.plot([], [], color=colour, label=label, linestyle=dash)]
 
 
 def _samples(ax, layer, style):
@@ -201,7 +158,7 @@ def _samples(ax, layer, style):
     # the mean sample is as large as a dot of a scan; zero weight would vanish
     areas = 2.0 + 6.0 * weights * len(weights)
     return [
-        ax.scatter(rows[:, 0], rows[:, 1], s=areas, **({"linewidths": 0, "alpha": 0.6} | style))
+        ax.scatter(rows[:, 0], rows[:, 1], s=areas, **({"linewidths": 0, "alpha": 0.8} | style))
     ]
 
 
@@ -243,3 +200,4 @@ _KINDS = {
     Samples: (_samples, "sample"),
     Grid: (_grid, "map"),
 }
+_OF_LINES = (Segments, Poses, Ellipses, Boxes)

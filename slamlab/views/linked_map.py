@@ -2,6 +2,7 @@
 
 from matplotlib.patches import Rectangle
 
+from slamlab.views.colours import COLOURS
 from slamlab.views.figures import panels
 from slamlab.views.layer_drawing import draw
 from slamlab.views.matrix_plot import correlation
@@ -39,9 +40,11 @@ def linked(landmarks, rho, names, marked=0, layers=(), room=None, view=None, siz
     beside = [(rho[own, k] + rho[own + 1, k + 1]) / 2 for k in range(3, len(rho), 2)]
     alike = {"cmap": picture.get_cmap(), "norm": picture.norm}
     left.scatter(
-        *landmarks.T, c=beside, s=50, edgecolors="black", linewidths=0.7, zorder=3, **alike
+        *landmarks.T, c=beside, s=50, edgecolors=COLOURS["truth"], linewidths=0.7, zorder=3, **alike
     )
-    left.scatter(*landmarks[marked], s=260, marker="s", facecolors="none", edgecolors="black")
+    left.scatter(
+        *landmarks[marked], s=260, marker="s", facecolors="none", edgecolors=COLOURS["truth"]
+    )
     for name, place in zip(names, landmarks, strict=True):
         left.annotate(str(name), place, xytext=(7, 5), textcoords="offset points", fontsize=9)
     if view is not None:
@@ -52,7 +55,9 @@ def linked(landmarks, rho, names, marked=0, layers=(), room=None, view=None, siz
         ((-0.5, own - 0.5), len(rho), 2),
         ((own - 0.5, -0.5), 2, len(rho)),
     ]:
-        right.add_patch(Rectangle(corner, wide, high, fill=False, edgecolor="black", linewidth=1.5))
+        right.add_patch(
+            Rectangle(corner, wide, high, fill=False, edgecolor=COLOURS["truth"], linewidth=1.5)
+        )
     bar = fig.colorbar(picture, ax=right, shrink=0.8, label="correlation")
     bar.set_ticks([-1, 0, 1])
     return fig, (left, right)

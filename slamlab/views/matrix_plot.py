@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from slamlab.views.figures import COLOURS, chart
+from slamlab.views.colours import COLOURS
+from slamlab.views.figures import chart
 
 # ends that stay apart with any kind of colour vision; nothing is white
 _COLOUR_MAP = "RdBu_r"

@@ -12,7 +12,7 @@ _playing = None  # the one player that runs: a cell that is run again leaves non
 
 
 class Player:
-    """Play button of a slider: pressed, the slider steps to its end; pressed again, it stops.
+    """Play button of a slider: pressed, the slider steps to its end; pressed again, it pauses.
 
     Each step waits until the one before is drawn, so nothing piles up behind a slow drawing.
 
@@ -43,7 +43,7 @@ class Player:
     def _start(self):
         global _playing
         _playing = self
-        self.button.description = "■ stop"
+        self.button.description = "❚❚ pause"
         self._task = asyncio.get_running_loop().create_task(self._run())
 
     async def _run(self):

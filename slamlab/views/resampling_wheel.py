@@ -4,7 +4,8 @@ from itertools import cycle
 
 import numpy as np
 
-from slamlab.views.figures import COLOURS, chart
+from slamlab.views.colours import COLOURS
+from slamlab.views.figures import chart
 
 _SHADES = ("#9AD0F5", "#F5D49A")  # neighbours differ in lightness, too
 

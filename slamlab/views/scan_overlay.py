@@ -5,6 +5,7 @@ import numpy as np
 from slamlab.layers import Points, Segments
 from slamlab.views.figures import axes
 from slamlab.views.layer_drawing import draw
+from slamlab.views.legends import legend
 
 
 def overlay(first, second, pairs=None, title=None, size=(5, 3.8)):
@@ -28,5 +29,5 @@ def overlay(first, second, pairs=None, title=None, size=(5, 3.8)):
         draw(ax, Segments("pairs", lines), linewidth=0.8)
     draw(ax, Points("map", first), label="first scan", markersize=5)
     draw(ax, Points("scan", second), label="second scan", markersize=5)
-    ax.legend(loc="upper left")
+    legend(ax, loc="upper left")
     return fig, ax

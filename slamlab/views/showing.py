@@ -4,9 +4,10 @@ import base64
 import html
 import io
 
-from IPython.display import DisplayHandle, display
 from PIL import Image
 
+from slamlab.displays import show_bundle, show_controls
+from slamlab.views.arrangement import arrange
 from slamlab.views.figure_faults import report
 from slamlab.views.figure_words import words
 
@@ -18,6 +19,7 @@ def png(fig):
     """Render a figure as PNG with a palette of 96 colours; deterministic: always the same bytes.
 
     A figure of lines and letters looks the same in a palette and takes well under half the bytes.
+    Titles and legends are first given room (:func:`slamlab.views.arrangement.arrange`).
 
     Parameters
     ----------
@@ -27,6 +29,7 @@ def png(fig):
     -------
     bytes
     """
+    arrange(fig)
     drawn, small = io.BytesIO(), io.BytesIO()
     fig.savefig(drawn, format="png", dpi=SHARPNESS * fig.dpi)
     picture = Image.open(drawn).convert("RGB")
@@ -57,14 +60,15 @@ def bundle(fig, alt, data=None):
     """
     if not isinstance(alt, str) or not alt.strip():
         raise ValueError("a figure needs alt text: say in a sentence what it shows")
+    picture = base64.b64encode(png(fig)).decode()
     report(fig, alt)
     alt = f"{words(fig)} {alt.strip()}"
     wide = round(fig.get_figwidth() * fig.dpi)
-    picture = (
+    shown = (
         f'<img class="slamlab-figure" width="{wide}" alt="{html.escape(alt)}" '
-        f'src="data:image/png;base64,{base64.b64encode(png(fig)).decode()}">'
+        f'src="data:image/png;base64,{picture}">'
     )
-    return {"text/html": picture + _table(data), "text/plain": alt}
+    return {"text/html": shown + _table(data), "text/plain": alt}
 
 
 def show(fig, alt, data=None):
@@ -83,33 +87,17 @@ def show(fig, alt, data=None):
     show_bundle(bundle(fig, alt, data))
 
 
-def show_bundle(shown):
-    """Show what :func:`bundle` made as a display of its own, where another can take its place.
-
-    Beside no widget a file keeps it, and shows it when it is opened again.
-
-    Parameters
-    ----------
-    shown : dict by MIME type
-
-    Returns
-    -------
-    DisplayHandle : its ``update(bundle, raw=True)`` shows another bundle instead
-    """
-    handle = DisplayHandle()
-    handle.display(shown, raw=True)
-    return handle
-
-
-def show_controls(box):
-    """Show a widget, or words where none can be: in a file, or where no kernel runs.
+def show_beside_still(box, still):
+    """Show a widget that draws in the browser, and its still picture for where it cannot.
 
     Parameters
     ----------
     box : Widget
+    still : dict by MIME type, what :func:`bundle` made
     """
-    words = {"text/plain": "Run this cell for its controls."}
-    display((box._repr_mimebundle_() or {}) | words, raw=True)
+    show_controls(box)
+    # kept by a file; beside the drawing that lives it is not seen (widgets.css)
+    show_bundle(still | {"text/html": f'<div class="slamlab-still">{still["text/html"]}</div>'})
 
 
 def _table(data):

@@ -2,11 +2,13 @@
 
 import html
 import traceback
+from math import ceil, log10
 
 import ipywidgets
 
+from slamlab.displays import show_bundle, show_controls
 from slamlab.views import play_button
-from slamlab.views.showing import bundle, show_bundle, show_controls
+from slamlab.views.showing import bundle
 
 
 def explore(draw, alt, play=None, **controls):
@@ -67,7 +69,7 @@ def _control(name, given):
         given.style = {"description_width": "initial"}
         return given
     label = name.replace("_", " ")
-    layout = {"width": "28em"}
+    layout = {"width": "28em", "max_width": "100%"}
     style = {"description_width": "initial"}
     if isinstance(given, bool):
         return ipywidgets.Checkbox(given, description=label, indent=False)
@@ -77,11 +79,15 @@ def _control(name, given):
         whole = all(isinstance(bound, int) for bound in given)
         slider = ipywidgets.IntSlider if whole else ipywidgets.FloatSlider
         low, high, first = given
+        step = 1 if whole else (high - low) / 100
+        # as many decimals as tell one step from the next
+        decimals = max(2, ceil(-log10(step))) if step else 2
         return slider(
             min=low,
             max=high,
             value=first,
-            step=1 if whole else (high - low) / 100,
+            step=step,
+            readout_format="d" if whole else f".{decimals}f",
             description=label,
             layout=layout,
             style=style,

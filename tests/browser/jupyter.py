@@ -15,7 +15,24 @@ from tests.patience import PATIENCE
 
 CHROMIUMS = ("chromium", "chromium-browser", "google-chrome", "chrome")
 EXTENSION = ROOT / "labextension" / "share" / "jupyter"
+IDLE = ".jp-Notebook-ExecutionIndicator[data-status=idle]"  # out of sight on a narrow page
 NEWS = "@jupyterlab/apputils-extension:announcements"
+
+
+# what was never in sight is not laid out
+LOOK_THROUGH = """async () => {
+    for (const cell of document.querySelectorAll(".jp-Cell")) {
+        cell.scrollIntoView();
+        for (let frame = 0; frame < 2; frame++) await new Promise(requestAnimationFrame);
+    }
+}"""
+
+# how many cells still wait or run, once that is another number than before
+CELLS_LEFT = """(before) => {
+    const prompts = [...document.querySelectorAll(".jp-InputPrompt")];
+    const left = prompts.filter((prompt) => prompt.textContent == "[*]:").length;
+    return left != before && [left];
+}"""
 
 
 class Unavailable(Exception):
@@ -120,8 +137,7 @@ class Visit:
         path = notebook if "/" in notebook else f"notebooks/{notebook}"
         self.page.goto(self.address.format(path))
         self.page.wait_for_selector(".jp-NotebookPanel .jp-Cell")
-        idle = ".jp-Notebook-ExecutionIndicator[data-status=idle]"  # out of sight on a narrow page
-        self.page.wait_for_selector(idle, state="attached")
+        self.page.wait_for_selector(IDLE, state="attached")
         # the indicator is idle before there is a kernel, too
         self.page.get_by_text("| Idle").wait_for(state="attached")
 
@@ -131,14 +147,12 @@ class Visit:
         self.page.locator(".lm-Menu-item").get_by_text("Run All Cells", exact=True).click()
 
     def run_all_and_wait(self):
-        """Run all cells and wait until the last one is done."""
+        """Run all cells and wait until the last one is done: as long as one after another ends."""
         self.run_all()
-        self.page.wait_for_selector(".jp-Notebook-ExecutionIndicator[data-status=busy]")
-        self.page.wait_for_function(
-            """() => [...document.querySelectorAll(".jp-InputPrompt")]
-                .every((prompt) => prompt.textContent != "[*]:")"""
-        )
-        self.page.wait_for_selector(".jp-Notebook-ExecutionIndicator[data-status=idle]")
+        left = 0
+        while (left := self.page.wait_for_function(CELLS_LEFT, arg=left).json_value()[0]) > 0:
+            pass
+        self.page.wait_for_selector(IDLE, state="attached")
 
     def save(self):
         """Save the notebook and wait until it is."""
@@ -157,6 +171,7 @@ class Visit:
         -------
         list of str, the rule and where it is broken
         """
+        self.page.evaluate(LOOK_THROUGH)
         found = Axe().run(
             self.page,
             context=".jp-NotebookPanel .jp-WindowedPanel-viewport",
@@ -167,6 +182,8 @@ class Visit:
             for broken in found.response["violations"]
             if broken["impact"] in ("serious", "critical")
             for node in broken["nodes"]
+            # a long line of code scrolls with the cursor, once Enter has led into the editor
+            if "cm-scroller" not in node["html"]
         ]
 
     def run(self, cell):

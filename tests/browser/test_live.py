@@ -104,3 +104,11 @@ def test_the_benchmark_measures_clicks_and_pictures_and_no_frame_waits_for_anoth
     assert [row["value"] for row in found if row["unit"] == "1"] == [1, 1]
     assert visit.errors == []
     assert visit.abroad == []
+
+
+def test_the_picture_without_javascript_of_its_own_has_an_alternative_text(visit):
+    visit.open(NAME)
+    visit.run_all_and_wait()
+    picture = visit.page.locator(".jp-Cell").nth(3).locator("img")
+    picture.wait_for()
+    assert picture.get_attribute("alt") == "A room."

@@ -7,8 +7,10 @@ from datetime import datetime
 
 import pytest
 
+from course.pack import write_zip
 from slamlab.cli import main
 from slamlab.coursework import file_writing, notebook_reset, notebook_update, originals
+from slamlab.coursework.file_writing import json_bytes
 from slamlab.coursework.notebook_reset import ResetError
 
 NOW = datetime(2026, 11, 22, 18, 0, 0)
@@ -45,12 +47,12 @@ def handed_out(edition=1):
 
 def make_pack(place, edition=1):
     for name, notebook in ((EXERCISE, handed_out(edition)), (LESSON, handed_out(1))):
-        file_writing.write(place / name, notebook_reset.dump(notebook))
+        file_writing.write(place / name, json_bytes(notebook))
     file_writing.write(place / "lab.py", b"edition %d" % edition)
     file_writing.write(place / "slamlab" / "new.py", b"edition %d" % edition)
     (place / originals.ARCHIVE).parent.mkdir(parents=True)
     names = (EXERCISE, LESSON)
-    originals.pack({n: (place / n).read_bytes() for n in names}, place / originals.ARCHIVE)
+    write_zip(place / originals.ARCHIVE, {n: (place / n).read_bytes() for n in names})
     return place
 
 
@@ -74,7 +76,7 @@ def solve(path):
     notebook = json.loads(path.read_bytes())
     sources(notebook)["a"]["source"] = "def a():\n    return 1"
     notebook["cells"].insert(3, code("mine", "print(a())"))
-    file_writing.write(path, notebook_reset.dump(notebook))
+    file_writing.write(path, json_bytes(notebook))
 
 
 def sources(notebook):
@@ -94,7 +96,7 @@ def test_an_exercise_is_as_it_was_handed_out_and_the_old_form_is_kept(course, wh
     monkeypatch.chdir(course)
     before = (course / EXERCISE).read_bytes()
     told = notebook_reset.reset(course, what, NOW)
-    assert (course / EXERCISE).read_bytes() == notebook_reset.dump(handed_out())
+    assert (course / EXERCISE).read_bytes() == json_bytes(handed_out())
     (copy,) = kept(course)
     assert copy.read_bytes() == before
     assert any(copy.name in line for line in told)
@@ -103,7 +105,7 @@ def test_an_exercise_is_as_it_was_handed_out_and_the_old_form_is_kept(course, wh
 def test_a_lesson_is_reset_and_a_lost_file_comes_back(course):
     (course / LESSON).unlink()
     notebook_reset.reset(course, "lesson-04", NOW)
-    assert (course / LESSON).read_bytes() == notebook_reset.dump(handed_out())
+    assert (course / LESSON).read_bytes() == json_bytes(handed_out())
     assert kept(course) == []
 
 
@@ -117,7 +119,7 @@ def test_a_tasks_cells_are_reset_and_all_else_stays(course):
 def test_a_tasks_cell_that_was_deleted_comes_back_before_its_check(course):
     notebook = json.loads((course / EXERCISE).read_bytes())
     notebook["cells"] = [c for c in notebook["cells"] if c["id"] not in ("a", "a2", "b")]
-    file_writing.write(course / EXERCISE, notebook_reset.dump(notebook))
+    file_writing.write(course / EXERCISE, json_bytes(notebook))
     notebook_reset.reset(course, "04-a", NOW)
     assert list(read(course / EXERCISE)) == ["head", "mine", "a", "a2", "04-a", "04-b"]
 
@@ -161,7 +163,7 @@ def test_a_clone_is_reset_from_git(tmp_path):
         subprocess.run(["git", *words], cwd=folder, check=True)
     solve(folder / EXERCISE)
     notebook_reset.reset(folder, "04", NOW)
-    assert (folder / EXERCISE).read_bytes() == notebook_reset.dump(handed_out())
+    assert (folder / EXERCISE).read_bytes() == json_bytes(handed_out())
 
 
 class Killed(BaseException):
@@ -225,7 +227,7 @@ def test_a_new_edition_replaces_what_was_not_touched_and_keeps_answers(course, t
     assert [path.read_bytes() for path in kept(course)] == [before]
     assert (course / "lab.py").read_bytes() == b"edition 2"
     assert (course / "slamlab" / "new.py").read_bytes() == b"edition 2"
-    assert originals.original(course, EXERCISE) == notebook_reset.dump(handed_out(2))
+    assert originals.original(course, EXERCISE) == json_bytes(handed_out(2))
     assert list(course.glob(".update-*")) == []
 
 
@@ -233,11 +235,11 @@ def test_an_exercise_that_was_only_run_counts_as_untouched(tmp_path):
     course = make_pack(tmp_path / "course")
     notebook = json.loads((course / EXERCISE).read_bytes())
     notebook["cells"][1] |= {"outputs": [{"output_type": "stream"}], "execution_count": 1}
-    file_writing.write(course / EXERCISE, notebook_reset.dump(notebook))
+    file_writing.write(course / EXERCISE, json_bytes(notebook))
     notebook_update.update(
         course, zipped(make_pack(tmp_path / "new", 2), tmp_path / "new.zip"), NOW
     )
-    assert (course / EXERCISE).read_bytes() == notebook_reset.dump(handed_out(2))
+    assert (course / EXERCISE).read_bytes() == json_bytes(handed_out(2))
 
 
 def test_an_update_killed_at_any_moment_loses_nothing_and_can_be_run_again(

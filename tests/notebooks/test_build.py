@@ -208,6 +208,7 @@ def test_what_an_exercise_may_not_hold_is_told_with_its_line(root, cell, says):
         ('# %% name="a"\nprint(1)\n\n# %% name="a"\nprint(2)', "'a' stands already in line 8"),
         ("# %%\nprint(1);", "a semicolon"),
         ("# %%\n%matplotlib inline", "no plain Python"),
+        ('# %%\nstyle = {"color": "red"}', "the colour 'red' is typed"),
         ("# %%\n" + "x = 1\n" * 31, "31 lines of code"),
         ("# %%\ndef f():\n    ### BEGIN SOLUTION\n    return 1\n    ### END SOLUTION", "solution"),
         ("# %% [raw]\n# text", "a raw cell"),
@@ -290,7 +291,7 @@ def test_what_is_stored_tells_nothing_of_the_machine_and_says_how_a_widget_lives
     # %%
     import pathlib, sys
     import ipywidgets
-    from slamlab.views.showing import show_controls
+    from slamlab.displays import show_controls
 
     print(pathlib.Path.home() / "x")
     print(sys.prefix)

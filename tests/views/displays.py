@@ -25,6 +25,6 @@ class Displays:
                 assert raw
                 outer.bundles[self.place] = data
 
-        monkeypatch.setattr("slamlab.views.showing.DisplayHandle", Handle)
+        monkeypatch.setattr("slamlab.displays.DisplayHandle", Handle)
         for module in modules:
             monkeypatch.setattr(module, "show_controls", self.widgets.append)

@@ -8,6 +8,7 @@ import ipywidgets
 import pytest
 
 from slamlab import estimators, sources, views
+from slamlab.views import showing
 from slamlab.views.live import live_view, run_loop
 from slamlab.views.live.canvas import LiveCanvas
 from slamlab.views.live.controls import Controls
@@ -23,7 +24,7 @@ ALT = "a robot walks"
 @pytest.fixture
 def stored(monkeypatch):
     """What the cells of a notebook store."""
-    yield Displays(monkeypatch, live_view)
+    yield Displays(monkeypatch, showing)
     run_loop.stop()
 
 
@@ -259,3 +260,12 @@ def test_speed_and_seed_reach_the_loop(controls):
     asyncio.run(watch())
     assert (controls.loop.speed, controls.loop.seed, controls.loop.pair.count) == (50, 7, 2)
     assert isinstance(controls.seed, ipywidgets.BoundedIntText)
+
+
+def test_the_browser_tells_whether_its_reader_asked_for_reduced_motion(stored):
+    pair = Stepper(Walk, lambda source: Sum())
+    pair.reset(0)
+    canvas = RunLoop(pair, Heard()).screen
+    for told, calm in (({"calm": True}, True), ({"calm": "yes"}, False), ({}, False)):
+        canvas.say(kind="ready", **told)
+        assert canvas.calm is calm

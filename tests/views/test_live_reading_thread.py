@@ -12,6 +12,7 @@ from slamlab import views
 from slamlab.files.errors import SourceError
 from slamlab.readings import Reading
 from slamlab.sources.base import Source
+from slamlab.views import showing
 from slamlab.views.live import cell_views, live_view, reading_thread, run_loop
 from slamlab.views.live.run_loop import RunLoop
 from slamlab.views.live.stepper import Stepper
@@ -299,7 +300,7 @@ def test_a_robot_with_a_clock_of_its_own_is_told_at_once_and_stands_when_nobody_
 @pytest.fixture
 def cell(monkeypatch):
     """Tell which cell runs, and what it displays."""
-    displays = Displays(monkeypatch, live_view)
+    displays = Displays(monkeypatch, showing)
     monkeypatch.setattr(live_view, "FIRST_READING_TIMEOUT", 0.001)
     monkeypatch.setattr(cell_views, "_shown", {})
 

@@ -250,6 +250,20 @@ def test_it_begins_when_the_browser_is_ready_and_again_after_that_is_opened_anew
     asyncio.run(watch())
 
 
+def test_nothing_begins_by_itself_for_who_asked_for_reduced_motion():
+    loop = made(lambda rng: Walk(rng, 10_000), at_once=False, play=True)
+    loop.screen.calm = True
+
+    async def watch():
+        loop.screen.open()
+        assert loop.screen.scenes and not loop.running
+        loop.run()
+        assert loop.running
+        loop.pause()
+
+    asyncio.run(watch())
+
+
 def test_truth_those_beside_and_the_note_are_shown_as_far_as_it_went():
     loop = made(beside={"naive": lambda source: Sum()}, note=lambda pair: "all is well")
 

@@ -72,7 +72,7 @@ def test_a_press_draws_every_step_once_to_the_end_and_then_rests(buttons):
 
     async def watch():
         buttons[0].click()
-        assert buttons[0].description == "■ stop"
+        assert buttons[0].description == "❚❚ pause"
         await until(idle)
 
     asyncio.run(watch())
@@ -92,7 +92,7 @@ def test_played_from_its_end_it_starts_again(buttons):
     assert film.steps == [3, 0, 1, 2, 3]
 
 
-def test_a_second_press_stops_and_a_third_goes_on_from_there(buttons):
+def test_a_second_press_pauses_and_a_third_goes_on_from_there(buttons):
     film = Film()
     views.explore(film, ALT, play="step", step=(0, 9, 0))
 

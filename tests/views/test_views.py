@@ -337,11 +337,11 @@ def test_it_sees_nothing_wrong_where_nothing_is():
 def test_faults_are_told_where_they_are_asked_for(stored, tmp_path, monkeypatch):
     monkeypatch.setenv(figure_faults.REPORT, str(tmp_path / "faults.txt"))
     fig, ax = views.chart("x [m]", "y [m]")
-    ax.plot([0, 1], [0, 1], label="a line")
-    ax.legend(loc="center")
+    ax.plot([0, 1], [0, 1])
+    ax.text(0.5, 0.2, "faint", color=views.COLOURS["guide"])
     views.show(fig, ALT)
     told = (tmp_path / "faults.txt").read_text().splitlines()
-    assert told == [f"{ALT} → the legend covers a line"]
+    assert told == [f"{ALT} → letters too faint: 'faint'"]
     assert known_faults.compare(told, []) == [f"new: {told[0]}"]
     assert len(known_faults.compare([], told)) == 1
     assert known_faults.compare(told, told) == []

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from slamlab import worlds
-from slamlab.views import sliders
+from slamlab.views import showing, sliders
 from slamlab.views.editor import WorldEditor, edit_world, editor_view
 from slamlab.views.editor.edit_history import replace_numbers
 from slamlab.worlds.files import parse
@@ -114,7 +114,7 @@ def test_undo_takes_back_a_drag_as_a_whole_and_each_change_of_the_rows(editor):
 @pytest.fixture
 def shown(monkeypatch):
     """Show an editor as a cell does; its board, rows, undo button and message."""
-    displays = Displays(monkeypatch, editor_view, sliders)
+    displays = Displays(monkeypatch, showing, sliders)
     connected, boxes = editor_view._connect, []
 
     def kept(*given):

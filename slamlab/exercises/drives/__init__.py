@@ -93,7 +93,8 @@ def shaped(value, what, shape):
     """
     array = numbers(value, what)
     if array.shape != shape:
-        raise StudentError("malformed", f"{what} has shape {array.shape}, expected {shape}")
+        turned = " (transposed?)" if array.shape == shape[::-1] else ""
+        raise StudentError("malformed", f"{what} has shape {array.shape}, expected {shape}{turned}")
     return array
 
 

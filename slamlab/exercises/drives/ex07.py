@@ -2,13 +2,14 @@
 
 import numpy as np
 
-from slamlab.exercises.drives import Drive, StudentError, numbers, rows
+from slamlab.exercises.drives import Drive, rows
+from slamlab.exercises.drives.several_values import parts, stacked
 
 
 def _updates(functions, inputs):
     """Both covariances of every pair of observations."""
     calls = [functions["two_updates"](*row) for row in rows(inputs)]
-    return _stacked(calls, "two_updates", {"P_first": (7, 7), "P_both": (7, 7)})
+    return stacked(calls, "two_updates", {"P_first": (7, 7), "P_both": (7, 7)})
 
 
 def _heard(functions, inputs):
@@ -18,13 +19,13 @@ def _heard(functions, inputs):
         functions["hearsay"](x, P, seen.astype(int), x_seen, P_seen)
         for x, P, seen, x_seen, P_seen in rows(inputs)
     ]
-    return _stacked(calls, "hearsay", {"x": (size,), "P": (size, size)})
+    return stacked(calls, "hearsay", {"x": (size,), "P": (size, size)})
 
 
 def _fused(functions, inputs):
     """Every pair of estimates fused."""
     calls = [functions["fuse"](*row) for row in rows(inputs)]
-    return _stacked(calls, "fuse", {"x": (2,), "P": (2, 2)})
+    return stacked(calls, "fuse", {"x": (2,), "P": (2, 2)})
 
 
 def _walked(functions, inputs):
@@ -36,7 +37,7 @@ def _walked(functions, inputs):
     for run in range(len(inputs["x"])):
         x, P = inputs["x"][run].copy(), inputs["P"][run].copy()
         for d, q, i, z, r in zip(*(inputs[name][run].tolist() for name in names), strict=True):
-            x, P = _parts(step(x, P, d, q, int(i), z, r), "step", shapes)
+            x, P = parts(step(x, P, d, q, int(i), z, r), "step", shapes)
         ends.append((x, P))
     x, P = zip(*ends, strict=True)
     return {"x": np.array(x), "P": np.array(P)}
@@ -49,31 +50,7 @@ def _surveyed(functions, inputs):
         functions["survey"](morning.astype(int), door.astype(int), z, sigma)
         for morning, door, z, sigma in rows(inputs)
     ]
-    return _stacked(calls, "survey", {"p": (doors,), "P": (doors, doors)})
-
-
-def _stacked(calls, function, shapes):
-    """What calls returned, stacked by name."""
-    found = [_parts(call, function, shapes) for call in calls]
-    return {name: np.array([parts[k] for parts in found]) for k, name in enumerate(shapes)}
-
-
-def _parts(returned, function, shapes):
-    """The arrays that one call returned, of the shapes asked for."""
-    names = ", ".join(shapes)
-    if not isinstance(returned, tuple | list) or len(returned) != len(shapes):
-        raise StudentError("malformed", f"{function} must end with: return {names}")
-    parts = []
-    for value, (name, shape) in zip(returned, shapes.items(), strict=True):
-        part = numbers(value, f"{function}'s {name}")
-        if part.shape != shape:
-            turned = " (transposed?)" if part.shape == shape[::-1] != shape else ""
-            raise StudentError(
-                "malformed",
-                f"{function}'s {name} has shape {part.shape}, expected {shape}{turned}",
-            )
-        parts.append(part)
-    return parts
+    return stacked(calls, "survey", {"p": (doors,), "P": (doors, doors)})
 
 
 DRIVES = {

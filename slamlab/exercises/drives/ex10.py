@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from slamlab.exercises.drives import Drive, StudentError, numbers, rows
+from slamlab.exercises.drives import Drive, rows, shaped
+from slamlab.exercises.drives.several_values import stacked
 
 
 def rings(functions, inputs):
@@ -23,7 +24,7 @@ def rings(functions, inputs):
     """
     found = [functions["ring"](*row) for row in rows(inputs)]
     left = np.array([box is not None for box in found], dtype=float)
-    boxes = [np.zeros(4) if box is None else _sized(box, "ring", 4) for box in found]
+    boxes = [np.zeros(4) if box is None else shaped(box, "ring", (4,)) for box in found]
     return {"left": left, "box": np.array(boxes).reshape(-1, 4)}
 
 
@@ -43,23 +44,8 @@ def looks(functions, inputs):
     ------
     StudentError : "malformed" when a call returns no box and heading
     """
-    found = [_believed(functions["narrow"](*row)) for row in rows(inputs)]
-    return {
-        name: np.array([pair[k] for pair in found]) for k, name in enumerate(("robot", "heading"))
-    }
-
-
-def _believed(result):
-    if not isinstance(result, tuple | list) or len(result) != 2:
-        raise StudentError("malformed", "narrow must end with: return robot, heading")
-    return _sized(result[0], "narrow's robot", 4), _sized(result[1], "narrow's heading", 2)
-
-
-def _sized(value, what, size):
-    array = numbers(value, what)
-    if array.shape != (size,):
-        raise StudentError("malformed", f"{what} has shape {array.shape}, expected ({size},)")
-    return array
+    looked = (functions["narrow"](*row) for row in rows(inputs))
+    return stacked(looked, "narrow", {"robot": (4,), "heading": (2,)})
 
 
 DRIVES = {

@@ -1,4 +1,4 @@
-"""The drive of a whole filter, such as slam_step, over many runs: exercises 06 and 09."""
+"""The drive of a whole filter, such as slam_step, over many runs: exercise 06."""
 
 from traceback import walk_tb
 

@@ -141,8 +141,9 @@ function render({ model, el }) {
     });
     button.addEventListener("pointermove", (event) => {
       if (dragged != made) return;
-      const box = canvas.getBoundingClientRect(), step = event.shiftKey ? FINE_SNAP : SNAP;
-      const x = camera.wx(event.clientX - box.left), y = camera.wy(event.clientY - box.top);
+      const step = event.shiftKey ? FINE_SNAP : SNAP;
+      const [left, top] = onCanvas(canvas, event);
+      const x = camera.wx(left), y = camera.wy(top);
       put(made, [snapped(x, step), snapped(y, step)], edit);
     });
     for (const end of ["pointerup", "pointercancel"]) {

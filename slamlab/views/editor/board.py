@@ -6,7 +6,7 @@ import anywidget
 import numpy as np
 import traitlets
 
-from slamlab.views.figures import COLOURS
+from slamlab.views.colours import COLOURS
 from slamlab.views.live.scripts import script, styles
 
 HERE = Path(__file__).parent

@@ -3,6 +3,7 @@
 import numpy as np
 
 from slamlab.layers import Points, Poses, Segments
+from slamlab.views.colours import COLOURS
 from slamlab.views.figures import axes
 from slamlab.views.layer_drawing import draw
 from slamlab.worlds.files import WorldFileError, parse, text_of
@@ -96,7 +97,7 @@ class WorldEditor:
         draw(ax, Poses("robot", np.zeros(3)))
         if self.error:
             title = f"Not drawn: {self.error}"
-            ax.set_title(title, color="#D55E00", wrap=True, fontsize="medium")
+            ax.set_title(title, color=COLOURS["naive"], wrap=True, fontsize="medium")
         return fig
 
     def _record_change(self, world, text, edit=None):

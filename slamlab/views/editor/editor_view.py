@@ -5,7 +5,7 @@ import html
 import ipywidgets
 
 from slamlab.views.editor.edit_history import WorldEditor
-from slamlab.views.showing import bundle, show_bundle, show_controls
+from slamlab.views.showing import bundle, show_beside_still
 from slamlab.views.sliders import explore
 from slamlab.views.widget_errors import error_line
 
@@ -38,10 +38,7 @@ def edit_world(world, alt, scan=None, dragging=True):
         explore(drawn, alt, rows=rows)
         return editor
     still = bundle(editor.figure(), alt)
-    show_controls(_connect(editor, board, rows))
-    # kept by a file; beside the drawing that can be dragged it is not seen (widgets.css)
-    still["text/html"] = f'<div class="slamlab-still">{still["text/html"]}</div>'
-    show_bundle(still)
+    show_beside_still(_connect(editor, board, rows), still)
     return editor
 
 
@@ -107,4 +104,5 @@ def _connect(editor, board, rows):
 
 
 def _warning(text):
-    return f'<span style="color:#D55E00">{html.escape(text)}</span>'
+    # the page may be light or dark
+    return f'<span style="color:var(--jp-error-color1, #b83a00)">{html.escape(text)}</span>'

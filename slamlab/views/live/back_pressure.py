@@ -19,10 +19,11 @@ class Screen:
     acknowledged : bool; without, a frame counts as drawn after ``frame_period`` seconds
     frame_period : float, from one frame to the next at least [s], limits the frame rate
 
-    ``keys`` says whether keys that are pressed on it reach ``on_key``.
+    ``keys`` says whether keys that are pressed on it reach ``on_key``, ``calm`` whether its reader
+    asked for reduced motion (of the system, by ``prefers-reduced-motion``).
     """
 
-    keys = False
+    keys = calm = False
 
     def __init__(self, acknowledged, frame_period=0.1):
         self.on_ready = self.on_closed = lambda: None

@@ -70,18 +70,16 @@ export default () => {
 
       if (!views.size) {
         const near = ["localhost", "127.0.0.1", "[::1]"].includes(location.hostname);
-        model.send({ kind: "ready", near });
+        const calm = matchMedia("(prefers-reduced-motion: reduce)").matches;
+        model.send({ kind: "ready", near, calm });
       }
       views.add(repaint);
       const resized = new ResizeObserver(repaint);
       resized.observe(canvas);
-      const position = (event) => {
-        const box = canvas.getBoundingClientRect();
-        return [event.clientX - box.left, event.clientY - box.top];
-      };
       canvas.addEventListener("wheel", (event) => {
         event.preventDefault();
-        camera.zoom(Math.exp(-0.0015 * event.deltaY), ...position(event));
+        const [x, y] = onCanvas(canvas, event);
+        camera.zoom(Math.exp(-0.0015 * event.deltaY), x, y);
         repaint();
       }, { passive: false });
       canvas.addEventListener("pointerdown", (event) => {
@@ -92,7 +90,8 @@ export default () => {
       canvas.addEventListener("pointerup", () => { canvas.style.cursor = "grab"; });
       canvas.addEventListener("pointermove", (event) => {
         if (!event.buttons) return;
-        camera.pan(event.movementX, event.movementY);
+        const [, , enlarged] = onCanvas(canvas, event);
+        camera.pan(event.movementX / enlarged, event.movementY / enlarged);
         repaint();
       });
       const fitAll = () => {

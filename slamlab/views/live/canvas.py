@@ -99,7 +99,7 @@ class LiveCanvas(Screen):
         match content.get("kind"):
             case "ready":
                 self._packer.reset()
-                self._browser_ready = True
+                self._browser_ready, self.calm = True, content.get("calm") is True
                 self._min_bytes = MIN_MESSAGE if content.get("near") is True else 0
                 self._client_ready()
             case "gone":

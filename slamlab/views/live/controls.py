@@ -30,7 +30,7 @@ class Controls:
             options=SPEEDS,
             value=min(SPEEDS, key=lambda each: abs(each - loop.speed)),
             description="steps/s",
-            layout={"width": "17em", "margin": "2px 2px 2px 12px"},
+            layout={"width": "17em", "max_width": "100%", "margin": "2px 2px 2px 12px"},
             style={"description_width": "initial"},
         )
         self.seed = ipywidgets.BoundedIntText(
@@ -48,12 +48,12 @@ class Controls:
         self.drive.append(_button("■ stop", "stand still", self._drive_command("stop")))
         self.speed.observe(self._set_speed, "value")
         loop.on_change = self._refresh
-        hint = [ipywidgets.Label(KEYBOARD_HINT)] if loop.screen.keys else []
+        hint = [ipywidgets.HTML(KEYBOARD_HINT)] if loop.screen.keys else []
         self.typed = ipywidgets.Text(
             placeholder=f"{MOVE_LABEL} [m, °] | reset | exit",
             description=MOVE_LABEL,
             continuous_update=False,
-            layout={"width": "25em"},
+            layout={"width": "25em", "max_width": "100%"},
             style={"description_width": "initial"},
         )
         self.answer = ipywidgets.Label()

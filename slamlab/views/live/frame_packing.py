@@ -7,7 +7,7 @@ import numpy as np
 from matplotlib.colors import to_hex
 
 from slamlab.layers import OCCUPIED, Boxes, Ellipses, Grid, Layer, Points, Poses, Samples, Segments
-from slamlab.views.figures import COLOURS
+from slamlab.views.colours import COLOURS
 from slamlab.views.layer_drawing import SIGMAS_95, colour
 
 

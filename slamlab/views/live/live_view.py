@@ -4,15 +4,17 @@ import ipywidgets
 import numpy as np
 
 from slamlab.layers import Points
-from slamlab.views.figures import COLOURS, UNIT, axes
-from slamlab.views.layer_drawing import draw, legend_below
+from slamlab.views.colours import COLOURS
+from slamlab.views.figures import UNIT, axes
+from slamlab.views.layer_drawing import draw
+from slamlab.views.legends import legend_below
 from slamlab.views.live.cell_views import loops_of_this_cell
 from slamlab.views.live.controls import Controls
 from slamlab.views.live.drive_commands import velocities
 from slamlab.views.live.raster import RasterScreen
 from slamlab.views.live.run_loop import RunLoop, stop
 from slamlab.views.live.stepper import Stepper
-from slamlab.views.showing import bundle, show_bundle, show_controls
+from slamlab.views.showing import bundle, show_beside_still
 
 FIRST_READING_TIMEOUT = 3.0  # [s] that a notebook's cell waits for a reading
 
@@ -67,7 +69,7 @@ def live(
     seed : int, what source and estimator are made anew from
     speed : float, steps a second
     tops : (speed, turn rate) that the buttons command [m/s, rad/s]
-    play : bool, whether it runs as soon as a browser shows it
+    play : bool, whether it runs as soon as a browser shows it whose reader likes motion
     size : (width, height) [pixels]
     raster : bool, a picture of plain ipywidgets, for where anywidget is missing or not let in
 
@@ -100,10 +102,7 @@ def live(
         stepper.drive(velocities(name, tops))
     still = bundle(still_picture(stepper.scene(), title, size), alt)
     loop.show()
-    show_controls(ipywidgets.VBox([Controls(loop, steppers).widget, shown.widget]))
-    # kept by a file, where no live view can be; beside one that lives it is not seen (widgets.css)
-    still["text/html"] = f'<div class="slamlab-still">{still["text/html"]}</div>'
-    show_bundle(still)
+    show_beside_still(ipywidgets.VBox([Controls(loop, steppers).widget, shown.widget]), still)
     return loop
 
 

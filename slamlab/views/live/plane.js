@@ -60,6 +60,13 @@ function widen(box, x, y) {
   if (y > box[3]) box[3] = y;
 }
 
+// where a pointer is on a canvas, in the canvas' own pixels; a slide shows it enlarged
+function onCanvas(canvas, event) {
+  const box = canvas.getBoundingClientRect();
+  const enlarged = box.width / canvas.clientWidth || 1;
+  return [(event.clientX - box.left) / enlarged, (event.clientY - box.top) / enlarged, enlarged];
+}
+
 // view transform from metres to pixels
 class Camera {
   constructor(width, height) {

@@ -7,7 +7,7 @@ import zlib
 import ipywidgets
 import numpy as np
 
-from slamlab.views.figures import COLOURS
+from slamlab.views.colours import COLOURS
 from slamlab.views.live.back_pressure import Screen
 
 FRAME_PERIOD = 0.1  # [s] between two frames: an image acknowledges nothing, no queue may build up
@@ -29,24 +29,23 @@ class RasterScreen(Screen):
         super().__init__(acknowledged=False, frame_period=FRAME_PERIOD)
         self._size = tuple(map(int, size))
         self._image = ipywidgets.Image(
-            format="png", layout={"width": f"{self._size[0]}px", "max_width": "100%"}
+            format="png",
+            layout={"width": f"{self._size[0]}px", "max_width": "100%"},
+            tooltip=alt,  # takes no alternative text, but is named by what is shown over it
         )
         self._words = ipywidgets.HTML()
-        self._alt, self._title = alt, title
+        self._title = title
         self.widget = ipywidgets.VBox([self._image, self._words])
 
     def _send_frame(self, scene):
         self._image.value = png(rasterise(scene, self._size))
         names = {each.name: each.colour for each in scene.drawables if each.kind != "curve"}
         legend = " ".join(
-            f'<span style="color:{colour}">■</span> {html.escape(name)}'
+            f'<span style="color:{colour};background:#ffffff">■</span> {html.escape(name)}'
             for name, colour in names.items()
         )
         title = f"<b>{html.escape(self._title)}</b> " if self._title else ""
-        # an Image takes no text of its own
-        alt = html.escape(self._alt, quote=True)
-        status = html.escape(scene.status)
-        self._words.value = f'<div aria-label="{alt}">{title}{legend}<br>{status}</div>'
+        self._words.value = f"{title}{legend}<br>{html.escape(scene.status)}"
 
 
 def rasterise(scene, size):

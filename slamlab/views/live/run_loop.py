@@ -29,7 +29,7 @@ class RunLoop:
     seed : int, of the pair as it stands
     speed : float, steps a second
     tops : (speed, turn rate) of commands [m/s, rad/s]
-    play : bool, whether it runs as soon as a browser shows it
+    play : bool, whether it runs as soon as a browser shows it whose reader likes motion
 
     ``on_change()`` is called when it begins or ceases to run or gets another source.
     """
@@ -152,7 +152,7 @@ class RunLoop:
 
     def _ready(self):
         self.show()
-        if self.play and not self.running:
+        if self.play and not self.running and not self.screen.calm:
             self.play = False
             self.run()
 

@@ -2,6 +2,7 @@
 
 import { forEachElement } from "./watching.js";
 
+const TEXT = ".jp-OutputArea-output, .jp-MarkdownOutput";
 const DEAD = "Run this cell for its controls.";
 
 export function nameParts(panel) {
@@ -14,6 +15,14 @@ export function nameParts(panel) {
   forEachElement(panel, ".jp-collapseHeadingButton", (button) => {
     button.setAttribute("aria-label", "fold this section");
   });
+  // what is too wide and scrolls is reached without a mouse; a formula grows when it is typeset
+  forEachElement(panel, `:is(${TEXT}), :is(${TEXT}) mjx-container`, (part) => {
+    const text = part.closest(TEXT);
+    new ResizeObserver(() => {
+      if (text.scrollWidth > text.clientWidth) text.tabIndex = 0;
+      else text.removeAttribute("tabindex");
+    }).observe(part);
+  });
 }
 
 export function nameControls(panel) {
@@ -24,7 +33,20 @@ export function nameControls(panel) {
     const readout = slider.querySelector(".widget-readout");
     readout?.setAttribute("aria-label", `${label}, as a number`);
     readout?.setAttribute("role", "textbox");
+    // it would be read out with 16 digits
+    const VALUE = "aria-valuetext";
+    const tell = () => {
+      const text = readout?.textContent;
+      if (text && handle.getAttribute(VALUE) !== text) handle.setAttribute(VALUE, text);
+    };
+    tell();
+    new MutationObserver(tell).observe(handle, { attributeFilter: [VALUE] });
   });
+  // a field without a label: what is shown when the mouse rests on it
+  forEachElement(panel, ".jupyter-widgets textarea[title]", (field) => {
+    field.setAttribute("aria-label", field.title);
+  });
+  forEachElement(panel, "img.widget-image[title]", (picture) => { picture.alt = picture.title; });
 }
 
 export function tellDeadWidgets(panel) {

@@ -4,6 +4,7 @@ import { openAnswers } from "./answers.js";
 import { keepClean } from "./clean.js";
 import { nameControls, nameParts, tellDeadWidgets } from "./controls.js";
 import { lecturePlugin } from "./lecture/plugin.js";
+import { playDerivations } from "./derivations.js";
 import { showProgress } from "./progress.js";
 
 const NARROW = 1000; // pixels, below which the side bar leaves a notebook too little room
@@ -36,6 +37,7 @@ export function plugins(offered) {
     forEachNotebook("parts", "Cells and editors have names, too.", nameParts),
     forEachNotebook("names", "Sliders have names for who cannot see them.", nameControls),
     forEachNotebook("dead", "Controls without a kernel say how they come alive.", tellDeadWidgets),
+    forEachNotebook("derivations", "Derivations are played line by line.", playDerivations),
     forEachNotebook("progress", "The head of a notebook shows how far one is.", showProgress),
     lecturePlugin(offered),
     {

@@ -10,13 +10,19 @@ import { refold, reveal, slidesOf, stopsOf } from "./stops.js";
 
 const PANEL = "slamlab-deck";
 
-// JupyterLab draws cells when they come into sight; a deck needs all.
-async function allRendered(notebook) {
-  notebook.widgets.forEach((cell, index) => {
-    if (!cell.isAttached) notebook.layout.insertWidget(index, notebook.viewModel.widgetRenderer(index));
+// JupyterLab draws cells when they come into sight; a slide needs all of its own.
+function draw(notebook, indices) {
+  for (const index of indices) {
+    const cell = notebook.widgets[index];
+    if (!cell.isAttached) {
+      cell.node.dataset.windowedListIndex = `${index}`; // its place is looked for by it
+      notebook.layout.insertWidget(index, cell);
+    }
     cell.placeholder = false;
-  });
-  await Promise.all(notebook.widgets.map((cell) => cell.ready));
+    if (cell.node.querySelector(".slamlab-telling")) continue;
+    foldCode(cell);
+    lockCode(cell);
+  }
 }
 
 export class Deck {
@@ -35,12 +41,12 @@ export class Deck {
   }
 
   // Start at the slide of a cell, or at the first one.
-  async start(cell = 0) {
+  start(cell = 0) {
     const { panel, notebook, layer } = this;
     this.config = notebook.notebookConfig;
     notebook.notebookConfig = { ...this.config, windowingMode: "none" };
-    await allRendered(notebook);
     notebook.mode = "command";
+    notebook.widgets.forEach(({ node }) => node.classList.add("slamlab-off"));
     panel.node.classList.add(PANEL);
     panel.node.append(layer);
     panel.node.popover = "manual"; // the top layer: no ancestor confines it
@@ -48,7 +54,6 @@ export class Deck {
     this.keys = keysOf(this);
     this.release = guard(this);
     this.bar = new Bar(this);
-    notebook.widgets.forEach((one) => { foldCode(one); lockCode(one); });
     this.slides = slidesOf(notebook);
     this.minutes = this.slides.map((slide) => slide.minutes);
     const slide = this.slides.findLastIndex(({ cells }) => cells[0] <= cell);
@@ -153,6 +158,7 @@ export class Deck {
   #pages(number) {
     if (!this.layouts.has(number)) {
       const { cells } = this.slides[number];
+      draw(this.notebook, cells);
       const last = { cell: Infinity, step: Infinity };
       const show = (some) => reveal(this.notebook, last, some);
       const measure = () => pagesOf(this.page, this.notebook, cells, this.zoom, show);

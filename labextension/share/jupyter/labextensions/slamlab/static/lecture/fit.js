@@ -15,37 +15,61 @@ export function zoomOf(size) {
 
 const isPicture = (cell) => Boolean(cell.node.querySelector(".jp-OutputArea-output img, canvas, .jupyter-widgets"));
 
-// Fit the cells of a slide into pages; `show(cells)` shows just these.
+// Fit the cells of a slide into pages; `show(cells)` shows just these. Layouts cost time: the
+// largest letters are tried first, which mostly fit, then the smallest, then those between.
 // Returns [{cells, shrink, columns, figure}].
 export function pagesOf(page, notebook, slide, zoom, show) {
+  const wayAt = (cells, shrink) => {
+    show(cells);
+    const shown = cells.map((index) => notebook.widgets[index]);
+    const beside = shown.some(isPicture) && !shown.every(isPicture);
+    const ways = (beside ? COLUMNS : COLUMNS.slice(0, 1))
+      .map((columns) => grown(page, notebook, { cells, shrink, columns, figure: LETTERS / shrink }, zoom))
+      .filter(Boolean);
+    return ways.length ? ways.reduce((best, way) => (way.wide > best.wide ? way : best)) : undefined;
+  };
   const pages = [];
-  let rest = [...slide];
-  while (rest.length) {
-    let cells = rest;
-    let way = wayFor(page, notebook, cells, zoom, show, SHRINK);
-    while (!way && cells.length > 1) {
-      cells = cells.slice(0, -1);
-      way = wayFor(page, notebook, cells, zoom, show, SHRINK);
-    }
-    way ??= wayFor(page, notebook, cells, zoom, show, SMALL);
-    way ??= { cells, shrink: SMALL.at(-1), columns: "", figure: 1 };
+  for (let rest = [...slide]; rest.length;) {
+    const way = largest(wayAt, rest) ?? part(wayAt, rest, page, notebook, show, zoom);
     pages.push(way);
-    rest = rest.slice(cells.length);
+    rest = rest.slice(way.cells.length);
   }
   return pages;
 }
 
-// The largest letters at which the cells fit, and there the columns with the largest figure.
-function wayFor(page, notebook, cells, zoom, show, shrinks) {
-  show(cells);
-  const shown = cells.map((index) => notebook.widgets[index]);
-  const beside = shown.some(isPicture) && !shown.every(isPicture);
-  for (const shrink of shrinks) {
-    const ways = (beside ? COLUMNS : COLUMNS.slice(0, 1))
-      .map((columns) => grown(page, notebook, { cells, shrink, columns, figure: LETTERS / shrink }, zoom))
-      .filter(Boolean);
-    if (ways.length) return ways.reduce((best, way) => (way.wide > best.wide ? way : best));
+// The way with the largest letters, none below three quarters.
+function largest(wayAt, cells) {
+  const [first, ...others] = SHRINK;
+  const low = others.pop();
+  const found = wayAt(cells, first);
+  if (found) return found;
+  let best = wayAt(cells, low);
+  let between = best ? others : [];
+  while (between.length) {
+    const middle = Math.floor(between.length / 2);
+    const way = wayAt(cells, between[middle]);
+    best = way ?? best;
+    between = way ? between.slice(0, middle) : between.slice(middle + 1);
   }
+  return best;
+}
+
+// As many cells as fit on a page of their own; one that is too tall is made small.
+function part(wayAt, rest, page, notebook, show, zoom) {
+  show(rest);
+  layOut(page, notebook, { cells: rest, shrink: SHRINK.at(-1), columns: "", figure: 1 }, zoom);
+  let room = page.clientHeight;
+  let count = rest.findIndex((index) => (room -= notebook.widgets[index].node.offsetHeight) < 0);
+  count = Math.max(1, count);
+  let way = largest(wayAt, rest.slice(0, count));
+  for (let more = way; more && count + 1 < rest.length;) { // two columns may hold more
+    more = wayAt(rest.slice(0, ++count), SHRINK.at(-1));
+    way = more ?? way;
+  }
+  while (!way && --count) way = largest(wayAt, rest.slice(0, count));
+  const tall = rest.slice(0, 1);
+  for (const shrink of way ? [] : SMALL) way ??= wayAt(tall, shrink);
+  return way ?? { cells: tall, shrink: SMALL.at(-1), columns: "", figure: 1 };
 }
 
 // A way with its figure as large as it can be, and how wide that is; undefined if it does not fit.
@@ -54,7 +78,7 @@ function grown(page, notebook, way, zoom) {
   if (!fits(page)) return undefined;
   const figures = [...page.querySelectorAll(`.jp-Cell:not(.slamlab-off) ${FIGURE}`)];
   let least = way.figure, most = figures.length ? LARGEST : least;
-  while (most - least > 0.06) {
+  while (most - least > 0.1) {
     const middle = (least + most) / 2;
     page.style.setProperty("--slamlab-figure", middle);
     if (fits(page)) least = middle;

@@ -1,5 +1,7 @@
 // All slides at a glance: a card each, with its heading and its first picture.
 
+import { htmlOf } from "./stops.js";
+
 const OPEN = ".slamlab-overview";
 
 export function toggleOverview(deck) {
@@ -20,10 +22,9 @@ function card(deck, slide, number) {
   const button = document.createElement("button");
   button.append(element("b", `${number + 1}`), element("span", slide.title || "—"));
   if (slide.minutes) button.append(element("small", `${slide.minutes} min`));
-  const picture = slide.cells
-    .map((index) => deck.notebook.widgets[index].node.querySelector("img.slamlab-figure"))
-    .find(Boolean);
-  if (picture) button.append(Object.assign(new Image(), { src: picture.src, alt: "" }));
+  const html = slide.cells.map((index) => htmlOf(deck.notebook.widgets[index])).join("");
+  const src = /src="(data:image[^"]+)"/.exec(html)?.[1];
+  if (src) button.append(Object.assign(new Image(), { src, alt: "" }));
   if (number === deck.slide) button.setAttribute("aria-current", "true");
   button.addEventListener("click", () => {
     deck.layer.querySelector(OPEN).remove();

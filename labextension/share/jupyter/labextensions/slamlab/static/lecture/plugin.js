@@ -51,6 +51,6 @@ async function lecture(panel, app, Widget, cell) {
   const kept = keepFile(panel, Widget);
   const deck = new Deck(panel, app);
   deck.ended.connect(() => kept.end());
-  await deck.start(cell);
+  deck.start(cell);
   panel.slamlabDeck = deck; // for who extends it, and for tests
 }

@@ -1,12 +1,21 @@
 // Slides and stops of a notebook. A slide begins at a cell of type slide or subslide; a stop is what
 // one key press reveals: the slide's first cells, a fragment, a folded answer, a step of an output.
 
-export const STEP = ".slamlab-step";
+const STEP = ".slamlab-step";
 
 const typeOf = (cell) => cell.model.getMetadata("slideshow")?.slide_type ?? "-";
 
 // notes are for the speaker, skipped cells only for the kernel
 const isShown = (cell) => !["notes", "skip"].includes(typeOf(cell));
+
+// HTML of a cell's outputs, whether they are drawn or not.
+export function htmlOf(cell) {
+  const outputs = cell.model.outputs;
+  const all = Array.from({ length: outputs?.length ?? 0 }, (_, k) => outputs.get(k).data["text/html"] ?? "");
+  return all.flat().join("");
+}
+
+const stepsOf = (cell) => htmlOf(cell).match(/class="[^"]*\bslamlab-step\b/g)?.length ?? 0;
 
 const isFolded = (cell) => Boolean(cell.model.getMetadata("jupyter")?.outputs_hidden);
 
@@ -39,7 +48,7 @@ export function stopsOf(notebook, slide, number, breaks = []) {
     const cell = notebook.widgets[index];
     const begins = k === 0 || typeOf(cell) === "fragment" || breaks.includes(index);
     const folded = Number(isFolded(cell));
-    const waiting = folded + cell.node.querySelectorAll(STEP).length;
+    const waiting = folded + stepsOf(cell);
     if (!begins && stops.at(-1).step === 0) stops.pop(); // it comes together with the one before
     for (let step = 0; step <= waiting; step++) stops.push({ slide: number, cell: index, step });
   });

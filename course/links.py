@@ -1,4 +1,4 @@
-"""Ways from notebook to notebook: lesson, its exercise, the next lesson; no notebook is an end."""
+"""Links from notebook to notebook: lesson, its exercise, the next lesson; no notebook is an end."""
 
 import re
 from dataclasses import replace
@@ -8,7 +8,7 @@ from course.source import Cell, file_name
 _TITLE = re.compile(r"^# # (?:Exercise )?\d\d · (.+?)(?:: exercise)?$", re.MULTILINE)
 
 
-def with_ways(source, last):
+def with_links(source, last):
     """The cells of a source with links to what comes before and after it.
 
     Parameters
@@ -49,9 +49,9 @@ def _neighbours(path):
     return one("lessons", number), one("exercises", number), following
 
 
-def _line(*ways):
+def _line(*links):
     """Links to the sources that there are, each (words before it, source or None, folder)."""
-    return " · ".join(words + _link(path, folder) for words, path, folder in ways if path)
+    return " · ".join(words + _link(path, folder) for words, path, folder in links if path)
 
 
 def _link(path, folder):

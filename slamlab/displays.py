@@ -1,0 +1,32 @@
+"""Displays of a notebook: what its page shows, in a form that its file keeps."""
+
+from IPython.display import DisplayHandle, display
+
+
+def show_bundle(shown):
+    """Show a MIME bundle as a display of its own, where another can take its place.
+
+    Beside no widget a file keeps it, and shows it when it is opened again.
+
+    Parameters
+    ----------
+    shown : dict by MIME type
+
+    Returns
+    -------
+    DisplayHandle : its ``update(bundle, raw=True)`` shows another bundle instead
+    """
+    handle = DisplayHandle()
+    handle.display(shown, raw=True)
+    return handle
+
+
+def show_controls(box, words="Run this cell for its controls."):
+    """Show a widget, or words where none can be: in a file, or where no kernel runs.
+
+    Parameters
+    ----------
+    box : Widget
+    words : str
+    """
+    display((box._repr_mimebundle_() or {}) | {"text/plain": words}, raw=True)

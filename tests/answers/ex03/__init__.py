@@ -1,0 +1,1 @@
+"""Independent answers to exercise 03: right ones, and students' mistakes."""

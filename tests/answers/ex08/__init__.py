@@ -1,0 +1,1 @@
+"""Independent answers to exercise 08: right ones and students' mistakes."""

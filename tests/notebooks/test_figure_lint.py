@@ -1,0 +1,81 @@
+"""The linter of figures bites: typed colours, and typed numbers in alternative texts."""
+
+import ast
+
+import pytest
+
+from course.figure_lint import figure_problems
+
+
+def problems(code):
+    return [text for _, text in figure_problems(ast.parse(code))]
+
+
+@pytest.mark.parametrize(
+    "code",
+    [
+        'ax.plot(x, y, color="red")',
+        'ax.plot(x, y, color="k")',
+        'ax.plot(x, y, color="0.5")',
+        "ax.plot(x, y, color=(1, 0, 0))",
+        'ax.plot(x, y, "r--")',
+        'ax.plot(x, y, "k.")',
+        'ax.scatter(x, y, c="tab:blue")',
+        'ax.add_patch(Wedge(p, r, fc="#D55E00"))',
+        'color = f"C{k % 10}"',
+        'styles = {"robot": "C0"}',
+        'style = {"edgecolor": "white"}',
+    ],
+)
+def test_a_typed_colour_is_found(code):
+    (told,) = problems(code)
+    assert "is typed" in told
+
+
+@pytest.mark.parametrize(
+    "code",
+    [
+        'ax.plot(x, y, color=views.COLOURS["truth"])',
+        'ax.plot(x, y, "--", label="b")',
+        'ax.plot(x, y, ".")',
+        'ax.contour(x, y, z, cmap="viridis")',
+        'print("redder than red")',
+    ],
+)
+def test_a_colour_by_its_meaning_is_none(code):
+    assert problems(code) == []
+
+
+@pytest.mark.parametrize(
+    "code",
+    [
+        'views.show(fig, "The error falls to 2 cm.")',
+        'views.show(fig, alt="The error falls to 2 cm.")',
+        'views.show(fig, alt=f"The error falls to 2 cm in {n} steps.")',
+        'views.show(fig, alt="a text " "and 7 more")',
+        'views.explore(draw, lambda step: f"Step {step} of 12.")',
+        'views.live(source, estimator, "After 60 steps.")',
+    ],
+)
+def test_a_number_typed_into_an_alternative_text_is_found(code):
+    (told,) = problems(code)
+    assert "by itself" in told
+
+
+@pytest.mark.parametrize(
+    "code",
+    [
+        'views.show(fig, f"The error falls to {100 * error[-1]:.1f} cm.")',
+        'views.show(fig, "Rooms of situation 1 and of situation-2.")',
+        'views.explore(draw, lambda step: f"Step {step} of {len(film) - 1}.")',
+        'views.axes("after 60 steps")',
+        'print("2 cm")',
+    ],
+)
+def test_a_number_from_the_data_or_a_name_is_none(code):
+    assert problems(code) == []
+
+
+def test_it_says_the_line():
+    ((line, _),) = figure_problems(ast.parse('x = 1\nviews.show(\n    fig,\n    "to 2 cm",\n)'))
+    assert line == 4
