@@ -22,7 +22,7 @@ OLDEST, NEWEST = (3, 11), (3, 13)
 ROOT = os.path.dirname(os.path.abspath(__file__))
 START = "notebooks/00_start_here.ipynb"
 STAMP = "slamlab-stamp.json"
-LECTURE = ("greenlet", "playwright", "pyee")  # and what they need besides: nothing
+LECTURE = ("greenlet", "playwright")  # and what they need besides: nothing
 NEWS = "@jupyterlab/apputils-extension:announcements"
 # what differs from JupyterLab's own settings: the width of the side bar is for whole names
 SETTINGS = {"@jupyterlab/filebrowser-extension:browser": {"showLastModifiedColumn": False}}
@@ -143,7 +143,7 @@ def install(venv, *arguments):
 
 
 def install_all(venv, lock, lecture):
-    """Install the lock, the browser's driver if wanted, and the project itself; compile; switch news off."""
+    """Install the lock, a browser's driver if wanted, and the project; compile; switch news off."""
     locked = ("--require-hashes", "--only-binary", ":all:", "-r")
     say("fetching and unpacking packages")
     install(venv, *(locked + (os.path.join(ROOT, lock),)))
@@ -286,7 +286,11 @@ def main(arguments):
         description="Set up the course and open it in JupyterLab, which gets all other arguments.",
         allow_abbrev=False,
     )
-    parser.add_argument("--lecture", action="store_true", help="install what slamlab rehearse and slamlab handout need")
+    parser.add_argument(
+        "--lecture",
+        action="store_true",
+        help="install what slamlab rehearse and slamlab handout need",
+    )
     parser.add_argument("--install-only", action="store_true", help="set up, open nothing")
     parser.add_argument("--venv", default=".venv", help="where to install (.venv)")
     parser.add_argument("--lock", default="requirements.lock", help="what (requirements.lock)")

@@ -21,7 +21,7 @@ DEVICES = (
     "slamlab.sources.live_devices",
 )
 NETWORK = ("socket", "urllib.request", "http.client", "ftplib", "requests", "httpx", "aiohttp")
-OPENERS = ("slamlab.sources.open", "slamlab.sources.recording", "slamlab.files.published_recordings.recording")  # fmt: skip
+OPENERS = ("slamlab.sources.open", "slamlab.sources.recording")
 ENVIRONMENT = "SLAMLAB_DATA"
 
 

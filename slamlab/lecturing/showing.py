@@ -166,4 +166,3 @@ def _copy(notebook, to, data):
 def ink_of(notebook):
     """The file of what was drawn on a notebook's slides, be it there or not."""
     return notebook.with_suffix(".ink.json")
-

@@ -20,7 +20,9 @@ export async function leaves(panel, { notes, ink }) {
   }
   const size = { width: window.innerWidth, height: window.innerHeight };
   deck.end();
-  document.body.replaceChildren(book);
+  // the theme's sheets hang in the body, too
+  for (const one of [...document.body.children]) if (!["LINK", "STYLE"].includes(one.tagName)) one.remove();
+  document.body.append(book);
   document.head.append(style(size, notes));
   await Promise.all([...book.querySelectorAll("img")].map((one) => one.decode().catch(() => {})));
   return book.children.length;
