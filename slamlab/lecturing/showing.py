@@ -15,7 +15,7 @@ from slamlab.lecturing.headless import chromium, jupyterlab
 
 SCREEN = 1280, 720  # pixels
 MINUTE = 60_000  # ms
-PATIENCE = 10  # minutes for a page to be ready: a guard against hanging
+PATIENCE = 3  # minutes for a page to be ready, and for a deck to begin: a guard against hanging
 KERNEL = {"name": "python3", "display_name": "Python 3 (ipykernel)", "language": "python"}
 COMMAND = "slamlab:lecture"
 
@@ -23,13 +23,19 @@ _READY = """() => {
   const panel = window.jupyterapp?.shell.currentWidget;
   return Boolean(panel?.context?.isReady && panel.content?.widgets?.length);
 }"""
-_BEGIN = """async (command) => {
+# cells that are drawn while JupyterLab still opens may never be ready
+_BEGIN = """async ([command, patience]) => {
   const app = window.jupyterapp, panel = app.shell.currentWidget;
-  if (!app.commands.hasCommand(command)) return false;
-  panel.content.activeCellIndex = 0;
-  await app.commands.execute(command);
-  await document.fonts.ready;
-  return Boolean(panel.slamlabDeck);
+  if (!app.commands.hasCommand(command)) return "unknown";
+  const begin = async () => {
+    await Promise.all([app.restored, panel.revealed, panel.sessionContext.ready]);
+    panel.content.activeCellIndex = 0;
+    await app.commands.execute(command);
+    await document.fonts.ready;
+    return panel.slamlabDeck ? "begun" : "late";
+  };
+  const late = new Promise((resolve) => { setTimeout(resolve, patience, "late"); });
+  return Promise.race([begin(), late]);
 }"""
 _ASK = """async ([module, name, argument]) => {
   const sheet = document.querySelector('link[href$="lecture/lecture.css"]').href;
@@ -89,7 +95,10 @@ class Shown:
 
     def begin(self):
         """Start the lecture at the first slide; ShowError where there is no lecture mode."""
-        if not self.page.evaluate(_BEGIN, COMMAND):
+        begun = self.page.evaluate(_BEGIN, [COMMAND, PATIENCE * MINUTE])
+        if begun == "late":
+            raise ShowError("the lecture did not begin: " + "; ".join(self.errors or ["no reason"]))
+        if begun == "unknown":
             raise ShowError(
                 "JupyterLab does not know the lecture mode: set the course up with `python lab.py`"
             )
