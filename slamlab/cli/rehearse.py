@@ -47,7 +47,7 @@ def run(arguments) -> int:
     from slamlab.lecturing.headless import Unavailable
     from slamlab.lecturing.rehearsal import rehearse
     from slamlab.lecturing.rehearsal_report import report
-    from slamlab.lecturing.showing import ShowError, lesson
+    from slamlab.lecturing.shown_lesson import ShowError, lesson
 
     try:
         notebook = lesson(arguments.lesson)

@@ -4,7 +4,7 @@ The browser prints the deck itself: text stays text, formulas and ink stay lines
 notebook's own. Nothing is run; what the file holds is shown.
 """
 
-from slamlab.lecturing.showing import SCREEN, ink_of, shown
+from slamlab.lecturing.shown_lesson import SCREEN, ink_of, shown
 
 
 def write_handout(notebook, out, notes=False, screen=SCREEN):

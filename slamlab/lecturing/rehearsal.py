@@ -7,7 +7,7 @@ import nbformat
 
 from slamlab.lecturing.needs import needs
 from slamlab.lecturing.planning import planned, total
-from slamlab.lecturing.showing import SCREEN, ShowError, shown
+from slamlab.lecturing.shown_lesson import SCREEN, ShowError, shown
 
 SLOW = 2.0  # [s] that a class waits without asking
 SMALL = 0.75  # of their full size: smaller letters cannot be read from the last row

@@ -9,7 +9,7 @@ from slamlab.lecturing.needs import needs
 from slamlab.lecturing.planning import planned, total
 from slamlab.lecturing.rehearsal import findings
 from slamlab.lecturing.rehearsal_report import report
-from slamlab.lecturing.showing import ShowError, lesson
+from slamlab.lecturing.shown_lesson import ShowError, lesson
 
 
 def cell(id, seconds=0.0, error="", code="pass"):

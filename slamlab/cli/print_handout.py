@@ -25,7 +25,7 @@ def run(arguments) -> int:
     """Print; 2 where it cannot be done."""
     from slamlab.lecturing.handout import write_handout
     from slamlab.lecturing.headless import Unavailable
-    from slamlab.lecturing.showing import ShowError, lesson
+    from slamlab.lecturing.shown_lesson import ShowError, lesson
 
     try:
         notebook = lesson(arguments.lesson)
