@@ -2,7 +2,7 @@
 
     python lab.py                        set up if need be, then open the course
     python lab.py --no-browser           other arguments go to JupyterLab
-    python lab.py --lecture              with jupyterlab-slideshow, for lecturing
+    python lab.py --lecture              with what rehearses and prints lessons
     python lab.py --install-only         set up, open nothing
 
 Only the standard library is used, and only syntax that every Python since 2.7 reads, so that an old
@@ -22,10 +22,7 @@ OLDEST, NEWEST = (3, 11), (3, 13)
 ROOT = os.path.dirname(os.path.abspath(__file__))
 START = "notebooks/00_start_here.ipynb"
 STAMP = "slamlab-stamp.json"
-LECTURE = (
-    "jupyterlab-slideshow",
-    "jupyterlab-fonts",
-)  # and what they need beyond JupyterLab: nothing
+LECTURE = ("greenlet", "playwright")  # and what they need besides: nothing
 NEWS = "@jupyterlab/apputils-extension:announcements"
 # what differs from JupyterLab's own settings: the width of the side bar is for whole names
 SETTINGS = {"@jupyterlab/filebrowser-extension:browser": {"showLastModifiedColumn": False}}
@@ -146,15 +143,15 @@ def install(venv, *arguments):
 
 
 def install_all(venv, lock, lecture):
-    """Install the lock, slides if wanted, and the project itself; compile; switch news off."""
+    """Install the lock, a browser's driver if wanted, and the project; compile; switch news off."""
     locked = ("--require-hashes", "--only-binary", ":all:", "-r")
     say("fetching and unpacking packages")
     install(venv, *(locked + (os.path.join(ROOT, lock),)))
     if lecture:
-        slides = os.path.join(venv, "lecture.lock")
-        with open(slides, "w") as file:
+        driver = os.path.join(venv, "lecture.lock")
+        with open(driver, "w") as file:
             file.write(entries("requirements-test.lock", LECTURE))
-        install(venv, *(locked + (slides,)))
+        install(venv, *(locked + (driver,)))
     install(venv, "--no-index", "--no-build-isolation", "-e", ROOT)
     say("compiling, so that notebooks start fast")
     # On all cores, which pip does not do; some packages carry templates that no Python compiles.
@@ -250,6 +247,16 @@ def set_up(venv, lock, lecture):
     say("set up in %.0f s" % (time.time() - began))
 
 
+def look_for_browser(venv):
+    """Say whether there is a browser to rehearse in; all else goes without one."""
+    command = [python_of(venv), "-m", "slamlab.lecturing.headless"]
+    process = subprocess.Popen(
+        command, cwd=ROOT, env=environment(), stdout=subprocess.PIPE, stderr=subprocess.STDOUT
+    )
+    said = process.communicate()[0].decode("utf-8", "replace").strip()
+    say("for slamlab rehearse and slamlab handout: " + (said or "nothing was found"))
+
+
 def open_lab(venv, arguments):
     """Become JupyterLab, showing the first notebook."""
     command = [python_of(venv), "-m", "jupyterlab", "--ServerApp.root_dir=" + ROOT]
@@ -279,7 +286,11 @@ def main(arguments):
         description="Set up the course and open it in JupyterLab, which gets all other arguments.",
         allow_abbrev=False,
     )
-    parser.add_argument("--lecture", action="store_true", help="install jupyterlab-slideshow too")
+    parser.add_argument(
+        "--lecture",
+        action="store_true",
+        help="install what slamlab rehearse and slamlab handout need",
+    )
     parser.add_argument("--install-only", action="store_true", help="set up, open nothing")
     parser.add_argument("--venv", default=".venv", help="where to install (.venv)")
     parser.add_argument("--lock", default="requirements.lock", help="what (requirements.lock)")
@@ -287,6 +298,8 @@ def main(arguments):
     venv = os.path.realpath(os.path.join(ROOT, options.venv))
     try:
         set_up(venv, options.lock, options.lecture)
+        if options.lecture:
+            look_for_browser(venv)
     except KeyboardInterrupt:
         raise Trouble("stopped; start again to finish")
     except (OSError, subprocess.CalledProcessError) as error:

@@ -125,9 +125,12 @@ def _notebook(source, exercise, stubs):
 
 
 def _cell(cell, exercise, stubs):
-    metadata = {k: v for k, v in cell.metadata.items() if k not in ("name", "answers")}
+    metadata = {k: v for k, v in cell.metadata.items() if k not in ("name", "answers", "minutes")}
+    if cell.minutes:
+        metadata |= {"slamlab": {"minutes": cell.minutes}}
     if cell.answers:  # folded until the question is answered
-        metadata |= {"slamlab": {"answers": cell.answers}, "jupyter": {"outputs_hidden": True}}
+        told = metadata.get("slamlab", {}) | {"answers": cell.answers}
+        metadata |= {"slamlab": told, "jupyter": {"outputs_hidden": True}}
     text = glossary.filled(cell.text)
     if cell.check:
         metadata |= check_metadata(exercise.task(cell.check))

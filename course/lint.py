@@ -8,9 +8,11 @@ from itertools import pairwise
 from course.exercise import SolutionError, solution_regions
 from course.figure_lint import figure_problems
 from course.source import CHECK, ID, METADATA, heading
+from slamlab.lecturing.planning import total
 from slamlab.coursework.overview import QUESTION
 
 TAGS = {
+    "code",
     "lecturer",
     "nbval-check-output",
     "nbval-ignore-output",
@@ -49,6 +51,7 @@ def lint(source, exercise=None):
         if cell.type == "code":
             problems += [f"{source.at(cell, line)}: {text}" for line, text in _code(source, cell)]
     problems += [f"{source.at(cell)}: {text}" for cell, text in _slides(source)]
+    problems += [f"{source.at(cell)}: {text}" for cell, text in _minutes(source)]
     problems += [f"{source.at(cell)}: {text}" for cell, text in _questions(source)]
     problems += [f"{source.at(cell)}: {text}" for cell, text in _first_and_last_cell(source)]
     if source.kind == "exercise":
@@ -121,6 +124,20 @@ def _slides(source):
                 cell,
                 f"{cell.slide} behind code, where Shift+Enter ends on an empty slide: move it up",
             )
+
+
+def _minutes(source):
+    """Problems of the plan: minutes beside slides, and those that do not add up."""
+    planned = [cell for cell in source.cells if cell.minutes is not None]
+    for cell in planned:
+        if cell.slide not in ("slide", "subslide"):
+            yield cell, "minutes stand where a slide begins"
+        if type(cell.minutes) is not int or cell.minutes < 1:
+            yield cell, f"minutes are whole and above 0, not {cell.minutes!r}"
+            return
+    promised, whole = total(source.cells[0].text), sum(cell.minutes for cell in planned)
+    if planned and promised != whole:
+        yield source.cells[0], f"the sections' minutes add up to {whole}, the head says {promised}"
 
 
 def _questions(source):

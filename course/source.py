@@ -10,7 +10,7 @@ from nbformat import NotebookNode
 
 ROOT = Path(__file__).resolve().parent.parent
 KINDS = {"lessons": "lesson", "exercises": "exercise"}
-METADATA = ("name", "slideshow", "tags", "answers")
+METADATA = ("name", "slideshow", "tags", "answers", "minutes")
 CHECK = re.compile(r'check\("([^"\\]+)"\)')
 ID = re.compile(r"[a-zA-Z0-9_-]{1,64}")
 
@@ -60,6 +60,11 @@ class Cell:
     def answers(self):
         """The id of the question that the cell answers, or None."""
         return self.metadata.get("answers")
+
+    @property
+    def minutes(self):
+        """The minutes planned for the section that begins here, or None."""
+        return self.metadata.get("minutes")
 
     @property
     def slide(self):

@@ -30,6 +30,7 @@ coursework       a student's folder: progress, reset, update
 parallel         many runs on processes or a Dask cluster
 grading          judge, sandbox, gradebook, late policy, similarity report
 checks           what notebooks call: ``check``, ``hint``, ``ask``, ``validate``
+lecturing        a lesson's slides rehearsed and printed, in a browser without a window
 studies          tables of many runs, each made by a command
 listening        one guard for whatever listens on the network
 audience         a lecture's class: its phones see the slide and are asked; ``audience.start``

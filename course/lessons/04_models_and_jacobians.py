@@ -1,4 +1,4 @@
-# %% [markdown] slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=1
 # # 04 · Models and Jacobians
 #
 # **You will be able to** derive every Jacobian that EKF-SLAM needs (H, A, W, J_xr, J_z), test one
@@ -16,6 +16,9 @@
 # class for the next line before it appears. The first half stands alone as a lecture; the errata
 # make a second one, or homework in pairs: one types the printed formula, the other predicts the
 # harm.
+#
+# *In 90 minutes:* all of it. *In 45:* up to "Whom a new landmark knows", whose last sentence leads to
+# lesson 07; the errata are homework.
 
 # %% slideshow={"slide_type": "skip"}
 import numpy as np
@@ -28,7 +31,7 @@ from slamlab.models import jacobians, noise, symbolic
 from slamlab.geometry import wrap
 from slamlab.layers import Poses
 
-# %% [markdown] slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## What a Jacobian is
 #
 # A robot believes it stands at the origin with heading 0.7 rad. It is sure of its place to 5 cm and
@@ -53,7 +56,7 @@ ends = np.array([models.f_odometry(pose, three_metres) for pose in starts])
 # moves by a little. That sentence is a program:
 
 
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+# %% slideshow={"slide_type": "fragment"} tags=["code", "nbval-check-output"]
 def slopes(f, x, step=1e-6):
     """∂f/∂x by differences: move one component of x a little, see what f does."""
     return np.column_stack([(f(x + e) - f(x - e)) / (2 * step) for e in step * np.eye(len(x))])
@@ -84,7 +87,7 @@ views.show(
 # *For the lecturer:* Most say "along the way", because they think of wheels that slip. Nothing
 # slips here: the control is exact, the streak comes from the heading alone.
 
-# %% [markdown] slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=3
 # ## Where a Jacobian fails
 #
 # **Question.** A is taken at one heading. What if the heading may be far from there?
@@ -119,7 +122,7 @@ views.explore(
 # 0.3 rad, most say). Ask: would a longer drive help? No: the banana only grows. Samples (lesson
 # 11) have no such limit.
 
-# %% [markdown] slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=2
 # ## The observation model h
 #
 # The robot at (x, y, θ) sees a landmark at (p_x, p_y): at which range r and which bearing β?
@@ -148,7 +151,7 @@ range_of
 bearing_of = sp.atan2(p_y - y, p_x - x) - theta
 bearing_of
 
-# %% [markdown] slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=6
 # ## H, derived line by line
 #
 # **Question.** Six numbers: how do range and bearing change when the robot's x, y or θ does?
@@ -190,7 +193,7 @@ H_steps.step("the root is r again: give it its name", in_r, given={r: range_of})
 # with the body: look at a student, step left, the student moves to the right: the bearing shrinks.
 # So −(p_x − x)/r².
 
-# %% [markdown] slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=3
 # ## Trust nothing: three ways to the same matrix
 #
 # A derivation can be mistyped, code can be mistyped, a step size can be bad; all three alike,
@@ -223,7 +226,7 @@ hold("H_robot", H_robot, symbolic.H_robot, jacobians.H_robot(POSE, LANDMARK), by
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # Three zeros: the derivation, the code and the model agree.
 
-# %% [markdown] slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=3
 # ## The landmark's part of H
 #
 # In SLAM the landmarks are unknown too, so H has columns for them.
@@ -247,7 +250,7 @@ by_differences = slopes(lambda landmark: models.h(POSE, landmark), LANDMARK)
 by_code = jacobians.H_landmark(POSE, LANDMARK)
 hold("H_landmark", H_landmark, symbolic.H_landmark, by_code, by_differences)
 
-# %% [markdown] slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=3
 # ## The innovation must be wrapped
 #
 # The filter corrects by the *innovation*, measured minus predicted. Angles count modulo 2π.
@@ -256,7 +259,7 @@ hold("H_landmark", H_landmark, symbolic.H_landmark, by_code, by_differences)
 # What does a filter believe that subtracts?
 
 
-# %% slideshow={"slide_type": "fragment"}
+# %% slideshow={"slide_type": "fragment"} tags=["code"]
 def update(x, P, z, p, H, R, wrapped=True):
     """One step of the EKF (lesson 03): a known landmark p was seen at z."""
     innovation = z - models.h(x, p)
@@ -283,7 +286,7 @@ for wrapped in (True, False):
 # *For the lecturer:* This bug shows only when a landmark passes behind the robot: tests with
 # everything in front are green. Ask who has had such a bug in a compass or a clock.
 
-# %% [markdown] slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## The motion model f, and A
 #
 # Odometry gives a distance d and a turn Δθ: drive along the old heading, to x + d cos θ and
@@ -316,7 +319,7 @@ A_steps.step("with the step's own Δx and Δy", by_hand, given={dx: f[0] - x, dy
 by_differences = slopes(lambda pose: models.f_odometry(pose, DRIVE), POSE)
 hold("A", A, symbolic.A_odometry, jacobians.A_odometry(POSE, DRIVE), by_differences)
 
-# %% [markdown] slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=1
 # ## W: what the controls' noise does
 #
 # **Question.** Now d and Δθ are wrong as well. Which derivative says what that does to the pose,
@@ -330,7 +333,7 @@ W
 by_differences = slopes(lambda drive: models.f_odometry(POSE, drive), DRIVE)
 hold("W", W, symbolic.W_odometry, jacobians.W_odometry(POSE, DRIVE), by_differences)
 
-# %% [markdown] slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=2
 # ## The steered robot
 #
 # The MAK thesis drives a car: speed V, steering angle γ, wheel base B, period T (its (2.27)).
@@ -371,7 +374,7 @@ by_code = jacobians.A_steered(POSE, command, *car), jacobians.W_steered(POSE, co
 hold("A steered", A_steered, symbolic.A_steered, by_code[0], by_pose, at)
 hold("W steered", W_steered, symbolic.W_steered, by_code[1], by_command, at)
 
-# %% [markdown] slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=3
 # ## Q: the motion's noise, and units
 #
 # The controls have a covariance C. W carries it over to the pose: Q = W C Wᵀ.
@@ -407,7 +410,7 @@ views.show(fig, "The cloud is wider along the way than without wheel noise; A P 
 # **See:** the noise of the distance widens the streak *along* the way, from the dashed ellipse to
 # the solid one. What A does and what W does are at right angles here.
 
-# %% [markdown] slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=1
 # ## R: the measurement's noise
 #
 # A lidar's range error grows with the range (σ_r = k r), its bearing error does not. A covariance
@@ -422,7 +425,7 @@ R = noise.R(4.0, 0.01, np.radians(0.3))
 print("variances ", [f"{v:.1e}" for v in np.diag(R)], "[m², rad²]")
 print("deviations", np.sqrt(np.diag(R)).round(4), "[m, rad]")
 
-# %% [markdown] slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=4
 # ## A new landmark: g, J_xr, J_z
 #
 # A landmark seen for the first time is placed where pose and measurement put it: at
@@ -478,7 +481,7 @@ there = {p_x: g[0], p_y: g[1]}
 print(sp.simplify(H_landmark.subs(there) * J_z))
 print(sp.simplify(H_robot.subs(there) + H_landmark.subs(there) * J_xr))
 
-# %% [markdown] slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=3
 # ## Whom a new landmark knows
 #
 # The state holds the robot r and a landmark i already; the new landmark n is made from the pose
@@ -532,7 +535,7 @@ views.show(
 # **See:** the landmark is least sure across the line of sight, where the heading's error is levered
 # by 5 m. The ellipse of the derivation holds the samples.
 
-# %% [markdown] slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=2
 # ## A printed formula is a claim
 #
 # Now we hold what is printed in the sources against the derivation. The machine subtracts; we look
@@ -560,7 +563,7 @@ def harm(where, text):
     print(text)
 
 
-# %% [markdown] slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=4
 # ## Smolec (1): tan⁻¹ of a quotient
 #
 # Section 2.6 prints the bearing as tan⁻¹((λ_y − y)/(λ_x − x)) − θ, with λ for our p.
@@ -603,7 +606,7 @@ compare("MAK (2.29), h", reverse, h)
 error = (reverse - h)[1].subs(POINT).evalf()
 harm("MAK (2.29), h", f"read as atan2, every bearing is {abs(np.degrees(float(error))):.0f}° off")
 
-# %% [markdown] slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=6
 # ## Smolec (2) and (3): a sign in H
 #
 # Printed, second row of (2): (λ_y − y)/r², **(λ_x − x)/r²**, −1.
@@ -678,7 +681,7 @@ difference = compare("Smolec (3), H", -H[:, :2], H_landmark.applyfunc(in_r))
 harm("Smolec (3), H", "none once (2) is mended; else the wrong sign comes twice")
 difference
 
-# %% [markdown] slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=2
 # ## Smolec (4): a step of which length?
 #
 # Printed: x + cosθ + q cosθ and so on, q being the noise. We leave the noise out.
@@ -698,7 +701,7 @@ for _ in range(20):
     printed = np.array(move(*printed, 0.1, 0.05))
 harm("Smolec (4), f", f"2 m driven, {np.hypot(*(printed - right)[:2]):.1f} m off")
 
-# %% [markdown] slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=6
 # ## Smolec (5), (12) and §4.1: three times A
 #
 # Printed in (5): −Δy·sinθ and Δx·cosθ in the third column; in §4.1: −Δy and Δx.
@@ -772,7 +775,7 @@ harm(
 # odometry's own, A = I is right for one step, but the same heading error enters every step, and a
 # Q with independent steps does not know it.
 
-# %% [markdown] slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## Smolec (6)–(8): a Q that does not multiply
 #
 # Printed: C is 3×3, W is 3×1, Q = W C Wᵀ. **Predict** what the machine says.
@@ -819,7 +822,7 @@ harm(
 # proportional to Δx, Δy and Δt (it calls Δt the change of speed; by its formulas it is the length
 # of the step). The third should be Δθ, and even so the rank is one.
 
-# %% [markdown] slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=3
 # ## Smolec (9): deviation or variance?
 #
 # Printed: VRVᵀ = diag(r c, b d), with the advice "variance 1 cm → c = 0.01".
@@ -844,7 +847,7 @@ harm(
 # A formula that changes its meaning with the unit has a wrong unit. And a standard deviation of 1
 # cm is a variance of 0.0001 m²; 0.01 m² would be 10 cm.
 
-# %% [markdown] slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## Smolec (10) and (11): a landmark on a short stick
 #
 # Printed: J_xr with −sinθ and cosθ; J_z as a turn by θ + Δθ. We read Δθ as the bearing.
@@ -893,7 +896,7 @@ told = surprise(placed, P_new(as_printed[0], J_right[1]))
 harm("Smolec (10), J_xr", f"squared error {told:.1f} instead of 2 in units of P_nn")
 harm("Smolec (11), J_z", f"squared error {at_start:.0f} instead of 2 at SLAM's start")
 
-# %% [markdown] slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=3
 # ## Degrees
 #
 # The thesis keeps millimetres and degrees in the state, with these Jacobians. **Predict** what that
@@ -918,7 +921,7 @@ harm(
 # π/180, and H's bearing row lacks 180/π. In `slamlab` angles are radians, and degrees exist at the
 # edge only: in drivers, and on plots.
 
-# %% [markdown] slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=2
 # ## Smolec (15): the state that forgets itself
 #
 # Printed: X = K · innovation; and P is not updated anywhere in the text.
@@ -940,7 +943,7 @@ harm(
     f"{100 * np.sqrt(P_after[0, 0]):.0f} cm",
 )
 
-# %% [markdown] slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=2
 # ## Smolec (16)–(18): a transpose too many
 #
 # Printed: P_nn = J_xr P_rr J_xrᵀ + J_z R J_zᵀ (16), P_rn = P_rr J_xrᵀ (17), P_ni = J_xr (P_ri)ᵀ
@@ -963,7 +966,7 @@ errata["Smolec (18), P_ni"] = {
 }
 harm("Smolec (18), P_ni", "stops, or, with a block stored transposed, is right by accident")
 
-# %% [markdown] slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=2
 # ## MAK (4.9): a row that lost its robot
 #
 # In SLAM, H spans the whole state: robot, landmark 1, landmark 2, … The thesis prints for landmark
@@ -985,7 +988,7 @@ difference = compare("MAK (4.9), H₃", sp.Matrix([[0, 0, H_r, H_p, 0]]), sp.Mat
 harm("MAK (4.9), H₃", "H_r has 3 columns, a landmark's place 2: does not fit")
 difference
 
-# %% [markdown] slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=2
 # ## All of them, by machine
 #
 # The table is built from what the cells above found. Where shapes do not fit there is no
@@ -1023,7 +1026,7 @@ Markdown(table(errata))
 # robot? The rank of Q and the sign in A pass every quick look at a plot. Homework: take the
 # EKF-SLAM you used last year and hold its Jacobians against differences.
 
-# %% [markdown] slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=1
 # ## What you can do now
 #
 # Derive a Jacobian, test it in three ways, and tell from a formula's units and shapes that

@@ -1,4 +1,4 @@
-# %% [markdown] slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=2
 # # 07 · Correlations
 #
 # **You will be able to** say where the correlations of a map come from, block by block, what breaks
@@ -13,8 +13,11 @@
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* The first half (to the errata) is a lecture at the blackboard with a machine
-# that checks each line; the second is an afternoon of experiments. Whoever has one hour only takes
-# the two updates, the film, and the dropped cross terms.
+# that checks each line; the second is an afternoon of experiments.
+#
+# *In 90 minutes:* all but the three sections on the thesis' print ("The printed formulas", "The
+# corrections of x", "Three sentences"). *In 45:* the head, the two sightings with their
+# derivations, "A whole loop", "Second half: drop them", and the last slide, which is 44.
 
 # %% slideshow={"slide_type": "skip"}
 import json
@@ -40,7 +43,7 @@ from slamlab.layers import Points, Poses
 from slamlab.sources.landmark_runs import LandmarkRun, Loop
 from slamlab.studies.consistency import errors_of
 
-# %% [markdown] slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## Two landmarks, two sightings
 #
 # A robot r and two landmarks, 1 and 2. Nobody knows anything of anybody: the covariance is block
@@ -66,7 +69,7 @@ H_r, H_p, R, S = of("H_r", 2, 3), of("H_p", 2, 2), of("R", 2, 2), symmetric("S",
 H_1 = sp.BlockMatrix([[H_r, H_p, Z(2, 2)]])
 H_1
 
-# %% [markdown] slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=10
 # ## The first sighting, line by line
 #
 # First, how the errors of the state and the innovation hang together, P Hᵀ. **Predict** its third
@@ -130,7 +133,7 @@ sighting(P, seen)
 # *For the lecturer:* Say it with people: two friends correct their watches by each other. From then
 # on, if one watch is wrong, the other is wrong the same way. That is P_r1.
 
-# %% [markdown] slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=8
 # ## The second sighting
 #
 # Now P has a block P_r1. Driving in between changes numbers, not the pattern. The robot sees
@@ -172,7 +175,7 @@ for when, blocks in (("first", first), ("second", second)):
     zero = [f"P_{block}" for block, value in blocks.items() if value.is_ZeroMatrix]
     print(f"zero after the {when} sighting:", ", ".join(zero) or "none")
 
-# %% [markdown] slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=4
 # ## The same with numbers
 #
 # A derivation may be mistyped. We let `slamlab`'s filter do the two updates and put its numbers
@@ -226,7 +229,7 @@ views.show(
 # **See:** white is zero. First nobody knows anybody; then r and 1 do; then the corner P_12 has
 # filled too, more faintly, since it came second-hand.
 
-# %% [markdown] slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=8
 # ## A whole loop
 #
 # Now 16 landmarks round a loop. The robot starts sure of its place (there it puts the map's
@@ -286,7 +289,7 @@ views.explore(
 # the same lost poses). The checkerboard: the x errors of two landmarks go together, those of x and
 # y against each other, as they do when a map is turned about its start.
 
-# %% [markdown] slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=3
 # ## What the closing did, in numbers
 #
 # **Predict:** at 76 s the robot meets landmark 0 again. Landmark 9 is at the far end of the loop,
@@ -304,7 +307,7 @@ for second_of_run in (75, 76, 80, 96):
 # It shrinks in the same second, unseen. That is the work of the robot's block with landmark 9: the
 # second sighting of our example, on a large scale. Without that block no word would reach it.
 
-# %% [markdown] slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## The printed formulas, by machine
 #
 # The thesis writes these two updates out, (4.18) to (4.39). For every block it prints a first line
@@ -391,7 +394,7 @@ for number, (derived, printed) in gains.items():
     as_printed = sp.block_collapse(sp.BlockMatrix([[block] for block in printed]) * S.I)
     print(number, "right" if sp.block_collapse(derived) == as_printed else "wrong")
 
-# %% [markdown] slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=3
 # ## The corrections of x
 #
 # (4.19), (4.20) and (4.30) to (4.32) print P Hᵀ v where the gain is P Hᵀ S⁻¹. The second update
@@ -424,7 +427,7 @@ print(f"S(2|1): derived − filter {abs(S_derived - step.S).max():.9f}")
 print(f"S(2|1) from P(2|2), as printed: {off:.0%} off, and P(2|2) is made from S(2|1)")
 print(f"x(2|2) = x(2|2) + W v holds where W v = 0; here |W v| = {np.linalg.norm(step.K @ v):.3f}")
 
-# %% [markdown] slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=2
 # ## Three sentences of chapter 4
 #
 # Before (4.22): were H_r zero, "the update would touch only v(1|0)". An innovation is not updated.
@@ -455,7 +458,7 @@ sp.limit((3 + 2 * N) ** 2 / N**2, N, sp.oo)
 # o(N²) would be a limit of 0: *less* than N², which contradicts "at least". It is 4: Θ(N²), and a
 # lower bound is written Ω(N²).
 
-# %% [markdown] slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=9
 # ## Second half: drop them
 #
 # The correlations fill the whole matrix and cost memory and time. Many have dropped them and kept
@@ -535,7 +538,7 @@ views.show(fig, "Ellipses that hold their landmarks, beside tiny ellipses that m
 # *For the lecturer:* This is the lesson's main sentence; let it stand a moment. The correlation is
 # the memory of who told whom. Ask where else this happens: rumours, two newspapers with one agency.
 
-# %% [markdown] slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=7
 # ## The map's certainty never falls
 #
 # **Question.** While the robot drives blind it gets less certain. Does a landmark, too?
@@ -608,7 +611,7 @@ for name, ratios in largest.items():
 # good news. For the filter's claim, always; the dropped cross terms a minute ago obeyed the law,
 # too.
 
-# %% [markdown] slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=6
 # ## In the limit
 #
 # Let a robot drive for ever. It is not sure of its first place: ±20 cm in x and in y.
@@ -687,7 +690,7 @@ for name, (_, own, vector, length) in (("compass", compass), ("no compass", no_c
 # headings are known. Ask what of the map is exact in the end without a compass: distances and
 # angles, which is the shape. A map up to a shift and a turn: lesson 04 said that h cannot tell.
 
-# %% [markdown] slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## The price
 #
 # (3 + 2N)² numbers to store, and each sighting changes all of them.
@@ -735,7 +738,7 @@ views.show(
 # `slamlab` writes one triangle of P in place: at N = 1000, one scan costs about 0.7 of what
 # *copying* P costs. Better than N² there is nothing, as long as every number of P changes.
 
-# %% [markdown] slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=4
 # ## A way out: settle later
 #
 # **Question.** The robot works in one corner. Must the far landmarks hear of every sighting *now*?
@@ -776,7 +779,7 @@ print(f"largest difference of any number in x and P: {off:.9f}")
 # None. 84 steps with 16 or 17 landmarks and 4 settlements, in place of 84 steps with 40: the
 # *compressed* EKF drops nothing, it only waits. The price is N² per region, not per step.
 
-# %% [markdown] slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=4
 # ## A way out: small maps, joined
 #
 # Chapter 5 names MAK on groups, joined by another MAK. Each group starts anew at (0, 0, 0), sure of
@@ -806,7 +809,7 @@ print(f"itself claims ±{100 * np.sqrt(np.mean(np.trace(P_ii, axis1=1, axis2=2))
 # Jacobians are taken elsewhere; the difference is a tenth of what the filter claims to know. A scan
 # costs the square of a *group*; joining costs N² once a group.
 
-# %% [markdown] slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=3
 # ## A way out: a relative map
 #
 # Or keep the vectors between neighbours in place of the landmarks (chapter 5 again).
@@ -827,7 +830,7 @@ for name, covariance in (("landmarks", P_end), ("vectors", D @ P_end @ D.T)):
 # but it *is* dropped, and the vectors round a closed loop no longer add up to zero unless one sees
 # to it.
 
-# %% [markdown] slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## What even the full filter gets wrong
 #
 # Keep everything: is the filter honest for ever? It takes Jacobians at its estimates, and these
@@ -889,7 +892,7 @@ for name, first_estimates in (("standard", False), ("first estimates", True)):
 # and y are minus its landmark columns wherever they are taken (lesson 04). The turn needs the
 # landmark's *place*, and that is what changes.
 
-# %% [markdown] slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## How much is that?
 #
 # Three filters on the same readings: *ideal* (all Jacobians at the truth, which only a simulation
@@ -932,7 +935,7 @@ for name in ("ideal", "first estimates", "standard"):
 # Four runs prove nothing about NEES. But what a filter *believes* varies little, and there it is:
 # from the same readings, the standard filter claims a better heading than the ideal one can have.
 
-# %% [markdown] slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=2
 # ## What you can do now
 #
 # | dropped or put off | what happens |

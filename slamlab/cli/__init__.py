@@ -6,6 +6,7 @@ Read in this order:
 - ``emulate``, ``record``, ``replay``: devices
 - ``progress``, ``reset`` (and update): a student's own folder
 - ``check``, ``grade``, ``gradebook_verbs`` (merge, adjust, export): exercises
+- ``rehearse``, ``print_handout``: a lesson before and after its lecture
 - ``common``: what several share
 
 Exit codes: 0 done, 1 a task that is not passed, 2 wrong use or unreadable input, 130 interrupted.
@@ -18,7 +19,7 @@ from importlib import import_module
 from slamlab import __version__
 
 COMMANDS = ("run", "convert", "emulate", "record", "replay", "check", "grade", "gradebook_verbs",
-            "progress", "reset")  # fmt: skip
+            "progress", "reset", "rehearse", "print_handout")  # fmt: skip
 SUBCOMMANDS = {"grade": ("merge", "adjust", "export")}
 """Subcommands, written as two words; a folder of such a name is given as ./merge."""
 

@@ -1,23 +1,19 @@
-"""A JupyterLab with a home of its own, and a browser that reaches nothing else."""
+"""What tests ask of a page of JupyterLab; the browser and JupyterLab are those of rehearsals."""
 
-import json
 import os
-import shutil
-import subprocess
-import sys
-import time
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
+from unittest import mock
 
 from axe_playwright_python.sync_playwright import Axe
 
 from course.source import ROOT
+from slamlab.lecturing import headless
+from slamlab.lecturing.headless import Unavailable, chromium
 from tests.patience import PATIENCE
 
-CHROMIUMS = ("chromium", "chromium-browser", "google-chrome", "chrome")
+__all__ = ["Unavailable", "Visit", "chromium", "jupyterlab"]
 EXTENSION = ROOT / "labextension" / "share" / "jupyter"
 IDLE = ".jp-Notebook-ExecutionIndicator[data-status=idle]"  # out of sight on a narrow page
-NEWS = "@jupyterlab/apputils-extension:announcements"
-
 
 # what was never in sight is not laid out
 LOOK_THROUGH = """async () => {
@@ -35,90 +31,16 @@ CELLS_LEFT = """(before) => {
 }"""
 
 
-class Unavailable(Exception):
-    """There is no browser, or JupyterLab does not start; the text says which."""
-
-
-@contextmanager
-def chromium():
-    """Chromium, without a window.
-
-    Yields
-    ------
-    Browser of Playwright
-
-    Raises
-    ------
-    Unavailable : no Playwright or no Chromium
-    """
-    try:
-        from playwright.sync_api import sync_playwright
-    except ImportError:
-        raise Unavailable("Playwright is not installed") from None
-    path = next(filter(None, map(shutil.which, CHROMIUMS)), None)
-    if not path:
-        raise Unavailable("no Chromium here: what is shown in a browser stays untested")
-    quiet = ["--disable-gpu", "--disable-background-networking", "--disable-component-update"]
-    with sync_playwright() as running:
-        opened = running.chromium.launch(executable_path=path, args=["--no-sandbox", *quiet])
-        yield opened
-        opened.close()
-
-
 @contextmanager
 def jupyterlab(home):
-    """A JupyterLab as ``lab.py`` sets it up.
-
-    Parameters
-    ----------
-    home : Path, a folder with ``course/notebooks/``; all it writes goes there
-
-    Yields
-    ------
-    str, the address of a notebook, with ``{}`` for its name, or its path from the course's folder
-
-    Raises
-    ------
-    Unavailable : it does not start
-    """
-    settings = home / "config" / "labconfig" / "page_config.json"
-    settings.parent.mkdir(parents=True, exist_ok=True)
-    settings.write_text(json.dumps({"disabledExtensions": {NEWS: True}}))
-    places = {"HOME": home, "JUPYTER_CONFIG_DIR": home / "config", "IPYTHONDIR": home / "ipython"}
-    places |= {"JUPYTER_RUNTIME_DIR": home / "runtime", "JUPYTER_DATA_DIR": home / "data"}
-    places["JUPYTER_PATH"] = EXTENSION  # as it stands here, not as it was installed
-    options = ["--no-browser", "--allow-root", "--ip=127.0.0.1", "--port=0"]
+    """A JupyterLab with the extension as it stands here, not as it was installed."""
     # a test is no student, but these play one: their progress is kept
     student = {name: value for name, value in os.environ.items() if name != "PYTEST_VERSION"}
-    shutil.rmtree(home / "runtime", ignore_errors=True)  # of a server before
-    with open(home / "said.txt", "w") as said:
-        server = subprocess.Popen(
-            [sys.executable, "-m", "jupyterlab", *options],
-            cwd=home / "course",
-            env=student | {name: str(place) for name, place in places.items()},
-            stdin=subprocess.DEVNULL,
-            stdout=said,
-            stderr=subprocess.STDOUT,
-        )
-    try:
-        yield _address(server, home)
-    finally:
-        server.terminate()
-        server.wait(PATIENCE)
-
-
-def _address(server, home):
-    """The address with the token, once the server has written it down."""
-    end = time.monotonic() + PATIENCE
-    while time.monotonic() < end and server.poll() is None:
-        for file in (home / "runtime").glob("jpserver-*.json"):
-            try:
-                told = json.loads(file.read_text())
-            except json.JSONDecodeError:
-                continue  # half written
-            return f"{told['url']}lab/tree/{{}}?reset&token={told['token']}"
-        time.sleep(0.1)
-    raise Unavailable("JupyterLab did not start:\n" + (home / "said.txt").read_text()[-2000:])
+    with ExitStack() as running:
+        with mock.patch.dict(os.environ, student, clear=True):
+            lab = headless.jupyterlab(home, {"JUPYTER_PATH": EXTENSION}, PATIENCE)
+            address = running.enter_context(lab)
+        yield address
 
 
 class Visit:

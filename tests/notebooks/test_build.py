@@ -203,6 +203,15 @@ def test_what_an_exercise_may_not_hold_is_told_with_its_line(root, cell, says):
         ('# %% tags=["hide"]\nprint(1)', "unknown tag 'hide'"),
         ('# %% slideshow={"slide_type": "pop"}\nprint(1)', "unknown slide type 'pop'"),
         ("# %% Intro\nprint(1)", "unknown marker 'Intro'"),
+        ("# %% minutes=5\nprint(1)", "minutes stand where a slide begins"),
+        (
+            '# %% slideshow={"slide_type": "slide"} minutes=0\nprint(1)',
+            "minutes are whole and above 0",
+        ),
+        (
+            '# %% slideshow={"slide_type": "slide"} minutes=999\nprint(1)',
+            "add up to 999, the head says",
+        ),
         ('# %% colour="red"\nprint(1)', "unknown marker 'colour'"),
         ('# %% name="a b"\nprint(1)', "'a b' is no name"),
         ('# %% name="a"\nprint(1)\n\n# %% name="a"\nprint(2)', "'a' stands already in line 8"),

@@ -115,11 +115,11 @@ def test_students_do_not_get_what_only_tests_lectures_and_benchmarks_need():
     # what JupyterLab itself brings along is no tool of ours
     shared = {"nbclient", "pyyaml"}
     extras = {name for extra in EXTRAS.values() for name in specifiers(extra)}
-    assert {"nbgrader", "pytest", "jupyterlab-slideshow"} <= extras
+    assert {"nbgrader", "pytest", "playwright"} <= extras
     assert locked & extras <= shared
 
 
-def test_slides_need_nothing_that_lab_does_not_install_for_lecturers():
+def test_lectures_need_nothing_that_lab_does_not_install_for_lecturers():
     known = {canonicalize_name(requirement.name) for requirement, _ in entries(STUDENT)}
     for name in LECTURE:
         needed = [Requirement(text) for text in requires(name) or []]
@@ -130,7 +130,7 @@ def test_slides_need_nothing_that_lab_does_not_install_for_lecturers():
 def test_the_package_imports_only_what_it_declares():
     distributions = packages_distributions()
     # what an extra holds is imported when it is asked for
-    extras = [name for extra in ("dask", "ros", "nbgrader") for name in EXTRAS[extra]]
+    extras = [name for extra in ("dask", "ros", "nbgrader", "lecture") for name in EXTRAS[extra]]
     declared = specifiers(DECLARED + extras).keys()
     for path in (ROOT / "slamlab").rglob("*.py"):
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):

@@ -37,6 +37,9 @@ class Lab:
         self.free(1e12, monkeypatch)
         monkeypatch.setattr(self.module, "run", self.run)
         monkeypatch.setattr(
+            self.module, "look_for_browser", lambda venv: self.calls.append("look for a browser")
+        )
+        monkeypatch.setattr(
             venv, "EnvBuilder", lambda **options: types.SimpleNamespace(create=self.create)
         )
 
@@ -176,14 +179,24 @@ def test_a_folder_that_is_no_environment_is_not_touched(lab):
     assert (lab.folder / "mine" / "thesis.txt").exists()
 
 
-def test_slides_stay_once_they_were_asked_for(lab):
+def test_the_browsers_driver_stays_once_it_was_asked_for(lab):
     lab.start("--lecture")
-    assert lab.calls.count("pip") == 3
-    slides = (lab.folder / ".venv" / "lecture.lock").read_text()
-    assert re.findall(r"^(\S+)==", slides, re.M) == sorted(lab.module.LECTURE)
-    assert slides.count("--hash=sha256:") >= 2 and not slides.rstrip().endswith("\\")
+    assert lab.calls.count("pip") == 3 and lab.calls[-1] == "look for a browser"
+    driver = (lab.folder / ".venv" / "lecture.lock").read_text()
+    assert re.findall(r"^(\S+)==", driver, re.M) == sorted(lab.module.LECTURE)
+    assert driver.count("--hash=sha256:") >= 2 and not driver.rstrip().endswith("\\")
     lab.start()
     assert lab.calls == []
+
+
+def test_a_lecturer_is_told_whether_there_is_a_browser(tmp_path, monkeypatch, capsys):
+    lab = Lab(tmp_path, monkeypatch)
+    monkeypatch.undo()
+    monkeypatch.setattr(lab.module, "python_of", lambda venv: sys.executable)
+    monkeypatch.setattr(lab.module, "environment", lambda: {"PYTHONPATH": str(ROOT), "PATH": ""})
+    lab.module.look_for_browser("anywhere")
+    said = capsys.readouterr().err
+    assert "Chromium" in said and said.count("\n") == 1
 
 
 @pytest.mark.skipif(os.name == "nt", reason="JupyterLab is a child process there")

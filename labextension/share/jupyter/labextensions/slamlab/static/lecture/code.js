@@ -8,7 +8,7 @@ const SHOWS = /^(views\.|ax\.|fig\b|plt\.|display\(|with |for |@|\)|\]|\})/; // 
 export function tellingLine(source) {
   const lines = source.split("\n").filter((line) => line.trim() && !line.startsWith("#"));
   const outer = lines.filter((line) => /^\S/.test(line));
-  const telling = outer.findLast((line) => !SHOWS.test(line)) ?? outer.at(-1) ?? "";
+  const telling = outer.findLast((line) => !SHOWS.test(line)) ?? outer[0] ?? "";
   return telling;
 }
 

@@ -124,7 +124,8 @@ const isWhole = (one) => one.scrollWidth <= one.clientWidth + 1;
 const WIDE = [".jp-OutputArea-output", ".jp-RenderedMarkdown", ".cm-scroller"]
   .map((one) => `.jp-Cell:not(.slamlab-off) ${one}`).join();
 
-function fits(page) {
+// Whether nothing of a page is cut off.
+export function fits(page) {
   return page.scrollHeight <= page.clientHeight + 1 && isWhole(page)
     && [...page.querySelectorAll(WIDE)].every(isWhole)
     && [...page.querySelectorAll(`.jp-Cell:not(.slamlab-off) ${FIGURE}`)].every((one) => isWhole(one.parentElement));

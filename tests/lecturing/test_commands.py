@@ -1,0 +1,80 @@
+"""slamlab rehearse and slamlab handout, in a real browser."""
+
+import re
+import shutil
+import zlib
+
+import pytest
+
+from slamlab.cli import main
+from slamlab.lecturing import headless
+
+
+@pytest.fixture(scope="module", autouse=True)
+def browser():
+    try:
+        with headless.chromium():
+            pass
+    except headless.Unavailable as reason:
+        pytest.skip(str(reason))
+
+
+def pages(file):
+    """How many pages a PDF has, and the sizes of its paper [pt]."""
+    data = file.read_bytes()
+    sizes = re.findall(rb"/MediaBox\s*\[0 0 ([\d.]+) ([\d.]+)\]", data)
+    for packed in re.findall(rb"stream\r?\n(.*?)endstream", data, re.S):
+        try:
+            data += zlib.decompress(packed)
+        except zlib.error:
+            continue
+    return len(re.findall(rb"/Type\s*/Page\b", data)), {tuple(map(float, s)) for s in sizes}, data
+
+
+def test_a_lesson_that_is_sound_passes_and_its_file_stays_as_it_is(write, capsys):
+    notebook = write()
+    before = notebook.read_bytes()
+    assert main(["rehearse", str(notebook)]) == 0
+    said = capsys.readouterr().out
+    assert "Second" in said and "Nothing is wrong" in said
+    assert notebook.read_bytes() == before
+
+
+def test_a_failing_cell_and_a_slide_too_full_are_found(write, capsys):
+    text = "\n\n".join(f"line {k}" for k in range(70))
+    assert main(["rehearse", str(write("1 / 0", text))]) == 1
+    said = capsys.readouterr().out
+    assert "cell the-cell: ZeroDivisionError" in said and "does not fit the screen" in said
+
+
+def test_cells_that_never_end_are_not_waited_for(write, capsys):
+    assert main(["rehearse", str(write("time.sleep(1e6)")), "--patience", "0.3"]) == 2
+    assert "as far as the-cell" in capsys.readouterr().err
+
+
+def test_a_handout_has_a_page_for_each_slide_and_its_text(write, tmp_path):
+    notebook, out = write(), tmp_path / "out.pdf"
+    assert main(["handout", str(notebook), "--out", str(out)]) == 0
+    count, sizes, data = pages(out)
+    assert count == 2 and sizes == {(960.0, 540.0)}
+    assert b"/Font" in data  # text, no picture of it
+
+
+def test_notes_stand_on_upright_pages(write, tmp_path):
+    out = tmp_path / "out.pdf"
+    assert main(["handout", str(write()), "--notes", "--out", str(out)]) == 0
+    count, ((width, height),), _ = pages(out)
+    assert count == 2 and height > width
+
+
+def test_what_is_no_notebook_is_told(tmp_path, capsys):
+    (tmp_path / "no.ipynb").write_text("nothing")
+    assert main(["rehearse", str(tmp_path / "no.ipynb")]) == 2
+    assert "is no notebook" in capsys.readouterr().err
+
+
+def test_no_browser_is_told_with_what_to_install(write, monkeypatch, capsys):
+    monkeypatch.setattr(shutil, "which", lambda name: None)
+    monkeypatch.setattr(headless, "CHANNELS", ())
+    assert main(["handout", str(write())]) == 2
+    assert "install" in capsys.readouterr().err
