@@ -1,6 +1,6 @@
 """A lesson shown as a lecture in the browser, and what can be seen of it."""
 
-# what is shown of a slide: its place, whether it is cut off, and its letters in pixels of the screen
+# what is shown of a slide: its place, whether it is cut off, its letters in pixels of the screen
 SEEN = """() => {
     const deck = document.querySelector(".slamlab-deck");
     const page = deck.querySelector(".jp-WindowedPanel-viewport");
@@ -11,7 +11,8 @@ SEEN = """() => {
     const letters = (selector) => [...page.querySelectorAll(selector)]
         .filter((one) => isSeen(one) && one.textContent.trim())
         .map((one) => zoom * parseFloat(getComputedStyle(one).fontSize));
-    const wide = [...page.querySelectorAll(".jp-OutputArea-output, .jp-RenderedMarkdown, .cm-scroller")]
+    const wide = [...page.querySelectorAll(
+        ".jp-OutputArea-output, .jp-RenderedMarkdown, .cm-scroller")]
         .filter((one) => isSeen(one) && one.scrollWidth > one.clientWidth + 1);
     const box = page.getBoundingClientRect();
     const outside = [...page.querySelectorAll(".jp-Cell")].filter((one) => isSeen(one)
@@ -28,6 +29,8 @@ SEEN = """() => {
             + "/" + page.querySelectorAll(".jp-Cell:not(.slamlab-off) .slamlab-later").length,
     };
 }"""
+
+PAINTED = "() => new Promise((done) => requestAnimationFrame(() => setTimeout(done)))"
 
 
 class Lecture:
@@ -50,7 +53,7 @@ class Lecture:
     def press(self, key):
         """Press a key and wait until what it does is painted."""
         self.page.keyboard.press(key)
-        self.page.evaluate("() => new Promise((done) => requestAnimationFrame(() => setTimeout(done)))")
+        self.page.evaluate(PAINTED)
 
     @property
     def seen(self):

@@ -30,6 +30,7 @@ def told(presenter, words):
     presenter.locator("#told", has_text=re.compile(words)).wait_for(state="attached")
 
 
+@pytest.mark.walk
 def test_both_windows_name_the_same_slide_after_each_of_500_steps_of_either(lecture):
     presenter = lecture.presenter()
     rng = np.random.default_rng(5)
