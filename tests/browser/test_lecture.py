@@ -41,6 +41,7 @@ def test_every_stop_fits_and_is_legible_there_and_back(lecture, lesson, screen):
     stops = list(lecture.walk())
     assert [seen["stop"] for seen in stops] == list(range(stops[-1]["stops"]))
     assert len({seen["shown"] for seen in stops}) == len(stops)  # each key shows something new
+    assert cells_of(stops) == on_slides(lesson)  # and none goes over something
     small = [seen["stop"] for seen in stops if seen["shrink"] < SMALLEST]
     faint = [seen["stop"] for seen in stops if seen["letters"] < BASE * height / 720 - 0.01]
     assert ([seen["stop"] for seen in stops if seen["cut"]], small, faint) == ([], [], [])
@@ -49,6 +50,25 @@ def test_every_stop_fits_and_is_legible_there_and_back(lecture, lesson, screen):
         assert lecture.seen["shown"] == seen["shown"]
     assert lecture.visit.errors == []
     assert lecture.visit.abroad == []
+
+
+def cells_of(stops):
+    """Positions of the cells that were shown at some stop."""
+    return {int(cell) for seen in stops for cell in seen["shown"].split("/")[0].split(",")}
+
+
+def on_slides(lesson):
+    """Positions of the cells that are on slides."""
+    cells = json.loads((ROOT / "notebooks" / lesson).read_text())["cells"]
+    types = [cell["metadata"].get("slideshow", {}).get("slide_type") for cell in cells]
+    return {n for n, kind in enumerate(types) if kind not in ("notes", "skip")}
+
+
+def test_pages_and_folded_answers_of_long_slides_are_all_shown(lecture):
+    lesson = "00_start_here.ipynb"
+    lecture.visit.open(lesson)
+    lecture.start()
+    assert cells_of(lecture.walk()) == on_slides(lesson)
 
 
 def test_no_key_and_no_click_changes_the_file(lecture, lab_folder):
@@ -199,10 +219,3 @@ def test_a_lecture_starts_by_its_address(lecture):
     lecture.visit.open("07_correlations.ipynb")
     lecture.page.wait_for_selector(".slamlab-deck .slamlab-bar")
     assert lecture.seen["stop"] == 0
-
-
-def test_the_notebooks_of_the_course_have_slides():
-    for lesson in LESSONS:
-        cells = json.loads((ROOT / "notebooks" / lesson).read_text())["cells"]
-        types = [cell["metadata"].get("slideshow", {}).get("slide_type") for cell in cells]
-        assert types.count("slide") > 10

@@ -6,7 +6,7 @@ import { keysOf } from "./keys.js";
 import { layOut, pagesOf, zoomOf } from "./fit.js";
 import { foldCode, lockCode } from "./code.js";
 import { Signal } from "./signal.js";
-import { refold, reveal, slidesOf, stopsOf } from "./stops.js";
+import { refold, reveal, slidesOf, stopsOf, unfold } from "./stops.js";
 
 const PANEL = "slamlab-deck";
 
@@ -22,6 +22,7 @@ function draw(notebook, indices) {
     if (cell.node.querySelector(".slamlab-telling")) continue;
     foldCode(cell);
     lockCode(cell);
+    unfold(cell);
   }
 }
 
@@ -90,26 +91,30 @@ export class Deck {
   }
 
   go(k) {
-    this.at = Math.max(0, Math.min(k, this.stops.length - 1));
-    const pages = this.#pages(this.slide);
+    const { slide } = this.stops[Math.max(0, Math.min(k, this.stops.length - 1))];
+    const nth = k - this.#first(slide);
+    const pages = this.#pages(slide); // it may have more stops now
+    this.at = Math.max(0, Math.min(this.#first(slide) + nth, this.stops.length - 1));
     this.shown = pages.findLast(({ cells }) => cells[0] <= this.cell) ?? pages[0];
     this.#reveal();
     layOut(this.page, this.notebook, this.shown, this.zoom);
     this.#unscroll();
+    this.signature = this.#signature();
     Object.assign(this.layer.dataset, { stop: this.at, stops: this.stops.length, shrink: this.shown.shrink });
     this.changed.emit(this);
     this.#prepare();
   }
 
-  // The same stop anew, after its size or its content changed.
-  again() {
+  // The same stop anew, after its content changed, or the size of all.
+  again(all = true) {
     if (!this.panel.node.classList.contains(PANEL)) return;
-    this.layouts.clear();
-    const { slide, cell, step } = this.stops[this.at];
+    const here = this.stops[this.at];
+    if (all) this.layouts.clear();
+    else this.layouts.delete(here.slide);
     this.gather();
-    const same = this.stops.findLastIndex((stop) => stop.slide === slide
-      && (stop.cell < cell || (stop.cell === cell && stop.step <= step)));
-    this.go(Math.max(same, this.stops.findIndex((stop) => stop.slide === slide)));
+    this.at = this.#first(here.slide);
+    this.#pages(here.slide);
+    this.go(Math.max(this.#first(here.slide), this.#reached(here)));
   }
 
   key(key, does, action) { this.keys.set(key, { does, action }); }
@@ -145,6 +150,7 @@ export class Deck {
     this.layer.remove();
     page.removeAttribute("style");
     page.classList.remove("slamlab-columns");
+    refold(notebook);
     for (const cell of notebook.widgets) {
       cell.node.classList.remove("slamlab-off", "slamlab-later", "slamlab-right", "slamlab-code");
       for (const one of cell.node.querySelectorAll(".slamlab-later, .slamlab-gone")) {
@@ -153,7 +159,6 @@ export class Deck {
       cell.node.querySelector(".slamlab-telling")?.remove();
       lockCode(cell, false);
     }
-    refold(notebook);
     notebook.notebookConfig = this.config;
     notebook.activeCellIndex = this.cell;
     panel.update();
@@ -171,10 +176,9 @@ export class Deck {
       };
       const measure = () => pagesOf(this.page, this.notebook, cells, this.zoom, show);
       this.layouts.set(number, this.#measured(measure));
-      const { slide, cell, step } = this.stops[this.at];
+      const here = this.stops[this.at];
       this.gather();
-      this.at = this.stops.findLastIndex((stop) => stop.slide < slide
-        || (stop.slide === slide && (stop.cell < cell || (stop.cell === cell && stop.step <= step))));
+      this.at = Math.max(0, this.#reached(here));
     }
     return this.layouts.get(number);
   }
@@ -187,6 +191,14 @@ export class Deck {
     } finally {
       this.page.classList.remove("slamlab-measured");
     }
+  }
+
+  #first(slide) { return this.stops.findIndex((stop) => stop.slide === slide); }
+
+  // The last stop that shows no more than this one.
+  #reached({ slide, cell, step }) {
+    return this.stops.findLastIndex((stop) => stop.slide < slide
+      || (stop.slide === slide && (stop.cell < cell || (stop.cell === cell && stop.step <= step))));
   }
 
   #reveal() {
@@ -218,9 +230,8 @@ export class Deck {
     this.frame = requestAnimationFrame(() => {
       const signature = this.#signature();
       if (signature === this.signature) return;
-      this.signature = signature;
-      this.again();
-      this.signature = this.#signature();
+      const screen = signature.split(",", 2).join();
+      this.again(!this.signature.startsWith(`${screen},`));
     });
   }
 

@@ -25,14 +25,7 @@ export function copied(element) {
 // A copy of a cell, which stops.js and fit.js treat as they treat the cell.
 function copyOf(cell) {
   const node = copied(cell.node);
-  return {
-    node,
-    model: cell.model,
-    get outputHidden() { return cell.outputHidden; },
-    set outputHidden(_) { // only ever unfolded
-      node.querySelector(".jp-OutputPlaceholder")?.replaceWith(copied(cell.outputArea.node));
-    },
-  };
+  return { node, model: cell.model, outputArea: { node: node.querySelector(".jp-OutputArea") ?? node } };
 }
 
 // A stop of a deck, given by its number, within copies of all that stands around the page; nothing if

@@ -66,7 +66,7 @@ export function reveal(notebook, stop, page, lines = Infinity) {
     if (!here) return;
     const reached = index < stop.cell ? Infinity : index === stop.cell ? stop.step : -1;
     const folded = Number(isFolded(cell));
-    if (folded) unfold(cell, reached >= 1);
+    if (folded) cell.outputArea.node.classList.toggle("slamlab-later", reached < 1);
     const steps = cell.node.querySelectorAll(STEP);
     const last = Math.min(reached - folded, steps.length); // the steps that are shown
     steps.forEach((step, k) => {
@@ -76,13 +76,14 @@ export function reveal(notebook, stop, page, lines = Infinity) {
   });
 }
 
-function unfold(cell, open) {
-  // unfolded by the question's answer, it stays so
-  if (open && cell.outputHidden) cell.outputHidden = false;
+// A folded answer waits with its room kept, like all that comes later.
+export function unfold(cell) {
+  if (isFolded(cell)) cell.outputHidden = false;
 }
 
+// Fold again the answers that nobody has seen.
 export function refold(notebook) {
   for (const cell of notebook.widgets) {
-    if (cell.model.type === "code" && isFolded(cell)) cell.outputHidden = true;
+    if (cell.outputArea?.node.classList.contains("slamlab-later")) cell.outputHidden = true;
   }
 }
