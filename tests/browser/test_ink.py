@@ -7,6 +7,8 @@ import pytest
 from tests.browser.presenting import Lecture, draw
 from tests.patience import until
 
+pytestmark = pytest.mark.walk  # minutes of a browser's time
+
 KEPT = ".slamlab-ink .slamlab-stroke:not(.slamlab-unseen)"
 PLACE = """([mark, thing]) => {
     const [a, b] = [mark, thing].map((one) => document.querySelector(one).getBoundingClientRect());

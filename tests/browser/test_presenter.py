@@ -10,6 +10,8 @@ from axe_playwright_python.sync_playwright import Axe
 
 from tests.browser.presenting import SLIDES, Lecture
 
+pytestmark = pytest.mark.walk  # minutes of a browser's time
+
 STOPS = 9  # of the notebook: two, two, three, one, one
 
 
@@ -30,7 +32,6 @@ def told(presenter, words):
     presenter.locator("#told", has_text=re.compile(words)).wait_for(state="attached")
 
 
-@pytest.mark.walk
 def test_both_windows_name_the_same_slide_after_each_of_500_steps_of_either(lecture):
     presenter = lecture.presenter()
     rng = np.random.default_rng(5)
