@@ -1,4 +1,4 @@
-"""Colours of the whole course: one a meaning, in one table; told apart with any colour vision.
+"""Colours of the whole course, a colour-blind-safe palette: one a meaning, in one table.
 
 Marks that carry a meaning have a contrast of 3:1 to white paper, letters 4.5:1 (WCAG 2.2, success
 criteria 1.4.11 and 1.4.3). Meanings whose colours look alike to somebody differ in their marks.

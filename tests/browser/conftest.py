@@ -10,9 +10,12 @@ from tests.browser import driving, editing, live, measuring, waiting
 from tests.browser.jupyter import Unavailable, Visit, chromium, jupyterlab
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def browser():
-    """Chromium, without a window."""
+    """Chromium, without a window.
+
+    Playwright's event loop runs as long as it is open: tests of other files may have their own.
+    """
     try:
         with chromium() as opened:
             yield opened

@@ -1,5 +1,6 @@
 """Rasterisation (rasterization) without JavaScript: NumPy draws the pixels of a PNG image."""
 
+import base64
 import html
 import struct
 import zlib
@@ -28,17 +29,17 @@ class RasterScreen(Screen):
     def __init__(self, alt="", title="", size=(720, 480)):
         super().__init__(acknowledged=False, frame_period=FRAME_PERIOD)
         self._size = tuple(map(int, size))
-        self._image = ipywidgets.Image(
-            format="png",
-            layout={"width": f"{self._size[0]}px", "max_width": "100%"},
-            tooltip=alt,  # takes no alternative text, but is named by what is shown over it
-        )
+        self._image = ipywidgets.HTML()  # an Image of ipywidgets takes no alternative text
         self._words = ipywidgets.HTML()
-        self._title = title
+        self._alt, self._title = html.escape(alt), title
         self.widget = ipywidgets.VBox([self._image, self._words])
 
     def _send_frame(self, scene):
-        self._image.value = png(rasterise(scene, self._size))
+        picture = base64.b64encode(png(rasterise(scene, self._size))).decode()
+        self._image.value = (
+            f'<img alt="{self._alt}" width="{self._size[0]}" style="max-width: 100%" '
+            f'decoding="sync" src="data:image/png;base64,{picture}">'  # not drawn late: no flicker
+        )
         names = {each.name: each.colour for each in scene.drawables if each.kind != "curve"}
         legend = " ".join(
             f'<span style="color:{colour};background:#ffffff">■</span> {html.escape(name)}'

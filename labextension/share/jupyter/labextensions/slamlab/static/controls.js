@@ -46,7 +46,6 @@ export function nameControls(panel) {
   forEachElement(panel, ".jupyter-widgets textarea[title]", (field) => {
     field.setAttribute("aria-label", field.title);
   });
-  forEachElement(panel, "img.widget-image[title]", (picture) => { picture.alt = picture.title; });
 }
 
 export function tellDeadWidgets(panel) {
