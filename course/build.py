@@ -7,6 +7,7 @@ from pathlib import Path
 
 import nbformat
 
+from course import values
 from course.derive import FOLDERS, derive
 from course.execute import ExecutionError, carry_outputs, execute, executed, same_code
 from course.source import ROOT, CourseError, file_name, sources
@@ -72,7 +73,8 @@ def differences(path, root=ROOT):
             continue
         if derived.runs and not executed(stored):
             found.append(f"{name}: was not run")
-        want, have = _without_outputs(derived.notebook), _without_outputs(stored)
+        filled = values.carry(derived.notebook, stored) if derived.runs else derived.notebook
+        want, have = _without_outputs(filled or derived.notebook), _without_outputs(stored)
         if [c.id for c in want.cells] != [c.id for c in have.cells]:
             found.append(f"{name}: other cells than its source has")
         elif want != have:

@@ -10,6 +10,7 @@ from tempfile import TemporaryDirectory
 from nbclient import NotebookClient
 from nbclient.exceptions import CellExecutionError, CellTimeoutError, DeadKernelError
 
+from course import values
 from course.source import ROOT
 from slamlab.coursework.folder import OFF
 from slamlab.parallel import THREAD_VARIABLES
@@ -32,17 +33,17 @@ def executed(notebook):
 
 
 def same_code(derived, stored):
-    """Whether two notebooks run the same code, cell by cell."""
+    """Whether two notebooks run the same code, cell by cell, and compute the same values."""
 
     def code(notebook):
         return [(c.id, c.source) for c in notebook.cells if c.cell_type == "code"]
 
-    return code(derived) == code(stored)
+    return code(derived) == code(stored) and values.carry(derived, stored) is not None
 
 
 def carry_outputs(derived, stored):
-    """Copy the outputs of a stored notebook to the derived one that runs the same code."""
-    notebook, outputs = copy.deepcopy(derived), {c.id: c for c in stored.cells}
+    """Copy outputs and values of a stored notebook to the derived one that runs the same code."""
+    notebook, outputs = values.carry(derived, stored), {c.id: c for c in stored.cells}
     for cell in notebook.cells:
         if cell.cell_type == "code":
             cell.outputs = outputs[cell.id].outputs
@@ -66,7 +67,7 @@ def execute(derived, folder):
     ------
     ExecutionError : when a cell fails, takes too long or kills the kernel
     """
-    notebook = copy.deepcopy(derived)
+    notebook = values.with_computing_cells(copy.deepcopy(derived))
     folder.mkdir(exist_ok=True)
     client = NotebookClient(
         notebook,
@@ -93,7 +94,10 @@ def execute(derived, folder):
             client.execute(env=env | {"IPYTHONDIR": profile})
     except (CellExecutionError, CellTimeoutError, DeadKernelError) as error:
         begun = [n for n, c in enumerate(notebook.cells) if c.get("execution_count")]
-        raise ExecutionError(begun[-1] if begun else 0, _last_lines(error)) from None
+        before = notebook.cells[: begun[-1] if begun else 0]
+        place = sum(not values.is_computing(cell) for cell in before)
+        raise ExecutionError(place, _last_lines(error)) from None
+    values.take_computed(notebook)
     notebook.metadata = copy.deepcopy(derived.metadata)  # the kernel adds its version
     for number, cell in enumerate(c for c in notebook.cells if c.cell_type == "code"):
         cell.execution_count = number + 1

@@ -3,7 +3,7 @@
 import re
 from dataclasses import replace
 
-from course.source import Cell, file_name
+from course.source import Cell, file_name, main_line
 
 _TITLE = re.compile(r"^# # (?:Exercise )?\d\d · (.+?)(?:: exercise)?$", re.MULTILINE)
 
@@ -30,8 +30,7 @@ def with_links(source, last):
         )
         return [*cells, Cell("markdown", line, "ways", cells[-1].line, {})] if line else cells
     line = _line(("Exercise ", exercise, "../exercises/"), ("on to lesson ", following, ""))
-    told = [k for k, cell in enumerate(cells) if cell.type == "markdown"]
-    place = [k for k in told if not cells[k].text.startswith("## Appendix")][-1]
+    place = [k for k, cell in enumerate(main_line(cells)) if cell.type == "markdown"][-1]
     cells[place] = _longer(cells[place], line)
     return cells
 

@@ -5,9 +5,10 @@ import importlib
 import re
 from itertools import pairwise
 
+from course import equations
 from course.exercise import SolutionError, solution_regions
 from course.figure_lint import figure_problems
-from course.source import CHECK, ID, METADATA, heading
+from course.source import CHECK, ID, METADATA, heading, main_line
 from slamlab.lecturing.planning import total
 from slamlab.coursework.overview import QUESTION
 
@@ -53,6 +54,7 @@ def lint(source, exercise=None):
     problems += [f"{source.at(cell)}: {text}" for cell, text in _slides(source)]
     problems += [f"{source.at(cell)}: {text}" for cell, text in _minutes(source)]
     problems += [f"{source.at(cell)}: {text}" for cell, text in _questions(source)]
+    problems += [f"{source.at(cell)}: {text}" for cell, text in equations.problems(source)]
     problems += [f"{source.at(cell)}: {text}" for cell, text in _first_and_last_cell(source)]
     if source.kind == "exercise":
         problems += [f"{source.at(cell)}: {text}" for cell, text in _checks(source, exercise)]
@@ -157,7 +159,7 @@ def _first_and_last_cell(source):
     if not source.cells:
         return
     first = source.cells[0]
-    last = [cell for cell in source.cells if not cell.text.startswith("## Appendix")][-1]
+    last = main_line(source.cells)[-1]
     title = heading(first.text) if first.type == "markdown" else None
     if not re.fullmatch(rf"(Exercise )?{source.number} · .+", title or ""):
         yield first, f"the first cell begins with the heading `# {source.number} · Title`"
@@ -169,7 +171,7 @@ def _first_and_last_cell(source):
         if last.type != "markdown" or wanted not in last.text:
             yield (
                 last,
-                f"the last cell before any appendix says what comes next and links to {wanted}",
+                f"the last cell of the main line says what comes next and links to {wanted}",
             )
 
 

@@ -11,6 +11,7 @@ from nbformat import NotebookNode
 ROOT = Path(__file__).resolve().parent.parent
 KINDS = {"lessons": "lesson", "exercises": "exercise"}
 METADATA = ("name", "slideshow", "tags", "answers", "minutes")
+OPTIONAL = ("## Deeper", "## In print", "## Appendix")
 CHECK = re.compile(r'check\("([^"\\]+)"\)')
 ID = re.compile(r"[a-zA-Z0-9_-]{1,64}")
 
@@ -181,6 +182,21 @@ def heading(text):
     """The first heading of level 1 or 2 in a markdown text, or None."""
     lines = (_HEADING.fullmatch(line.strip()) for line in text.splitlines())
     return next((match[1] for match in lines if match), None)
+
+
+def main_line(cells):
+    """The cells before the optional sections that may end a lesson: Deeper, In print, Appendix.
+
+    Parameters
+    ----------
+    cells : list of Cell
+
+    Returns
+    -------
+    list of Cell
+    """
+    optional = (k for k, cell in enumerate(cells) if cell.text.startswith(OPTIONAL))
+    return cells[: next(optional, len(cells))]
 
 
 def _ids(raw):

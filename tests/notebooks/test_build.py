@@ -342,3 +342,79 @@ def test_a_missing_a_foreign_and_a_cleared_notebook_are_told(root):
 def test_an_unknown_name_is_told_without_a_traceback(capsys):
     assert tool.main(["99"]) == 1
     assert "99: no such source" in capsys.readouterr().err
+
+
+# -- values in prose
+
+VALUE = """
+# %%
+total = -2.5
+
+# %% [markdown]
+# It is {= total:.1f =}, or {= total ** 2:.2f =}.
+"""
+
+
+def test_values_in_prose_are_computed_where_they_stand_and_kept_without_running(root, monkeypatch):
+    path = write(root, VALUE)
+    tool.build(path, root=root)
+    text, code = stored(root).cells[3], [c for c in stored(root).cells if c.cell_type == "code"]
+    assert text.source == "It is −2.5, or 6.25." and len(code) == 1
+    assert code[0].execution_count == 1
+    assert tool.differences(path, root) == []
+    monkeypatch.setattr(tool, "execute", lambda *_: pytest.fail("nothing is to be run"))
+    write(root, VALUE.replace("It is", "So it is"))
+    tool.build(path, root=root)
+    assert stored(root).cells[3].source == "So it is −2.5, or 6.25."
+
+
+def test_a_new_value_makes_the_notebook_run_and_differ_until_then(root):
+    path = write(root, VALUE)
+    tool.build(path, root=root)
+    write(root, VALUE.replace("total ** 2:.2f", "3 * total:g"))
+    assert tool.differences(path, root) == ["notebooks/90_sums.ipynb: differs in two-and-two-3"]
+    tool.build(path, root=root)
+    assert stored(root).cells[3].source == "It is −2.5, or −7.5."
+
+
+def test_a_value_that_cannot_be_computed_is_told_with_its_place(root):
+    path = write(root, VALUE.replace("total ** 2", "nobody"))
+    with pytest.raises(CourseError) as error:
+        tool.build(path, root=root)
+    assert "two-and-two-3 failed" in str(error.value) and "nobody" in str(error.value)
+    assert re.search(r"90_sums\.py:\d+: two", str(error.value))
+
+
+# -- equations
+
+
+def test_a_reference_to_an_equation_must_have_one_and_numbers_ascend(root):
+    numbered = """
+    # %% [markdown]
+    # $$ a = b \\tag{90.1} $$
+    #
+    # By (90.1), and by
+    # $$ b = c \\tag{90.3} $$
+    #
+    # so that (90.4) holds.
+    """
+    said = refused(write(root, numbered), root)
+    assert "(90.3) should be (90.2)" in said and "no equation (90.4)" in said
+    right = numbered.replace("90.3", "90.2").replace("(90.4)", "(90.2)")
+    tool.derive(write(root, right), root)
+
+
+def test_once_an_equation_is_numbered_all_are(root):
+    text = """
+    # %% [markdown]
+    # $$ a = b \\tag{90.1} $$
+    #
+    # $$ b = c $$
+    """
+    assert "without a number" in refused(write(root, text), root)
+
+
+def test_an_optional_section_may_stand_behind_what_comes_next(root):
+    deeper = TAIL + "\n# %% [markdown]\n# ## Deeper: why\n#\n# Because.\n"
+    derived = tool.derive(write(root, ADD, tail=deeper), root)[0]
+    assert "Because" in derived.notebook.cells[-1].source
