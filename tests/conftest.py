@@ -7,7 +7,7 @@ from hypothesis import settings
 settings.register_profile("slamlab", deadline=None, derandomize=True, max_examples=60)
 settings.load_profile("slamlab")
 
-# what is started in the background, or by nohup, ignores these, and so would every program under test
+# what is started in the background, or by nohup, ignores these; so would programs under test
 for name in ("SIGINT", "SIGHUP"):
     number = getattr(signal, name, None)
     if number and signal.getsignal(number) is signal.SIG_IGN:
