@@ -11,6 +11,7 @@ from course.source import ROOT
 
 HERE = Path(__file__).parent
 WORK = ROOT / ".site"  # what the next build takes over: formulas, pages that did not change
+_LEVEL = 'role="heading" aria-level="2"'
 
 
 class SiteError(Exception):
@@ -45,9 +46,18 @@ def build(out, work=WORK):
     )
     if done.returncode:
         raise SiteError("Sphinx has something to say: see above")
+    _level_captions(work / "html")
     shutil.rmtree(out, ignore_errors=True)
     shutil.copytree(work / "html", out, ignore=shutil.ignore_patterns(".buildinfo*", "objects.inv"))
     (out / ".nojekyll").touch()  # GitHub Pages leaves folders with _ away otherwise
+
+
+def _level_captions(folder):
+    """Give captions of lists of pages the level that Sphinx leaves away; screen readers want it."""
+    for path in folder.rglob("*.html"):
+        text = path.read_text(encoding="utf-8")
+        levelled = text.replace('class="caption" role="heading"', f'class="caption" {_LEVEL}')
+        path.write_text(levelled, encoding="utf-8")
 
 
 def katex_modules(work):

@@ -86,8 +86,7 @@ def _visit_inline(visitor, node):
 
 
 def _visit_block(visitor, node):
-    # a wide formula scrolls by itself, and with the keyboard
-    visitor.body.append('<div class="formula" tabindex="0" role="group" aria-label="Formula">')
+    visitor.body.append('<div class="formula" role="group" aria-label="Formula">')
     visitor.body.append(_html(visitor, node))
     visitor.body.append("</div>\n")
     raise nodes.SkipNode
