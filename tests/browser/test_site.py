@@ -9,6 +9,12 @@ from course.site import building, looking
 
 pytestmark = pytest.mark.slow
 SCREENS = {"desktop": (1280, "light"), "dark": (1280, "dark"), "phone": (390, "light")}
+PAGES = (
+    "index",
+    "notebooks/04_models_and_jacobians",
+    "exercises/ex04_models_and_jacobians",
+    "guides/architecture",
+)
 LOADED = "document.fonts.ready.then(() => document.readyState == 'complete')"
 
 
@@ -52,25 +58,21 @@ def test_nothing_is_wrong_with_any_page(site):
     assert looking.problems(site) == []
 
 
-def test_every_page_is_sound_fits_and_can_be_read_by_all(look, site):
-    for name in (
-        "index",
-        "notebooks/04_models_and_jacobians",
-        "exercises/ex04_models_and_jacobians",
-        "formulas",
-        "guides/grading",
-        "api/filters",
-    ):
-        page = look(f"{name}.html")
-        assert page.evaluate("document.documentElement.scrollWidth <= window.innerWidth"), name
-        found = Axe().run(page, options={"resultTypes": ["violations"], "preload": False})
-        serious = [
-            f"{broken['id']}: {node['html'][:150]}"
-            for broken in found.response["violations"]
-            if broken["impact"] in ("serious", "critical")
-            for node in broken["nodes"]
-        ]
-        assert serious == [], name
+@pytest.mark.parametrize("name", PAGES)
+def test_a_page_is_sound_fits_and_can_be_read_by_all(look, name):
+    page = look(f"{name}.html")
+    assert page.evaluate("document.documentElement.scrollWidth <= window.innerWidth")
+    # the spans of a formula are hidden from screen readers, which get its MathML
+    formulas = {"exclude": [[".katex-html"]]}
+    options = {"resultTypes": ["violations"], "preload": False}
+    found = Axe().run(page, context=formulas, options=options)
+    serious = [
+        f"{broken['id']}: {node['html'][:150]}"
+        for broken in found.response["violations"]
+        if broken["impact"] in ("serious", "critical")
+        for node in broken["nodes"]
+    ]
+    assert serious == []
 
 
 @pytest.mark.parametrize("words", ["Jacobian", "ψ"])
