@@ -1,21 +1,22 @@
 # %% [markdown]
 # # Exercise 03 · The Kalman filter
 #
-# **You will be able to** turn the best gain into code, write the filter around it, find $F$, $Q$ and $H$
-# of a system that nobody has modelled for you, and repair a filter whose measurements are not what was
-# promised.
+# **You will be able to** turn the best gain into code, write the filter around it, find $F$, $Q$
+# and $H$ of a system that nobody has modelled for you, and repair a filter whose measurements are
+# not what was promised.
 #
 # **60 minutes. Before:** lesson [03 · The Kalman filter](../notebooks/03_kalman_filter.ipynb).
 #
 # Replace each `raise NotImplementedError(...)` by your code, run the cell, then run the check below
 # it, as often as you like. A check draws random inputs and tells you which law is broken; where it
-# recognises a mistake, it tells you that, too. It never looks at your formulas: it moves samples and
-# solves least squares problems. When you are stuck, `hint("03-gain")` asks a question that leads on.
+# recognises a mistake, it tells you that, too. It never looks at your formulas: it moves samples
+# and solves least squares problems. When you are stuck, `hint("03-gain")` asks a question that
+# leads on.
 #
 # A belief is a state `x` (n,) and the covariance `P` (n, n) of its error. In tasks 1 to 3 all sizes
-# are general: there may be one state or many, and one measured number, a few, or even more than there
-# are states. $P$, $Q$ and $R$ are symmetric and positive definite. A function may not change its
-# arguments, for whoever called it still needs them.
+# are general: there may be one state or many, and one measured number, a few, or even more than
+# there are states. $P$, $Q$ and $R$ are symmetric and positive definite. A function may not change
+# its arguments, for whoever called it still needs them.
 
 # %%
 import numpy as np
@@ -27,8 +28,9 @@ from slamlab.layers import Ellipses, Points
 # %% [markdown]
 # Two pieces of the filter are ready, for each follows from the lesson's recipe in a line. The
 # **prediction** is (03.8): a step moves the truth to $F x + q$, and $q$ has the covariance $Q$. The
-# **innovation** is (03.10) and (03.11): a measurement is $z = H x + \varepsilon$ of the true $x$, and
-# $\varepsilon$ has the covariance $R$; $v$ is what is new in $z$, and $S$ is the covariance of $v$.
+# **innovation** is (03.10) and (03.11): a measurement is $z = H x + \varepsilon$ of the true $x$,
+# and $\varepsilon$ has the covariance $R$; $v$ is what is new in $z$, and $S$ is the covariance of
+# $v$.
 
 
 # %% name="ready"
@@ -43,8 +45,8 @@ def innovation(x, P, z, H, R):
 
 
 # %% [markdown]
-# The cart in the pictures is the lesson's. Its state is position [m] and speed [m/s], a step takes half a
-# second, and a range finder with $\sigma = 0.3$ m sees its position.
+# The cart in the pictures is the lesson's. Its state is position [m] and speed [m/s], a step takes
+# half a second, and a range finder with $\sigma = 0.3$ m sees its position.
 
 # %% name="cart"
 CART = {
@@ -59,14 +61,14 @@ START = {"x": np.array([2.0, 0.5]), "P": np.diag([0.4, 0.3]) ** 2}
 # ## 1 · The gain
 #
 # The estimate is corrected by $K v$. A small $K$ ignores what was measured, a large one copies its
-# noise. The best $K$ leaves the least mean square error, summed over all states; and since every other
-# gain adds a square to what is left, the same $K$ is best for each state by itself.
+# noise. The best $K$ leaves the least mean square error, summed over all states; and since every
+# other gain adds a square to what is left, the same $K$ is best for each state by itself.
 #
-# **Predict first.** According to the belief, a cart that is farther is also faster. The range comes out
-# longer than expected. Should the *speed* be corrected? And what if $P$ is diagonal?
+# **Predict first.** According to the belief, a cart that is farther is also faster. The range comes
+# out longer than expected. Should the *speed* be corrected? And what if $P$ is diagonal?
 #
-# **Your task.** Return the best $K$, (n, m). $H$ may be any matrix. A sensor may even see nothing of the
-# state, and then $H$ is zero.
+# **Your task.** Return the best $K$, (n, m). $H$ may be any matrix. A sensor may even see nothing
+# of the state, and then $H$ is zero.
 
 
 # %% name="gain"
@@ -85,8 +87,8 @@ def gain(P, H, R):
 check("03-gain")
 
 # %% [markdown]
-# Here 20 000 carts are corrected with shares of your gain, from none of it to twice of it. Where must
-# the lowest point be?
+# Here 20 000 carts are corrected with shares of your gain, from none of it to twice of it. Where
+# must the lowest point be?
 
 
 # %% name="too-much-or-too-little"
@@ -112,9 +114,9 @@ def _():
 #
 # **Predict first.** Does $P$ after the update depend on what was measured?
 #
-# **Your task.** Return the belief after a measurement, `x` (n,) and `P` (n, n). Use your `gain` and the
-# ready `innovation`, or write everything anew. For $P$ take whichever form you like: with the best gain
-# all forms of the lesson are equal. Take in every measurement, however far off it is.
+# **Your task.** Return the belief after a measurement, `x` (n,) and `P` (n, n). Use your `gain` and
+# the ready `innovation`, or write everything anew. For $P$ take whichever form you like: with the
+# best gain all forms of the lesson are equal. Take in every measurement, however far off it is.
 
 
 # %% name="update"
@@ -135,9 +137,9 @@ def update(x, P, z, H, R):
 check("03-update")
 
 # %% [markdown]
-# The picture shows the cart's belief after two seconds, and what your update makes of it when a range of
-# 4.0 m is measured. Only the position is measured. **Before you run it:** what happens to the height of
-# the ellipse?
+# The picture shows the cart's belief after two seconds, and what your update makes of it when a
+# range of 4.0 m is measured. Only the position is measured. **Before you run it:** what happens to
+# the height of the ellipse?
 
 
 # %% name="before-and-after"
@@ -159,23 +161,23 @@ def _():
 
 
 # %% [markdown]
-# With a right update, the ellipse has moved towards the measured line *and* upwards: the cart is farther
-# than it believed, so it is probably faster, too.
+# With a right update, the ellipse has moved towards the measured line *and* upwards: the cart is
+# farther than it believed, so it is probably faster, too.
 
 # %% [markdown]
 # ## 3 · The whole filter
 #
-# **Predict first.** The cart rolls for an hour and measures its position every half second. Does its
-# $P$ shrink to zero?
+# **Predict first.** The cart rolls for an hour and measures its position every half second. Does
+# its $P$ shrink to zero?
 #
-# **Your task.** Run the filter over a whole drive, with the ready `predict` and with your `update`, which
-# the check asks for first. The start is the belief *before* the first step. Each row of `zs` is measured
-# after one more step, and there is at least one row. Return all beliefs, one after each measurement,
-# without the start.
+# **Your task.** Run the filter over a whole drive, with the ready `predict` and with your `update`,
+# which the check asks for first. The start is the belief *before* the first step. Each row of `zs`
+# is measured after one more step, and there is at least one row. Return all beliefs, one after each
+# measurement, without the start.
 #
-# The check takes all measurements up to each step *at once*, like the patient one in the lesson's section
-# *Deeper: was anything lost on the way?* Your filter has to know as much at each step, although it
-# looks at each measurement only once.
+# The check takes all measurements up to each step *at once*, like the patient one in the lesson's
+# section *Deeper: was anything lost on the way?* Your filter has to know as much at each step,
+# although it looks at each measurement only once.
 
 
 # %% name="kalman-filter"
@@ -228,9 +230,9 @@ def _():
 # %% [markdown]
 # ## 4 · A system that is no cart
 #
-# A filter does not know what its states are. Here they are two voltages, that of a capacitor, $V_C$, and
-# that of the source that charges it through a resistor, $V_S$. The state is $x = (V_C, V_S)$ in volts. In
-# a step of $dt$ seconds two things happen:
+# A filter does not know what its states are. Here they are two voltages, that of a capacitor,
+# $V_C$, and that of the source that charges it through a resistor, $V_S$. The state is
+# $x = (V_C, V_S)$ in volts. In a step of $dt$ seconds two things happen:
 #
 # 1. The source wanders. At the *beginning* of the step it jumps by an unknown voltage $j$, whose mean
 #    is zero and whose variance is $\sigma^2\,dt$. Afterwards it keeps its voltage to the end of the
@@ -239,15 +241,15 @@ def _():
 #    $e^{-dt/\tau}$ is left at the end of the step; $\tau$ is the product of resistance and capacitance,
 #    ohms · farads.
 #
-# Then two meters are read, each with a noise of its own. A voltmeter shows $V_C$. An ammeter shows the
-# current through the resistor, in amperes, which is positive while the capacitor is charged.
+# Then two meters are read, each with a noise of its own. A voltmeter shows $V_C$. An ammeter shows
+# the current through the resistor, in amperes, which is positive while the capacitor is charged.
 #
 # **Predict first.** One jump $j$ makes both voltages wrong. Are the errors that a step adds to them
 # related? If you know that the source is higher than believed, what do you know of the capacitor?
 #
-# **Your task.** Derive $F$, $Q$ and $H$, each (2, 2), by the lesson's recipe: write the error, multiply
-# it by its transpose, take the expected value. Resistance and capacitance are positive. A step may be
-# short or long or take no time at all, and `sigma` may be zero.
+# **Your task.** Derive $F$, $Q$ and $H$, each (2, 2), by the lesson's recipe: write the error,
+# multiply it by its transpose, take the expected value. Resistance and capacitance are positive. A
+# step may be short or long or take no time at all, and `sigma` may be zero.
 
 
 # %% name="capacitor"
@@ -273,8 +275,8 @@ check("03-capacitor")
 
 # %% [markdown]
 # Now your filter runs with your matrices. Nobody measures the source, and both meters are bad: the
-# voltmeter has $\sigma = 0.3$ V, the ammeter $\sigma = 0.3$ A. **Before you run it:** the capacitor lags
-# behind the source. Will the estimate of the source lag, too?
+# voltmeter has $\sigma = 0.3$ V, the ammeter $\sigma = 0.3$ A. **Before you run it:** the capacitor
+# lags behind the source. Will the estimate of the source lag, too?
 
 
 # %% name="source"
@@ -303,20 +305,20 @@ def _():
 
 
 # %% [markdown]
-# With right matrices the estimate does not lag. From $F$ the filter knows *why* the capacitor is behind,
-# and from the current by how much.
+# With right matrices the estimate does not lag. From $F$ the filter knows *why* the capacitor is
+# behind, and from the current by how much.
 
 # %% [markdown]
 # ## 5 · Make it better: ghosts
 #
-# The cart again faces a wall, and people walk through its corridor. One reading in four is a *ghost*: it
-# has nothing to do with the cart, and says anything between 0 m and 10 m, each as likely as the other.
-# The other three are measurements as before, with the covariance $R$. No reading tells which of the two it
-# is. The cart also has sensors of its own, which tell in each step what was added to its state: the truth
-# becomes $F x + u + q$.
+# The cart again faces a wall, and people walk through its corridor. One reading in four is a
+# *ghost*: it has nothing to do with the cart, and says anything between 0 m and 10 m, each as
+# likely as the other. The other three are measurements as before, with the covariance $R$. No
+# reading tells which of the two it is. The cart also has sensors of its own, which tell in each
+# step what was added to its state: the truth becomes $F x + u + q$.
 #
-# **Predict first.** What does one ghost that is 4 m off do to the lesson's filter? What does it do to
-# the $P$ of that filter?
+# **Predict first.** What does one ghost that is 4 m off do to the lesson's filter? What does it do
+# to the $P$ of that filter?
 
 # %% name="ghosts"
 GHOSTS = 0.25  # the share of ghosts among the readings
@@ -339,14 +341,16 @@ def ghost_drive(rng, steps=50):
 
 # %% [markdown]
 # **Your task.** Write a filter that lives with ghosts. The noise is no bell here, so the lesson's
-# promises that need one are off, and another rule may do better. Any method goes, and there are many:
-# refuse what does not fit, trust it less, weigh the two cases by how likely they are, follow both, look
-# again at what you refused. `zs` has one number in each row. `GHOSTS` and `REACH` hold in all drives.
+# promises that need one are off, and another rule may do better. Any method goes, and there are
+# many: refuse what does not fit, trust it less, weigh the two cases by how likely they are, follow
+# both, look again at what you refused. `zs` has one number in each row. `GHOSTS` and `REACH` hold
+# in all drives.
 #
-# The check lets your filter follow 40 drives of 50 steps and looks at three things: how far off it is on
-# a typical drive, compared with the lesson's filter; how far off it is compared with a filter that is
-# *told* which readings are ghosts; and whether its $P$ is honest, which is the hardest of the three. The
-# first steps of a drive do not count, and neither does the worst tenth of the drives for its $P$.
+# The check lets your filter follow 40 drives of 50 steps and looks at three things: how far off it
+# is on a typical drive, compared with the lesson's filter; how far off it is compared with a filter
+# that is *told* which readings are ghosts; and whether its $P$ is honest, which is the hardest of
+# the three. The first steps of a drive do not count, and neither does the worst tenth of the drives
+# for its $P$.
 
 
 # %% name="wary-filter"
@@ -381,8 +385,8 @@ def wary_filter(x, P, us, zs, F, Q, H, R):
 check("03-ghosts")
 
 # %% [markdown]
-# This is one drive: what was read, what you believe, and where the cart was. **Before you run it:** where
-# should the band be widest?
+# This is one drive: what was read, what you believe, and where the cart was. **Before you run it:**
+# where should the band be widest?
 
 
 # %% name="among-ghosts"
@@ -403,11 +407,12 @@ def _():
 
 
 # %% [markdown]
-# **See:** your line should pass by the dots that lie far off. The band should widen where readings had to
-# be left out, or may have been either.
+# **See:** your line should pass by the dots that lie far off. The band should widen where readings
+# had to be left out, or may have been either.
 #
 # ## Done?
 #
-# Save the notebook. The cell below then says what the grader will say about it; the grader draws other
-# inputs. **Next:** lesson [04 · Models and Jacobians](../notebooks/04_models_and_jacobians.ipynb) finds the
-# matrices of a robot that turns.
+# Save the notebook. The cell below then says what the grader will say about it; the grader draws
+# other inputs. **Next:** lesson
+# [04 · Models and Jacobians](../notebooks/04_models_and_jacobians.ipynb) finds the matrices of a
+# robot that turns.

@@ -1,21 +1,21 @@
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=1
 # # 03 · The Kalman filter
 #
-# **You will be able to** derive the Kalman filter from a single recipe, say what each of its lines is
-# for, and test whether a filter tells the truth about its own errors.
+# **You will be able to** derive the Kalman filter from a single recipe, say what each of its lines
+# is for, and test whether a filter tells the truth about its own errors.
 #
 # **60 minutes.** **Before:** lessons [00](00_start_here.ipynb) and [01](01_why_slam.ipynb); matrix
 # products; what a variance and a covariance are.
 #
-# *Key:* a robot that knows how wrong it may be can learn from every measurement, and exactly as much
-# as that measurement deserves.
+# *Key:* a robot that knows how wrong it may be can learn from every measurement, and exactly as
+# much as that measurement deserves.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* One idea carries the lesson: every covariance comes from the same recipe, "write
-# the error, multiply it by its transpose, take the expected value". Let the class do it once by hand,
-# for the prediction; the machine does the rest. To stop after 50 minutes, leave out "Where bell curves
-# come in" and "What a measurement takes away". The sections called *Deeper* and *In print* behind the
-# last slide are for reading at home.
+# *For the lecturer:* One idea carries the lesson: every covariance comes from the same recipe,
+# "write the error, multiply it by its transpose, take the expected value". Let the class do it once
+# by hand, for the prediction; the machine does the rest. To stop after 50 minutes, leave out "Where
+# bell curves come in" and "How much doubt a measurement removes". The sections called *Deeper* and
+# *In print* behind the last slide are for reading at home.
 
 # %% slideshow={"slide_type": "skip"}
 import numpy as np
@@ -33,19 +33,19 @@ from slamlab.simulation import cart
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=9
 # ## A belief: a number, and how wrong it may be
 #
-# A robot rolls along a corridor. Its wheels say that it is 4.0 m from the wall behind it; wheels like
-# these are off by $\sigma = 0.6$ m. Its range finder says 5.0 m, and is off by $\sigma = 0.3$ m. The
-# two are a metre apart, yet neither is lying: each is a number with a doubt.
+# A robot rolls along a corridor. Its wheels say that it is 4.0 m from the wall behind it; wheels
+# like these are off by $\sigma = 0.6$ m. Its range finder says 5.0 m, and is off by $\sigma = 0.3$
+# m. The two are a metre apart, yet neither is lying: each is a number with a doubt.
 #
-# The robot need not choose between them. It can give the range finder the weight $w$, and the wheels
-# the rest:
+# The robot need not choose between them. It can give the range finder the weight $w$, and the
+# wheels the rest:
 #
 # $$\hat x = (1 - w)\,x_{\text{wheels}} + w\,z \tag{03.1}$$
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* Before the poll, collect guesses for the place itself on the board. Most people
-# go towards 5 m, few can say how far. Ask what they would do without the two σ: there is nothing left
-# but the mean, 4.5 m. That is what a σ is good for.
+# *For the lecturer:* Before the poll, collect guesses for the place itself on the board. Most
+# people go towards 5 m, few can say how far. Ask what they would do without the two σ: there is
+# nothing left but the mean, 4.5 m. That is what a σ is good for.
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
@@ -66,9 +66,9 @@ ask(
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### The best weight
 #
-# The two errors have nothing to do with each other, so their variances add. A factor $w$ on an error
-# puts $w^2$ on its variance. With $P$ for the variance of the wheels and $R$ for that of the range
-# finder, the mixture has the variance
+# The two errors have nothing to do with each other, so their variances add. A factor $w$ on an
+# error puts $w^2$ on its variance. With $P$ for the variance of the wheels and $R$ for that of the
+# range finder, the mixture has the variance
 #
 # $$\sigma^2(w) = (1 - w)^2 P + w^2 R \tag{03.2}$$
 #
@@ -81,8 +81,8 @@ mixed = (1 - w) ** 2 * P + w**2 * R
 best_weight
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# The range finder's weight is the doubt about the wheels as a share of all the doubt there is. A robot
-# that is unsure of itself listens to its sensor.
+# The range finder's weight is the doubt about the wheels as a share of all the doubt there is. A
+# robot that is unsure of itself listens to its sensor.
 #
 # $$w = \frac{P}{P + R} \tag{03.3}$$
 
@@ -115,7 +115,8 @@ print(f"{place:.2f} m, σ = {np.sqrt(variance):.2f} m")
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### The same as a picture
 #
-# Let us draw how likely each place is. The sliders say how good the wheels and the range finder are.
+# Let us draw how likely each place is, with bell curves (Gaussians). The sliders set how good the
+# wheels and the range finder are, each by its $\sigma$ in metres.
 
 
 # %% slideshow={"slide_type": "fragment"}
@@ -151,9 +152,9 @@ views.explore(
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Bayes' rule was there all the time
 #
-# A place is likely if both sources call it likely. So take the height of one bell times the height of
-# the other, at every place, and stretch the product until its area is one. That is Bayes' rule for two
-# independent sources. Does it give another answer than our best weight?
+# A place is likely if both sources call it likely. So take the height of one bell times the height
+# of the other, at every place, and stretch the product until its area is one. That is Bayes' rule
+# for two independent sources. Does it give another answer than our best weight?
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 at = np.linspace(0, 10, 2001)
@@ -169,16 +170,16 @@ print(f"largest difference of the two curves: {apart:.9f}")
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=6
 # ## A belief of two numbers
 #
-# From now on our robot is a cart in that corridor. Its *state* $x$ holds its position [m] and its speed
-# [m/s]. Every $T = 0.5$ s, the motor gives it a known push $u$ [m/s²]. A step does this:
+# From now on our robot is a cart in that corridor. Its *state* $x$ holds its position [m] and its
+# speed [m/s]. Every $T = 0.5$ s, the motor gives it a known push $u$ [m/s²]. A step does this:
 #
 # $$x_k = F x_{k-1} + G u_k + q_k \tag{03.5}$$
 #
 # $$F = \begin{bmatrix} 1 & T \\ 0 & 1 \end{bmatrix}, \qquad
 #   G = \begin{bmatrix} T^2/2 \\ T \end{bmatrix} \tag{03.6}$$
 #
-# $F$ moves the cart on by its speed, $G$ adds the push. And $q$ is what nobody tells the robot: wheels
-# slip, motors are not exact.
+# $F$ moves the cart on by its speed, $G$ adds the push. And $q$ is what nobody tells the robot:
+# wheels slip, motors are not exact.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Mean and covariance
@@ -186,14 +187,14 @@ print(f"largest difference of the two curves: {apart:.9f}")
 # What the slip $q$ will be cannot be known, but how large it usually is can: it is random, zero on
 # average, and its covariance is $Q$. In the same way the robot's *belief* about its state is an
 # estimate $\hat x$ and a covariance $P$. On the diagonal of $P$ stand the variances of position and
-# speed; beside it stands how far their errors go together.
+# speed; off the diagonal stands their covariance, which says how far the two errors go together.
 #
 # At the start they do not: $P$ is diagonal, with $\sigma = 0.4$ m and $0.3$ m/s.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* Dwell on the correlation in the next picture: a bit later the cart measures its
-# position only, and thanks to this very streak corrects its speed. Robot and landmarks will hang
-# together in the same way, and lessons 06 and 07 rest on it.
+# *For the lecturer:* Dwell on the correlation in the next picture: a bit later the cart measures
+# its position only, and thanks to this very streak corrects its speed. Robot and landmarks will
+# hang together in the same way, and lessons 06 and 07 rest on it.
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
@@ -239,15 +240,15 @@ views.explore(
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # **See:** a streak that rises to the right, and an ellipse that holds it. Position and speed have
-# become *correlated*, though nothing but time has passed. Put the slider to 0 and go on step by step.
-# The filter draws this ellipse without knowing any of the dots. How does it do that?
+# become *correlated*, though nothing but time has passed. Put the slider to 0 and go on step by
+# step. The filter draws this ellipse without knowing any of the dots. How does it do that?
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=6
 # ## Prediction, derived
 #
-# The *error* of an estimate is the truth minus the estimate, $\tilde x = x - \hat x$. The truth moves
-# by (03.5). The estimate moves in the same way, but without $q$, of which it knows nothing. Subtract
-# one from the other, and the push cancels, for what is known adds no doubt:
+# The *error* of an estimate is the truth minus the estimate, $\tilde x = x - \hat x$. The truth
+# moves by (03.5). The estimate moves in the same way, but without $q$, of which it knows nothing.
+# Subtract one from the other, and the push cancels, for what is known adds no doubt:
 #
 # $$\tilde x \leftarrow F \tilde x + q \tag{03.7}$$
 #
@@ -278,9 +279,9 @@ ask(
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Take the expected value
 #
-# Matrices that are not random pass through the expected value. A random vector times its own transpose
-# becomes its covariance, and a product of two unrelated ones becomes zero. These rules are all that
-# `expectation` knows:
+# Matrices that are not random pass through the expected value. A random vector times its own
+# transpose becomes its covariance, and a product of two unrelated ones becomes zero. These rules
+# are all that `expectation` knows:
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="03-cross"
 E = expectation({error * error.T: P, q * q.T: Q})
@@ -291,8 +292,8 @@ E(error_ahead * error_ahead.T)
 #
 # $$\hat x \leftarrow F \hat x + G u, \qquad P \leftarrow F P F^{\mathsf T} + Q \tag{03.8}$$
 #
-# Remember the recipe: **write the error, multiply it by its transpose, take the expected value.** It
-# will do for everything else as well.
+# Remember the recipe: **write the error, multiply it by its transpose, take the expected value.**
+# It will do for everything else as well.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=6
 # ## A measurement: the innovation
@@ -303,8 +304,8 @@ E(error_ahead * error_ahead.T)
 #
 # $$z = H x + \varepsilon \tag{03.9}$$
 #
-# The robot knows which measurement it *expects*, $H \hat x$. What is new is only the difference, the
-# **innovation**. Put in (03.9), and you see what it is made of:
+# The robot knows which measurement it *expects*, $H \hat x$. What is new is only the difference,
+# the **innovation**. Put in (03.9), and you see what it is made of:
 #
 # $$v = z - H \hat x = H \tilde x + \varepsilon \tag{03.10}$$
 
@@ -339,16 +340,16 @@ innovation = H * error + noise
 E(innovation * innovation.T)
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# So the doubt of the belief, as the sensor sees it, and the noise add up to the covariance $S$ of the
-# innovation:
+# So the doubt of the belief, as the sensor sees it, and the noise add up to the covariance $S$ of
+# the innovation:
 #
 # $$S = H P H^{\mathsf T} + R \tag{03.11}$$
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### What an innovation says about the error
 #
-# Nobody sees the error $\tilde x$, everybody sees the innovation $v$. What do they have in common? The
-# recipe again, this time with two different vectors:
+# Nobody sees the error $\tilde x$, everybody sees the innovation $v$. What do they have in common?
+# The recipe again, this time with two different vectors:
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 E(error * innovation.T)
@@ -357,13 +358,14 @@ E(error * innovation.T)
 # $$S_{xv} = E[\tilde x v^{\mathsf T}] = P H^{\mathsf T} \tag{03.12}$$
 #
 # For our cart this is the first *column* of $P$: the variance of the position, and below it the
-# covariance of position and speed. Over this bridge a measurement of the position reaches the speed.
+# covariance of position and speed. Over this bridge a measurement of the position reaches the
+# speed.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### A hundred thousand carts agree
 #
-# Formulas ought to be tested against what they speak of. Here are 100 000 carts with errors like those
-# of the streak, each with a range finder of its own.
+# Formulas ought to be tested against what they speak of. Here are 100 000 carts with errors like
+# those of the streak, each with a range finder of its own.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 streak = linear_kalman.belief(np.array([3.0, 0.5]), cart.START_P)
@@ -380,20 +382,20 @@ print("S_xv of the carts", together[:2, 2].round(2), "by (03.12)", streak.P[:, 0
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # Only two things enter this innovation: the error of the estimate and the noise of the sensor. The
-# MAK thesis calls such an observation *COIN*, for constrained innovation. It is what makes filtering
-# easy, and lesson 05 builds on it. Where the landmark's place is unknown as well, a third error enters;
-# lesson 06 will cure that.
+# MAK thesis calls such an observation *COIN*, for constrained innovation. It is what makes
+# filtering easy, and lesson 05 builds on it. Where the landmark's place is unknown as well, a third
+# error enters; lesson 06 will cure that.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=10
 # ## The gain, derived
 #
-# We correct the estimate by a share of the innovation. How large a share is for the **gain** $K$ to
-# say, a matrix with a row for each component of the state and a column for each measured number:
+# We correct the estimate by a share of the innovation. The share is the **gain** $K$, a matrix with
+# a row for each component of the state and a column for each measured number:
 #
 # $$\hat x \leftarrow \hat x + K v \tag{03.13}$$
 #
-# Which $K$ is the best? First we ask what *any* $K$ does to the error. The truth stays where it is, so
-# the error loses what the estimate gains. With (03.10),
+# Which $K$ is the best? First we ask what *any* $K$ does to the error. The truth stays where it is,
+# so the error loses what the estimate gains. With (03.10),
 #
 # $$\tilde x \leftarrow \tilde x - K v = (I - K H)\,\tilde x - K \varepsilon \tag{03.14}$$
 
@@ -409,8 +411,8 @@ P_after = E(error_after * error_after.T)
 P_after
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# The same five terms can be written as two squares, one of what is left of the old error, one of the
-# noise that comes in with the correction. This is **Joseph's form**:
+# The same five terms can be written as two squares, one of what is left of the old error, one of
+# the noise that comes in with the correction. This is **Joseph's form**:
 #
 # $$P \leftarrow (I - K H)\,P\,(I - K H)^{\mathsf T} + K R K^{\mathsf T} \tag{03.15}$$
 #
@@ -423,9 +425,9 @@ print("difference:", sp.expand(P_after - (I_KH * P * I_KH.T + K * R * K.T)).doit
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### The least error
 #
-# The trace of $P$ is the sum of all mean square errors, of the position and of the speed. We want it
-# small. With the letter $S$ for $H P H^{\mathsf T} + R$, the machine differentiates it by all entries
-# of $K$ at once:
+# The trace of $P$ is the sum of all mean square errors, of the position and of the speed. We want
+# it small. With the letter $S$ for $H P H^{\mathsf T} + R$, the machine differentiates it by all
+# entries of $K$ at once:
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 S = symmetric("S", m)
@@ -441,9 +443,9 @@ sp.expand(sp.Trace(P_of_K).diff(K))
 # innovations are anyway.* With one state and one measurement it is the weight (03.3).
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* What usually goes wrong is that $S^{-1}$ is left out. Ask for the units of K with
-# our state: the position's row has none, the speed's is in 1/s. $P H^{\mathsf T}$ alone has m² and
-# m²/s, so it cannot be a gain. Units find this mistake at once.
+# *For the lecturer:* What usually goes wrong is that $S^{-1}$ is left out. Ask for the units of K
+# with our state: the position's row has none, the speed's is in 1/s. $P H^{\mathsf T}$ alone has m²
+# and m²/s, so it cannot be a gain. Units find this mistake at once.
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
@@ -463,8 +465,8 @@ ask(
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Letter by letter, for the cart
 #
-# Should you not trust matrix calculus, here it is with plain letters. The belief has the variances $a$
-# and $b$ and the covariance $c$; we look for the two gains with the least trace.
+# If you do not trust matrix calculus, here is the same with plain letters. The belief has the
+# variances $a$ and $b$ and the covariance $c$; we look for the two gains with the least trace.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="03-speed"
 a, b, c, k_1, k_2, R_1 = sp.symbols("a b c k_1 k_2 R")
@@ -474,14 +476,15 @@ best = sp.solve([left.trace().diff(k_1), left.trace().diff(k_2)], [k_1, k_2])
 gains.subs(best)
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# The speed's gain is $c / (a + R)$: **without a covariance there is no correction.** Nobody measures
-# the speed. It is corrected through what it shares with the position, and through nothing else.
+# The speed's gain is $c / (a + R)$: **without a covariance there is no correction.** Nobody
+# measures the speed. It is corrected through what it shares with the position, and through nothing
+# else.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Find it by hand
 #
-# The 100 000 carts of the streak are corrected with any two gains you like. The lines of the map join
-# gains that leave the same error.
+# The 100 000 carts of the streak are corrected with any two gains you like. The lines of the map
+# join gains that leave the same error.
 
 
 # %% slideshow={"slide_type": "fragment"}
@@ -526,12 +529,12 @@ views.explore(
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## Where bell curves come in
 #
-# Look back: nowhere did the derivation ask what *shape* the errors have. It took means, covariances,
-# and that slips and noises are unrelated to the errors so far.
+# Look back: nowhere did the derivation ask what *shape* the errors have. It used their means, their
+# covariances, and the fact that slips and noises are unrelated to the errors so far.
 #
-# So let us take errors that are no bell. A range finder is good most of the time, but two readings in a
-# hundred are far off, because somebody walks by. Altogether its $\sigma$ is again 0.3 m, so $R$ is
-# the same, and so is the gain.
+# So let us take errors whose density is no bell curve. A range finder is good most of the time, but
+# two readings in a hundred are far off, because somebody walks by. Altogether its $\sigma$ is again
+# 0.3 m, so $R$ is the same, and so is the gain.
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
@@ -551,9 +554,10 @@ ask(
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Ask the carts themselves
 #
-# The best correction of all can be found without any formula: sort the carts by their innovation into
-# narrow bins, and take the average error in each. No other rule that looks at the innovation alone
-# leaves a smaller mean square, but for the width of the bins. The slider says how good the 98 usual readings are.
+# The best correction of all can be found without any formula: sort the carts by their innovation
+# into narrow bins, and take the average error in each. No other rule that looks at the innovation
+# alone leaves a smaller mean square, but for the width of the bins. The slider sets $\sigma$ of the
+# 98 usual readings, in metres.
 
 
 # %% slideshow={"slide_type": "fragment"} answers="03-shape"
@@ -596,9 +600,9 @@ views.explore(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** the carts believe a small innovation almost fully, and a very large one hardly at all. The
-# straight line of a gain can do neither. Now move the slider to the right end, where all readings are
-# equally good and the noise is a bell: the dots lie on the line.
+# **See:** the carts believe a small innovation almost fully, and a very large one hardly at all.
+# The straight line of a gain can do neither. Now move the slider to the right end, where all
+# readings are equally good and the noise is a bell: the dots lie on the line.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### What needs a bell, and what does not
@@ -611,14 +615,14 @@ views.explore(
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* This is the most common overstatement about the filter: "optimal" in textbooks
-# means among linear rules, or for Gaussians. The last task of the exercise builds on this slide; do not
-# solve it here.
+# means among linear rules, or for Gaussians. The last task of the exercise builds on this slide; do
+# not solve it here.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=4
-# ## What a measurement takes away
+# ## How much doubt a measurement removes
 #
-# With the best gain, and only with it, $P H^{\mathsf T}$ may be replaced by $K S$ in the five terms.
-# They shrink to two:
+# With the best gain, and only with it, $P H^{\mathsf T}$ may be replaced by $K S$ in the five
+# terms. They shrink to two:
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 P_of_K.subs(P * H.T, K * S).subs(H * P, S * K.T).doit()
@@ -651,9 +655,9 @@ ask(
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### A gain that is not the best
 #
-# Real gains are not always the best: a model is approximate, somebody rounds, or leaves correlations
-# out. Take $s\,K$ with the share $s$ from 0 to 2, and compare what the short form (03.17) claims with
-# what happens to the carts.
+# Real gains are not always the best: a model is approximate, somebody rounds, or leaves
+# correlations out. Take $s\,K$ with the share $s$ from 0 to 2, and compare what the short form
+# (03.17) claims with what happens to the carts.
 
 # %% slideshow={"slide_type": "fragment"} answers="03-double"
 shares = np.linspace(0, 2, 21)
@@ -670,16 +674,16 @@ views.show(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** the short form is right at $s = 0$ and $s = 1$ only. With a smaller gain it is too modest,
-# with a larger one it boasts: at $s = 2$ it claims a *negative* mean square. Joseph's form (03.15) would
-# pass through all the dots, and programs prefer it.
+# **See:** the short form is right at $s = 0$ and $s = 1$ only. With a smaller gain it is too
+# modest, with a larger one it boasts: at $s = 2$ it claims a *negative* mean square. Joseph's form
+# (03.15) would pass through all the dots, and programs prefer it.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## The whole filter on a drive
 #
 # Time passes: predict, (03.8). A measurement comes: take the innovation (03.10) and its covariance
-# (03.11), the gain (03.16), correct estimate and covariance by (03.13) and (03.15). That is the whole
-# filter, and you will write it in the exercise. The package has one, too:
+# (03.11), the gain (03.16), correct estimate and covariance by (03.13) and (03.15). That is the
+# whole filter, and you will write it in the exercise. The package has one, too:
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 start = linear_kalman.belief(cart.START_X, cart.START_P)
@@ -692,8 +696,8 @@ print("gain    ", step_1.K.ravel().round(2), " believed now", now.x.round(2))
 # ### Thirty seconds (simulated)
 #
 # The motor pushes for 3 s, the cart rolls, the motor brakes for 3 s. From 12 s on, somebody stands
-# before the range finder for a while: no measurement. The baseline is a robot without a range finder,
-# which only adds up its pushes.
+# before the range finder for a while: no measurement. The baseline is a robot without a range
+# finder, which only adds up its pushes.
 
 
 # %% slideshow={"slide_type": "fragment"}
@@ -707,30 +711,28 @@ SECONDS = cart.T * np.arange(1, cart.STEPS + 1)
 
 
 # %% slideshow={"slide_type": "fragment"}
-def draw_errors(ax, seconds, errors, sigma):
-    """Errors by name, and the band of ±2σ that the filter gives its own."""
-    ax.set_aspect("auto")
-    blue, red = views.COLOURS["corrected"], views.COLOURS["naive"]
-    ax.fill_between(seconds, -2 * sigma, 2 * sigma, color=blue, alpha=0.2, label="filter, ±2σ")
-    ax.plot(seconds, errors["pushes only"], "--", color=red, label="pushes only")
-    ax.plot(seconds, errors["filter"], color=blue, label="filter")
+def draw_errors(ax, errors, sigma):
+    """Errors by name; the filter's with its band of ±2σ."""
+    views.two_sigma(ax, SECONDS, errors["filter"], sigma, "filter")
+    ax.plot(SECONDS, errors["pushes only"], "--", color=views.COLOURS["naive"], label="pushes only")
     if "range finder" in errors:
-        orange = views.COLOURS["scan"]
-        ax.plot(seconds, errors["range finder"], ".", color=orange, label="range finder")
+        orange = {"color": views.COLOURS["scan"], "label": "range finder"}
+        ax.plot(SECONDS, errors["range finder"], ".", **orange)
+    ax.axhline(0, color=views.COLOURS["truth"], linewidth=1, label="truth")
 
 
 # %% slideshow={"slide_type": "fragment"}
 def drive_chart(seconds_blocked, drive):
     """Errors, truth less estimate, of position and speed on one drive."""
-    blocked = slice(24, 24 + round(seconds_blocked / cart.T))
-    truth, zs = cart.drives(np.random.default_rng(drive), 1, blocked)
+    rng, blocked = np.random.default_rng(drive), slice(24, 24 + round(seconds_blocked / cart.T))
+    truth, zs = cart.drives(rng, 1, blocked)
     each = {"filter": filtered(zs), "pushes only": filtered(np.full_like(zs, np.nan))}
     fig, panels = views.panels(["position", "speed"], (11, 4.2), shared=False)
     for k, (ax, unit, limit) in enumerate(zip(panels, ["m", "m/s"], [2.5, 1.0], strict=True)):
         errors = {name: (truth - found.x)[0, :, k] for name, found in each.items()}
         errors |= {"range finder": (truth[..., :1] - zs)[0, :, 0]} if k == 0 else {}
-        draw_errors(ax, SECONDS, errors, np.sqrt(each["filter"].P[:, k, k]))
-        ax.set(xlabel="time [s]", ylabel=f"error [{unit}]", ylim=(-limit, limit))
+        draw_errors(ax, errors, np.sqrt(each["filter"].P[:, k, k]))
+        ax.set(aspect="auto", xlabel="time [s]", ylabel=f"error [{unit}]", ylim=(-limit, limit))
     views.legend_below(fig)
     return fig
 
@@ -739,24 +741,25 @@ def drive_chart(seconds_blocked, drive):
 views.explore(
     drive_chart,
     lambda seconds_blocked, drive: (
-        f"The filter's error stays mostly inside its band, which swells for {seconds_blocked} s "
-        "while nothing is measured; the error of a robot that adds up its pushes drifts away."
+        f"The filter's error with its shaded band, which swells for {seconds_blocked} s while nothing "
+        "is measured and holds the truth most of the time; the error of the pushes drifts away."
     ),
     seconds_blocked=(0, 12, 6),
     drive=(1, 30, 4),
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** the filter's error (blue) stays mostly inside its band of $\pm 2\sigma$. While nothing is
-# measured, the band swells; one measurement later it is narrow again. The band of the *speed* becomes
-# narrow within seconds, although no speed is ever measured: that is the bridge $S_{xv}$ at work.
-# Adding up pushes (red, dashed) ends in the drift of lesson 01. Try other drives.
+# **See:** the truth (the black line) stays mostly inside the band of $\pm 2\sigma$ round the filter
+# (blue). While nothing is measured, the band swells; one measurement later it is narrow again. The
+# band of the *speed* becomes narrow within seconds, although no speed is ever measured: that is the
+# bridge $S_{xv}$ at work. Adding up pushes (red, dashed) ends in the drift of lesson 01. Try other
+# drives.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### One drive proves nothing
 #
-# So we take 200 drives, each with its own start, slips and noise, and compare the three estimates on
-# each of them, wherever there was a measurement:
+# So we take 200 drives, each with its own start, slips and noise, and compare the three estimates
+# on each of them, wherever there was a measurement:
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 truth, zs = cart.drives(np.random.default_rng(34), 200)
@@ -771,38 +774,38 @@ for name, values in rms.items():
     print(f"{name:13} rms error of the position, median of 200 drives: {np.median(values):.2f} m")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# The filter is nearer to the truth than its pushes on {= np.sum(rms["filter"] < rms["pushes only"]) =}
-# of the 200 drives, and nearer than its range finder on
-# {= np.sum(rms["filter"] < rms["range finder"]) =}.
+# The filter is nearer to the truth than its pushes on
+# {= np.sum(rms["filter"] < rms["pushes only"]) =} of the 200 drives, and nearer than its range
+# finder on {= np.sum(rms["filter"] < rms["range finder"]) =}.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=7
 # ## Does the filter tell the truth?
 #
-# Look at (03.8), (03.11), (03.15) and (03.16) once more: $P$ is made of $F$, $Q$, $H$ and $R$. **No
-# measurement enters it.** The filter would believe in its $P$ if every measurement were nonsense. So
-# somebody else has to ask whether it is true.
+# Look at (03.8), (03.11), (03.15) and (03.16) once more: $P$ is made of its start, $F$, $Q$, $H$
+# and $R$. **No measurement enters it.** The filter would believe in its $P$ if every measurement
+# were nonsense. So somebody else has to ask whether it is true.
 #
-# An estimate is **consistent** with $P$ if its errors are, in no direction, larger on average than $P$
-# says. In a formula, the following matrix has no eigenvalue below zero:
+# An estimate is **consistent** with $P$ if its errors are, in no direction, larger on average than
+# $P$ says. In a formula, the following matrix has no eigenvalue below zero:
 #
 # $$P - E[\tilde x \tilde x^{\mathsf T}] \succeq 0 \tag{03.18}$$
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### One number for it
 #
-# Errors of different units cannot be compared, so we measure them by what the filter believes of them.
-# The *normalised estimation error squared* does that:
+# Errors of different units cannot be compared, so we measure them by what the filter believes of
+# them. The *normalised estimation error squared* does that:
 #
 # $$\text{NEES} = \tilde x^{\mathsf T} P^{-1} \tilde x \tag{03.19}$$
 #
-# If $P$ is exactly right, it is 2 on average for two states. Over 200 independent drives the average of
-# bell-shaped errors lies between {= band(2, 200)[0]:.2f =} and {= band(2, 200)[1]:.2f =} in 95 % of
-# the cases; call that the band. An average far outside it says that $P$ is wrong.
+# If $P$ is exactly right, it is 2 on average for two states. Over 200 independent drives the
+# average of bell-shaped errors lies between {= band(2, 200)[0]:.2f =} and {= band(2, 200)[1]:.2f =}
+# in 95 % of the cases; call that the band. An average far outside it says that $P$ is wrong.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* Students like small ellipses. After the poll, ask which of two wrong filters they
-# would take on board. The modest one is merely slow to learn; the proud one will one day reject a right
-# measurement, or drive into a wall that it believes to be elsewhere.
+# *For the lecturer:* Students like small ellipses. After the poll, ask which of two wrong filters
+# they would take on board. The modest one is merely slow to learn; the proud one will one day
+# reject a right measurement, or drive into a wall that it believes to be elsewhere.
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
@@ -860,9 +863,10 @@ views.explore(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** the right filter (blue) stays in the band. The other one (red) leaves it within seconds, and
-# is worst where nothing is measured and its trust in the wheels is all it has. Believe in *twice* the
-# slip, and NEES falls below the band. That is consistent by (03.18), but knowledge is thrown away.
+# **See:** the right filter (blue) stays in the band. The other one (red) leaves it within seconds,
+# and is worst where nothing is measured and its trust in the wheels is all it has. Believe in
+# *twice* the slip, and NEES falls below the band. That is consistent by (03.18), but knowledge is
+# thrown away.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Without the truth
@@ -871,8 +875,9 @@ views.explore(
 #
 # $$\text{NIS} = v^{\mathsf T} S^{-1} v \tag{03.20}$$
 #
-# It is 1 on average for each measured number, if $S$ is right. And if the filter has learned everything
-# from the past, each innovation is news: nothing of it could be foretold from the one before.
+# It is 1 on average for each measured number, if $S$ is right. And if the filter has learned
+# everything from the past, each innovation is news: nothing of it could be foretold from the one
+# before.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="03-half-slip"
 cases = {"right": (1, 1), "slip × 0.5": (0.5, 1), "slip × 0.1, noise × 2": (0.1, 2)}
@@ -881,15 +886,16 @@ for name, believed in cases.items():
     print(f"{name:22} mean NIS {nis:.2f}   neighbours alike {alike:+.2f}")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# The last filter is wrong twice, and its NIS hardly shows it: one mistake makes innovations larger, the
-# other makes $S$ larger, too. But its innovations resemble their neighbours. It is surprised to the same side
-# again and again, and learns nothing from it. So look at both.
+# The last filter is wrong twice, and its NIS hardly shows it: one mistake makes innovations larger,
+# the other makes $S$ larger, too. But its innovations resemble their neighbours. It is surprised to
+# the same side again and again, and learns nothing from it. So look at both numbers.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### The definition itself
 #
-# At the last step of the 200 drives we can test (03.18) as it stands. In no direction should the mean
-# square of the errors, in units of the variance believed, be above 1 by more than chance allows:
+# At the last step of the 200 drives we can test (03.18) as it stands. In no direction should the
+# mean square of the errors, in units of the variance believed, be above 1 by more than chance
+# allows:
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="03-half-slip"
 for slip in (0.5, 1, 2):
@@ -907,20 +913,20 @@ for slip in (0.5, 1, 2):
 # - **The least variance among linear rules:** C. F. Gauss, *Theoria combinationis observationum*, 1823.
 # - **NEES and NIS:** Y. Bar-Shalom, X. R. Li, T. Kirubarajan, *Estimation with Applications to Tracking
 #   and Navigation*, 2001, chapter 5.
-# - **COIN**, and (03.18) as the definition: the MAK thesis, chapter 2.
+# - **COIN**, and (03.18): the MAK thesis, chapter 2.
 # - **Read next:** R. Labbe, *Kalman and Bayesian Filters in Python*, free notebooks.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### What you can do now
 #
-# You can derive prediction, innovation and gain by one recipe, say which part of it needs bell curves,
-# and put the right question to any filter: is its $P$ true?
+# You can derive prediction, innovation and gain by one recipe, say which part of it needs bell
+# curves, and put the right question to any filter: is its $P$ true?
 #
 # **Exercise:** [write the filter, piece by piece](../exercises/ex03_kalman_filter.ipynb).
 #
 # **Next:** we needed motion and measurement to be *linear*, and a robot that turns is not. Lesson
-# [04 · Models and Jacobians](04_models_and_jacobians.ipynb) makes real models straight, near where the
-# robot is. What stands below is optional.
+# [04 · Models and Jacobians](04_models_and_jacobians.ipynb) makes real models straight, near where
+# the robot is. What stands below is optional.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Deeper: best for every state at once
@@ -945,8 +951,9 @@ sp.simplify(left - left.subs(best) - off * (a + R_1) * off.T)
 # ## Deeper: was anything lost on the way?
 #
 # The filter looks at each measurement once and throws it away. Somebody patient keeps them all and
-# solves, at the end, for all states at once: those for which the weighted squares of *everything*, the
-# start, the slips and the measurements, are least. Does the patient one know the last state any better?
+# solves, at the end, for all states at once: those for which the weighted squares of *everything*,
+# the start, the slips and the measurements, are least. Does the patient one know the last state any
+# better?
 
 
 # %% slideshow={"slide_type": "fragment"}
@@ -980,17 +987,17 @@ print("x apart by less than 1e-9: ", bool(abs(found.x[0, -1] - x_patient).max() 
 print("P apart by less than 1e-12:", bool(abs(found.P[-1] - P_patient).max() < 1e-12))
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# Nothing was lost: the belief $(\hat x, P)$ holds *everything* that the past has to say about now. The
-# filter is least squares done step by step, with a memory of five numbers, two of $\hat x$ and three of
-# $P$. The patient one does know the *earlier* states better, for it has seen what came after them;
-# lesson 15 comes back to that.
+# Nothing was lost: the belief $(\hat x, P)$ holds *everything* that the past has to say about now.
+# The filter is least squares done step by step, with a memory of five numbers, two of $\hat x$ and
+# three of $P$. The patient one does know the *earlier* states better, for it has seen what came
+# after them; lesson 15 comes back to that.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Deeper: why programs use Joseph's form
 #
 # With the best gain, (03.15), (03.17) and the often printed $(I - K H) P$ are equal on paper. In a
-# computer they are not. Let a state be known to a kilometre, and measure it ever more exactly; how often
-# does the updated $P$ have a negative variance in some direction?
+# computer they are not. Let a state be known to a kilometre, and measure it ever more exactly; how
+# often does the updated $P$ have a negative variance in some direction?
 
 
 # %% slideshow={"slide_type": "fragment"}
@@ -1012,10 +1019,10 @@ for sigma in (1, 1e-5, 1e-6):
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # Where nearly all of a large number is taken away, what is left is rounding. Joseph's form adds two
-# squares, and cannot fail in this way. With everyday numbers (first row) all three forms do, so Joseph's
-# is an insurance, and it costs a few products more.
+# squares, and cannot fail in this way. With everyday numbers (first row) all three forms do, so
+# Joseph's is an insurance, and it costs a few products more.
 #
-# Ready-made filters pay for it, too. Here is `filterpy`, which many robots use, on the first of our 200
+# Ready-made filters pay for it. Here is `filterpy`, which many robots use, on the first of our 200
 # drives:
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
@@ -1032,8 +1039,9 @@ print("P apart by less than 1e-12:", bool(abs(covariances - found.P).max() < 1e-
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Deeper: which gains are consistent?
 #
-# Take the gain $s K$ with a share $s$ of the best one, and let the filter claim the short form (03.17).
-# By how much does the claimed covariance exceed the true one? With the letters of the cart:
+# Take the gain $s K$ with a share $s$ of the best one, and let the filter claim the short form
+# (03.17). By how much does the claimed covariance exceed the true one? With the letters of the
+# cart:
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 s = sp.symbols("s", real=True)
@@ -1047,14 +1055,14 @@ sp.simplify(excess - 2 * s * (1 - s) * K_best * (a + R_1) * K_best.T)
 #
 # $$P_{\text{claimed}} - P_{\text{true}} = 2 s (1 - s)\, K S K^{\mathsf T} \tag{03.22}$$
 #
-# It is positive semidefinite for every $0 \le s \le 1$. All these gains are consistent by (03.18); only
-# $s = 0$ and $s = 1$ claim exactly what is true.
+# It is positive semidefinite for every $0 \le s \le 1$. All these gains are consistent by (03.18);
+# only $s = 0$ and $s = 1$ claim exactly what is true.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## In print: four slips of the thesis (optional)
 #
-# The lesson follows the MAK thesis, chapter 2. Four of its lines are misprinted or say too much. You
-# need this only if you read the original.
+# The lesson follows the MAK thesis, chapter 2. Four of its lines are misprinted or say too much.
+# You need this only if you read the original.
 #
 # | Where | Printed | Right | Harm |
 # | --- | --- | --- | --- |
@@ -1066,7 +1074,8 @@ sp.simplify(excess - 2 * s * (1 - s) * K_best * (a + R_1) * K_best.T)
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Found by machine
 #
-# The first by the carts, the second and the fourth by shapes, the third by the eigenvalues of (03.22):
+# The first by the carts, the second and the fourth by shapes, the third by the eigenvalues of
+# (03.22):
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 noises = innovations - errors[:, :1]
