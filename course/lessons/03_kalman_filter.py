@@ -295,6 +295,17 @@ E(error_ahead * error_ahead.T)
 # Remember the recipe: **write the error, multiply it by its transpose, take the expected value.**
 # It will do for everything else as well.
 
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# ### Where Q comes from
+#
+# From the recipe, too. Our cart slips in position and in speed, each by itself, so its $Q$ is
+# diagonal. But suppose that the push were the only thing unknown, wrong by $\delta$ with the
+# variance $\sigma_\delta^2$. Then $q = G \delta$, and $Q = \sigma_\delta^2\,G G^{\mathsf T}$. This
+# matrix is *not* diagonal: a single cause makes both numbers wrong, so their errors go together.
+#
+# Whenever you model a system, ask what its unknown causes are, and what each of them does to every
+# component of the state.
+
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=6
 # ## A measurement: the innovation
 #
@@ -570,19 +581,19 @@ def odd_readings(usual, share=0.02):
 
 
 def by_bins(error, v, edges):
-    """The average error of the carts in each bin of innovations, and what is left (rms) by it."""
+    """The average error of the carts in each bin of innovations, and the errors that it leaves."""
     bins = np.clip(np.digitize(v, edges), 1, len(edges) - 1) - 1
     average = np.bincount(bins, error) / np.bincount(bins)
-    return average, np.sqrt(np.mean((error - average[bins]) ** 2))
+    return average, error - average[bins]
 
 
 # %% slideshow={"slide_type": "fragment"} answers="03-shape"
 def corrections(usual_sigma):
     """The best correction over the innovation: that of the carts, and the Kalman gain's line."""
     (error, v), edges = odd_readings(usual_sigma), np.linspace(-3, 3, 61)
-    average, least = by_bins(error, v, edges)
-    linear = np.sqrt(np.mean((error - step.K[0, 0] * v) ** 2))
-    title = f"error left: Kalman gain {linear:.2f} m, best of all {least:.2f} m"
+    average, remaining = by_bins(error, v, edges)
+    linear = np.std(error - step.K[0, 0] * v)
+    title = f"error left: Kalman gain {linear:.2f} m, best of all {np.std(remaining):.2f} m"
     fig, ax = views.chart("innovation [m]", "correction of the position [m]", title, (8, 3.8))
     middle = (edges[1:] + edges[:-1]) / 2
     ax.plot(middle, average, "o", color=views.COLOURS["truth"], markersize=4, label="best of all")
@@ -605,11 +616,29 @@ views.explore(
 # readings are equally good and the noise is a bell: the dots lie on the line.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
+# ### The doubt depends on the reading, too
+#
+# After the best correction, how wrong are the carts that measured about what they expected, and how
+# wrong are those whose reading was a surprise?
+
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="03-shape"
+odd_errors, odd_v = odd_readings(0.1)
+_, remaining = by_bins(odd_errors, odd_v, np.linspace(-3, 3, 61))
+for low, high in [(0, 0.5), (2, 2.5)]:
+    those = (abs(odd_v) > low) & (abs(odd_v) < high)
+    print(f"innovation {low} to {high} m: error left {np.std(remaining[those]):.2f} m")
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# A reading far off leaves a robot in doubt: was it the reading that was wrong, or its own belief?
+# The filter's $P$ is the same for all readings. It is right on average, and wrong for each of the
+# two groups.
+
+# %% [markdown] slideshow={"slide_type": "subslide"}
 # ### What needs a bell, and what does not
 #
 # - **No bell needed:** prediction, $S$, Joseph's form, and that $K$ is the best *linear* correction.
 #   Here $P$ promises an error of {= np.sqrt(after.P[0, 0]):.2f =} m, and
-#   {= np.std(odd_readings(0.1)[0] - step.K[0, 0] * odd_readings(0.1)[1]):.2f =} m are left.
+#   {= np.std(odd_errors - step.K[0, 0] * odd_v):.2f =} m are left.
 # - **Promised for bells only:** that no other rule does better, that the ellipse holds 95 %, and the
 #   bands of the tests below.
 
