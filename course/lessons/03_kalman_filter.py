@@ -81,15 +81,15 @@ mixed = (1 - w) ** 2 * P + w**2 * R
 best_weight
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# The range finder's weight is the doubt about the wheels as a share of all the doubt there is. A
-# robot that is unsure of itself listens to its sensor.
+# The range finder's weight is the doubt about the wheels as a share of all the doubt:
 #
 # $$w = \frac{P}{P + R} \tag{03.3}$$
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### What the best weight leaves
 #
-# Which variance is left? The answer is simplest when it is written upside down:
+# By (03.3), a robot that is unsure of itself listens to its sensor. How sure is it afterwards? The
+# variance that is left is simplest when it is written upside down:
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="03-surer"
 sp.expand(1 / sp.simplify(mixed.subs(w, best_weight)))
@@ -195,6 +195,11 @@ print(f"largest difference of the two curves: {apart:.9f}")
 # *For the lecturer:* Dwell on the correlation in the next picture: a bit later the cart measures
 # its position only, and thanks to this very streak corrects its speed. Robot and landmarks will
 # hang together in the same way, and lessons 06 and 07 rest on it.
+
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# ### Two seconds later
+#
+# Now let time pass, and nothing else.
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
@@ -715,18 +720,13 @@ views.show(
 # whole filter, and you will write it in the exercise. The package has one, too:
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-start = linear_kalman.belief(cart.START_X, cart.START_P)
+start, SECONDS = linear_kalman.belief(cart.START_X, cart.START_P), cart.T * np.arange(1, 61)
 ahead = linear_kalman.predict(start, cart.F, cart.Q, cart.G, cart.PUSHES[0])
 now, step_1 = linear_kalman.update(ahead, [2.6], cart.H, cart.R)
 print("expected", ahead.x.round(2), " innovation", step_1.innovation.round(2))
 print("gain    ", step_1.K.ravel().round(2), " believed now", now.x.round(2))
-
-# %% [markdown] slideshow={"slide_type": "subslide"}
-# ### Thirty seconds (simulated)
-#
-# The motor pushes for 3 s, the cart rolls, the motor brakes for 3 s. From 12 s on, somebody stands
-# before the range finder for a while: no measurement. The baseline is a robot without a range
-# finder, which only adds up its pushes.
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# A whole drive goes through it in one call:
 
 
 # %% slideshow={"slide_type": "fragment"}
@@ -736,7 +736,12 @@ def filtered(zs, slip=1.0, noise=1.0):
     return linear_kalman.filter_runs(start, zs, cart.F, Q, cart.H, R, cart.G, cart.PUSHES)
 
 
-SECONDS = cart.T * np.arange(1, cart.STEPS + 1)
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# ### Thirty seconds (simulated)
+#
+# The motor pushes for 3 s, the cart rolls, the motor brakes for 3 s. From 12 s on, somebody stands
+# before the range finder for a while: no measurement. The baseline is a robot without a range
+# finder, which only adds up its pushes.
 
 
 # %% slideshow={"slide_type": "fragment"}
@@ -756,7 +761,7 @@ def drive_chart(seconds_blocked, drive):
     rng, blocked = np.random.default_rng(drive), slice(24, 24 + round(seconds_blocked / cart.T))
     truth, zs = cart.drives(rng, 1, blocked)
     each = {"filter": filtered(zs), "pushes only": filtered(np.full_like(zs, np.nan))}
-    fig, panels = views.panels(["position", "speed"], (11, 4.2), shared=False)
+    fig, panels = views.panels(["position", "speed"], (11, 3.8), shared=False)
     for k, (ax, unit, limit) in enumerate(zip(panels, ["m", "m/s"], [2.5, 1.0], strict=True)):
         errors = {name: (truth - found.x)[0, :, k] for name, found in each.items()}
         errors |= {"range finder": (truth[..., :1] - zs)[0, :, 0]} if k == 0 else {}
