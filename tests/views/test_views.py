@@ -345,3 +345,13 @@ def test_faults_are_told_where_they_are_asked_for(stored, tmp_path, monkeypatch)
     assert known_faults.compare(told, []) == [f"new: {told[0]}"]
     assert len(known_faults.compare([], told)) == 1
     assert known_faults.compare(told, told) == []
+
+
+def test_the_band_of_an_estimate_reaches_two_sigma_to_either_side():
+    _, ax = views.chart("x [m]", "y [m]")
+    x, y, sigma = np.arange(3.0), np.array([1.0, 2.0, 4.0]), np.array([0.1, 0.2, 0.3])
+    views.two_sigma(ax, x, y, sigma, "filter")
+    corners = ax.collections[0].get_paths()[0].vertices
+    for k in range(3):
+        heights = corners[corners[:, 0] == x[k], 1]
+        assert np.allclose([heights.min(), heights.max()], y[k] + 2 * sigma[k] * np.array([-1, 1]))
