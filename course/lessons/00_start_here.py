@@ -238,6 +238,10 @@ for theta in (25, 115):
 # | 05 | [Two easy halves](05_two_easy_halves.ipynb) | a known map locates the robot, known poses draw the map; both in turn is not SLAM | 50 min | 60 min |
 # | 06 | [EKF-SLAM: the MAK filter](06_ekf_slam.ipynb) | robot and map in one filter, every block of its covariance built before your eyes | 80 min | 60 min |
 # | 07 | [Correlations](07_correlations.ipynb) | why what robot and landmarks share cannot be dropped, what it costs, and ways out | 100 min | 60 min |
+
+# %% [markdown] slideshow={"slide_type": "subslide"} name="map-of-lessons-2"
+# | | lesson | what it shows | lesson | exercise |
+# | --- | --- | --- | --- | --- |
 # | 08 | [Landmarks from scans](08_landmarks_from_scans.ipynb) | table legs, walls and corners found in a scan, and which of them were seen before | 75 min | 60 min |
 # | 09 | [SLAM with walls](09_slam_with_walls.ipynb) | a whole thesis system, driven live through two buildings; its flaws measured and mended | 90 min | 60 min |
 # | 10 | [Boxes](10_boxes.ipynb) | a filter that promises bounds, not likelihoods, and what one broken promise does | 90 min | 60 min |
