@@ -85,9 +85,9 @@ def between(a, b):
 
 
 def transform(pose, points):
-    """Transform points (a point cloud) from the pose's frame to its reference: p = Rot(theta) q + t.
+    """Transform points (a point cloud) from the pose's frame to its reference frame.
 
-    Equation (01.3).
+    p = (x, y) + Rot(theta) p_r. Equation (01.3).
 
     Parameters
     ----------

@@ -54,7 +54,7 @@ ask(
     },
 )
 
-# %% name="first-scan" answers="00-beams" tags=["nbval-check-output"]
+# %% slideshow={"slide_type": "fragment"} name="first-scan" answers="00-beams" tags=["nbval-check-output"]
 import numpy as np
 
 from slamlab import views, worlds
@@ -67,7 +67,7 @@ room, pose = worlds.room(), np.array([1.0, 0.0, 0.5])
 scan = RPLIDAR_A2.scan(room, pose, rng)
 print(f"{scan.valid.sum()} of {len(scan.ranges)} beams came back")
 
-# %% [markdown]
+# %% [markdown] slideshow={"slide_type": "fragment"}
 # This lidar is simulated, with the losses of a real one. All chance in the course comes from a
 # generator `rng` whose seed is written down, so you get the number that is printed here. With
 # another seed than 7 you may get another number.
@@ -87,7 +87,7 @@ ask(
     right="what stands behind something",
 )
 
-# %% name="first-picture" answers="00-missing"
+# %% slideshow={"slide_type": "fragment"} name="first-picture" answers="00-missing"
 fig, ax = views.axes("One turn of the lidar in a room", size=(8, 5.4))
 views.draw(ax, Segments("walls", room.outline()), lw=0.8)
 views.draw(ax, Points("scan", transform(pose, scan.points())))
@@ -95,7 +95,7 @@ views.draw(ax, Poses("robot", pose))
 views.legend(ax, loc="upper right")
 views.show(fig, alt="Walls of a room in grey; a scan's points lie on those that face the lidar.")
 
-# %% [markdown]
+# %% [markdown] slideshow={"slide_type": "fragment"}
 # The points lie on what faces the lidar. Behind the table in the middle, the cupboards and the
 # pillars there is nothing: **a scan is never the room, it is what one place sees of it**. This is
 # why a robot has to drive, and why it has to know where it was.
@@ -193,7 +193,7 @@ ask(
     right="it shrinks by 90°",
 )
 
-# %% name="turn-on-the-spot" answers="00-turn" tags=["nbval-check-output"]
+# %% slideshow={"slide_type": "fragment"} name="turn-on-the-spot" answers="00-turn" tags=["nbval-check-output"]
 from slamlab import models
 
 landmark = np.array([5.0, 4.5])
@@ -201,7 +201,7 @@ for theta in (25, 115):
     r, beta = models.h(np.array([2.5, 1.0, np.radians(theta)]), landmark)
     print(f"θ = {theta:3d}°   r = {r:.2f} m   β = {np.degrees(beta):6.1f}°")
 
-# %% [markdown]
+# %% [markdown] slideshow={"slide_type": "fragment"}
 # The bearing loses what the heading gains, and the range $r$ does not change. A robot that misjudges
 # its heading therefore misjudges the direction of **everything** that it sees. Lesson 01 begins with
 # this.
@@ -297,10 +297,11 @@ coursework.show_progress()
 # | $x$ | the state: the robot's pose $x$, $y$, $\theta$, and with it, from lesson 06 on, the map; $y$ and $\theta$ are nothing else |
 # | $a$, $b$ | any two poses |
 # | $u$ | control: distance $d$ and turn $\Delta\theta$; of a steered robot the speed $V$ and the angle $\gamma$ |
+# | $s$ | way that a wheel rolls |
 # | $B$ | distance between wheels, or axles [m] |
 # | $T$ | time of a step [s]; with a pose as its subscript, $T_a$, the pose's homogeneous matrix |
 # | $\mathrm{Rot}$ | $\mathrm{Rot}(\theta)$ rotates by the angle $\theta$ |
-# | $p$ | a point or landmark in the world |
+# | $p$ | a point or landmark in the world; $p_{\mathrm{r}}$ in the frame of the robot |
 # | $l$ | a wall's line: its distance $\rho$ from the origin, the direction $\alpha$ of its normal |
 # | $z$ | a measurement: of a landmark, range $r$ and bearing $\beta$ |
 # | $r$ | range, and nothing else |

@@ -41,17 +41,17 @@ from slamlab.studies import intel_maps
 robot = sources.open("sim:corridor", np.random.default_rng(3))
 readings = list(robot)
 forward, left, turn = readings[100].odometry
+scan = readings[100].scan
 print(f"{len(readings)} readings; number 100 says:")
-print(
-    f"  {100 * forward:.1f} cm ahead, {100 * left:.1f} cm left, turned by {np.degrees(turn):.2f}°"
-)
-print(f"  {readings[100].scan.valid.sum()} of {len(readings[100].scan.ranges)} beams came back")
+print(f"  {100 * forward:.1f} cm ahead, {100 * left:.1f} cm to the left")
+print(f"  turned by {np.degrees(turn):.2f}°")
+print(f"  {scan.valid.sum()} of {len(scan.ranges)} beams came back")
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Dead reckoning
 #
 # Where is the robot? It can chain its steps, so that each begins where the one before ended.
-# Sailors out of sight of land call this **dead reckoning**. If the robot stands at pose $a$ and
+# Sailors out of sight of land called this **dead reckoning**. If the robot stands at pose $a$ and
 # makes a step $b$, measured in its own frame, the new pose is
 #
 # $$ a \oplus b = \left( \begin{pmatrix} x_a \\ y_a \end{pmatrix} + \mathrm{Rot}(\theta_a)
@@ -76,7 +76,7 @@ ask(
 )
 
 
-# %% name="dead-reckoning" answers="01-gap" tags=["nbval-check-output"]
+# %% slideshow={"slide_type": "fragment"} name="dead-reckoning" answers="01-gap" tags=["nbval-check-output"]
 def chain(steps):
     """All poses of a drive that begins at the origin: (n, 3) relative steps to (n + 1, 3)."""
     return np.array(list(accumulate(steps, compose, initial=np.zeros(3))))
@@ -87,7 +87,7 @@ naive = chain([reading.odometry for reading in readings[1:]])
 gap = between(truth[-1], naive[-1])
 print(f"misses the start by {np.hypot(*gap[:2]):.1f} m, turned by {np.degrees(gap[2]):.0f}°")
 
-# %% name="dead-reckoning-picture" answers="01-gap"
+# %% slideshow={"slide_type": "subslide"} name="dead-reckoning-picture" answers="01-gap"
 fig, ax = views.axes("One lap of the corridor", size=(8, 5.6))
 views.draw(ax, Segments("walls", robot.world.outline()))
 views.draw(ax, Poses("truth", truth))
@@ -99,7 +99,7 @@ views.show(
     f"walls and ends {np.hypot(*gap[:2]):.1f} m from its start.",
 )
 
-# %% [markdown]
+# %% [markdown] slideshow={"slide_type": "fragment"}
 # The true lap, in black, closes. The lap of the odometry leans over more and more, cuts through
 # walls and ends {= np.hypot(*gap[:2]):.1f =} m away from its start. Compare: 0.3 % of 42 m are only
 # {= 100 * 0.003 * 42:.0f =} cm. The gap is {= np.hypot(*gap[:2]) / (0.003 * 42):.0f =} times as
@@ -134,12 +134,12 @@ ask(
     },
 )
 
-# %% name="turn" answers="01-turn" tags=["nbval-check-output"]
+# %% slideshow={"slide_type": "fragment"} name="turn" answers="01-turn" tags=["nbval-check-output"]
 turned = np.degrees(robot.robot.turn_per_metre)
 print(f"{turned:.2f}° a metre make {42 * turned:.0f}° in 42 m")
 print(f"in the run above the lap ended turned by {np.degrees(gap[2]):.0f}°")
 
-# %% [markdown]
+# %% [markdown] slideshow={"slide_type": "fragment"}
 # The unequal wheels explain {= 42 * turned:.0f =} of the {= abs(np.degrees(gap[2])):.0f =} degrees;
 # the misjudged distance between the wheels and their slip made the rest. An error of length is
 # added once, when it is made. An error of heading **stays**, and from then on every step goes the
@@ -150,10 +150,10 @@ print(f"in the run above the lap ended turned by {np.degrees(gap[2]):.0f}°")
 #
 # The scans are good: at 4 m this lidar errs by about
 # {= 100 * np.hypot(0.001 * 4, robot.sensor.range_curvature * 4**2):.0f =} cm. To draw a map we lay
-# all scans on one table, each moved and turned to the pose $x$ it was taken from. A point $q$ of
-# the scan, given in the robot's frame, comes to lie at
+# all scans on one table, each moved and turned to the pose $x$ it was taken from. A point
+# $p_{\mathrm{r}}$ of the scan, given in the robot's frame, comes to lie at
 #
-# $$ p = \begin{pmatrix} x \\ y \end{pmatrix} + \mathrm{Rot}(\theta)\, q, \tag{01.3} $$
+# $$ p = \begin{pmatrix} x \\ y \end{pmatrix} + \mathrm{Rot}(\theta)\, p_{\mathrm{r}}, \tag{01.3} $$
 #
 # which is the position part of (01.1). The package calls it `transform`. It trusts the pose.
 
@@ -175,14 +175,14 @@ ask(
 )
 
 
-# %% name="two-maps" answers="01-smear"
+# %% slideshow={"slide_type": "fragment"} name="two-maps" answers="01-smear"
 def map_from(poses, readings):
-    """The points (n, 2) of all scans, each placed at the pose it was taken from."""
+    """The points (n, 2) of all scans, each placed by its pose."""
     pairs = zip(poses, readings, strict=True)
     return np.vstack([transform(pose, reading.scan.points()) for pose, reading in pairs])
 
 
-# %% name="two-maps-picture" answers="01-smear"
+# %% slideshow={"slide_type": "fragment"} name="two-maps-picture" answers="01-smear"
 fig, _ = views.side_by_side(
     {
         "from the true poses": [Points("map", map_from(truth, readings))],
@@ -195,7 +195,7 @@ views.show(
     "second corridor across the first.",
 )
 
-# %% [markdown]
+# %% [markdown] slideshow={"slide_type": "fragment"}
 # Left, {= len(readings) =} scans fall on the same walls. Right, walls that were seen for a while
 # are smeared, and at the lower left two corridors cross where there is one: **the ends do not
 # meet**. The lidar is as good in this map as in the other. The poses are not, and a map is only as
@@ -210,7 +210,7 @@ views.show(
 # - the wheels of *Ben's* robot **differ by 0.1 %**, so that by (01.2) its heading drifts a little
 #   with every metre, always to the same side.
 
-# %% name="ask-closes"
+# %% slideshow={"slide_type": "subslide"} name="ask-closes"
 ask(
     "01-closes",
     "**Whose lap does not close?**",
@@ -224,7 +224,7 @@ ask(
     right="Ben's",
 )
 
-# %% name="wheels-slider"
+# %% slideshow={"slide_type": "subslide"} name="wheels-slider"
 perfect = between(truth[:-1], truth[1:])
 sparse = slice(None, None, 3)
 
@@ -255,7 +255,7 @@ def spoiled_map(wheels_differ_by_percent, steps_too_long_by_percent):
     return views.side_by_side({f"misses its start by {miss:.2f} m": layers}, size=(8, 5.6))[0]
 
 
-# %% name="wheels-explore"
+# %% slideshow={"slide_type": "subslide"} name="wheels-explore"
 views.explore(
     spoiled_map,
     alt=f"Ben's map: the lap misses its start by {missed(0.1):.1f} m, and the corridor's ends "
@@ -277,14 +277,16 @@ views.explore(
 # 2000 robots drive straight ahead in steps of half a metre. Each step goes wrong at random, in one
 # of two ways:
 #
-# - its **length** is wrong by 2 % (1 cm), one standard deviation;
-# - after it, the robot's **heading** is wrong by 1°, and it keeps looking there.
+# - its **length** is wrong by 2 %, which is 1 cm;
+# - after it, the **heading** is wrong by 1°, and the robot keeps looking there.
+#
+# Numbers for chance are standard deviations, here and in all lessons.
 
-# %% name="ask-growth"
+# %% slideshow={"slide_type": "subslide"} name="ask-growth"
 ask(
     "01-growth",
-    "The robots drive 5 m, and then 20 m: four times as far. **By which factors grow the error "
-    "along the way, which lengths cause, and the error across it, which headings cause?**",
+    "The robots drive 5 m, and then 20 m: four times as far. Wrong lengths cause an error along the "
+    "way, wrong headings one across it. **By which factors do these errors grow?**",
     {
         "along 4, across 4": "errors would add up like this if all of them went to the same side.",
         "along 2, across 2": "right for lengths; but an early error of heading has more steps to "
@@ -297,7 +299,7 @@ ask(
 )
 
 
-# %% name="spread" answers="01-growth"
+# %% slideshow={"slide_type": "fragment"} name="spread" answers="01-growth"
 def straight_drives(way, length_error, heading_error, rng, robots=2000, step=0.5):
     """Where robots end that mean to drive straight ahead: (robots, 2) along and across [m]."""
     n = round(way / step)
@@ -308,7 +310,7 @@ def straight_drives(way, length_error, heading_error, rng, robots=2000, step=0.5
     return steps.sum(axis=2).T
 
 
-# %% name="spread-table" answers="01-growth" tags=["nbval-check-output"]
+# %% slideshow={"slide_type": "fragment"} name="spread-table" answers="01-growth" tags=["nbval-check-output"]
 rng = np.random.default_rng(2)
 for way in (5, 20, 80):
     along, _ = straight_drives(way, 0.02, 0.0, rng).std(axis=0)
@@ -319,20 +321,20 @@ for way in (5, 20, 80):
 # ## Why a heading is worse than a length
 #
 # Errors of **length** partly cancel. If they are independent, their variances add, and after $n$
-# steps of length $d$, each wrong by a share with standard deviation $\lambda$,
+# steps, each too long or too short by a random length of variance $\sigma_d^2$,
 #
-# $$ \operatorname{Var}(\text{along}) = n\, \lambda^2 d^2. \tag{01.4} $$
+# $$ \operatorname{Var}(\text{along}) = n\, \sigma_d^2. \tag{01.4} $$
 #
 # Its root, the error, grows as $\sqrt{n}$: twice as large after four times the way.
 #
 # For the **heading**, look at a single error first. Think of the rest of the track as cut from
 # cardboard: the error turns it about the place where it is made.
 
-# %% name="ask-bends"
+# %% slideshow={"slide_type": "subslide"} name="ask-bends"
 ask(
     "01-bends",
     "A robot drives three steps of length $d$. After each of them, also the last, its heading "
-    "errs by an independent small angle with variance $\\sigma^2$. **What is the variance of its "
+    "errs by an independent small angle of variance $\\sigma^2$. **What is the variance of its "
     "place across the way, in units of $\\sigma^2 d^2$?**",
     {
         "3": "one each would be right if every error moved the end by the same length.",
@@ -343,7 +345,7 @@ ask(
     right="5",
 )
 
-# %% name="bends" answers="01-bends" tags=["nbval-check-output"]
+# %% slideshow={"slide_type": "fragment"} name="bends" answers="01-bends" tags=["nbval-check-output"]
 across = straight_drives(3 * 0.5, 0.0, 0.01, rng, robots=200_000)[:, 1]
 print(f"200 000 robots: {across.var() / (0.01 * 0.5) ** 2:.1f} σ² d²")
 
@@ -437,7 +439,7 @@ views.explore(
 # just this: it starts from the odometry's guess and corrects it until the walls match. Lesson
 # [13](13_scan_matching.ipynb) takes it to pieces. It reads the same readings as before.
 
-# %% name="ask-cure"
+# %% slideshow={"slide_type": "subslide"} name="ask-cure"
 ask(
     "01-cure",
     "**Do the ends of the corridor meet now?**",
@@ -450,14 +452,14 @@ ask(
     right="to within centimetres",
 )
 
-# %% name="cure" answers="01-cure"
+# %% slideshow={"slide_type": "fragment"} name="cure" answers="01-cure"
 matched = run(robot, estimators.make("icp", robot))
 corrected = matched.trajectory.poses
 for name, poses in {"odometry": naive, "icp": corrected}.items():
     ahead, left, turn = between(truth[-1], poses[-1])
     print(f"{name:8}  misses by {100 * np.hypot(ahead, left):5.1f} cm and {np.degrees(turn):5.1f}°")
 
-# %% name="cure-picture" answers="01-cure"
+# %% slideshow={"slide_type": "fragment"} name="cure-picture" answers="01-cure"
 miss = 100 * np.hypot(*between(truth[-1], corrected[-1])[:2])
 fig, _ = views.side_by_side(
     {
@@ -469,7 +471,7 @@ views.show(
     fig, alt=f"Left the smeared corridor; right the matched one, sharp, closed to {miss:.0f} cm."
 )
 
-# %% [markdown]
+# %% [markdown] slideshow={"slide_type": "fragment"}
 # The robot, its wheels and its scans are the same. On the right the walls are sharp, and the lap
 # misses its start by {= miss:.0f =} cm where odometry misses it by
 # {= 100 * np.hypot(*gap[:2]):.0f =}. Was this luck? We drive three more laps, and look at single
@@ -515,7 +517,7 @@ for name, (far, turned) in zip(("odometry", "icp"), per_step, strict=True):
 # 180 beams, and what the wheels said. The log is not ours to give away, but you get the points of
 # two maps that we made from it: by odometry, and by `icp` with the settings of above.
 
-# %% name="ask-again"
+# %% slideshow={"slide_type": "subslide"} name="ask-again"
 ask(
     "01-again",
     "`icp` compares each scan only with what it has just seen. **The robot comes back to a corridor "
@@ -530,7 +532,7 @@ ask(
     right="twice, side by side or crossing",
 )
 
-# %% name="intel-picture" answers="01-again"
+# %% slideshow={"slide_type": "fragment"} name="intel-picture" answers="01-again"
 intel = intel_maps.stored()
 fig, _ = views.side_by_side(
     {
@@ -547,7 +549,7 @@ views.show(
     "whose walls stand twice.",
 )
 
-# %% [markdown]
+# %% [markdown] slideshow={"slide_type": "fragment"}
 # Mind the scales: the left map is {= long:.0f =} m long, the right one {= across:.0f =} m. By the
 # wheels alone the laps lie over each other, turned, until nothing can be made out. On the right
 # stands a building. Held
@@ -607,4 +609,4 @@ views.show(
 #
 #     slamlab run intel --estimator icp --out intel-map
 #
-# With `--estimator graph` in its place you get a first view of lesson 15: the walls stand once.
+# With `--estimator graph` in its place you meet the estimator of lesson 15, which recognises places.
