@@ -114,8 +114,8 @@ views.show(
 #
 # $$ \Delta\theta = \frac{s_{\mathrm{right}} - s_{\mathrm{left}}}{B}. \tag{01.2} $$
 #
-# A wheel that is told wrong makes the difference wrong, and the difference is divided by a $B$ of
-# only 30 cm.
+# If one wheel is a little larger than the robot believes, the difference is wrong, and it is divided
+# by a $B$ of only 30 cm.
 
 # %% name="ask-turn"
 ask(
@@ -267,13 +267,13 @@ views.explore(
 # %% [markdown]
 # At first you see Ben's map: the lap misses its start by {= missed(0.1):.1f =} m, and the corridor
 # is torn open. Move the first slider to 0 and the second to 2 and you see Ada's: it closes, though
-# it is too large. To bring Ben home within 10 cm his wheels would have to be equal to
+# it is too large. To bring Ben home within 10 cm his wheels would have to agree to
 # {= needed:.3f =} %. On a wheel of 10 cm this is {= 1000 * needed:.0f =} thousandths of a millimetre.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## How errors grow
 #
-# A constant error can be measured and taken away: this is called calibration. Chance cannot. Let
+# A constant error can be measured and taken away: this is called calibration. Errors of chance cannot. Let
 # 2000 robots drive straight ahead in steps of half a metre. Each step goes wrong at random, in one
 # of two ways:
 #
@@ -353,7 +353,7 @@ print(f"200 000 robots: {across.var() / (0.01 * 0.5) ** 2:.1f} σ² d²")
 # ### The sum of all errors
 #
 # Of $n$ steps, $n - k$ are still to come when the $k$-th error $e_k$ is made. It turns them all, and
-# moves the end sideways by their length times the angle:
+# while all angles are small it moves the end sideways by their length times the angle:
 #
 # $$ \text{across} = d \sum_{k=1}^{n} (n - k)\, e_k. \tag{01.5} $$
 #
@@ -423,7 +423,7 @@ views.explore(
 )
 
 # %% [markdown]
-# On a way of 30 m, 1.5° a step make the cloud
+# On a way of 30 m, errors of 1.5° a step make the cloud
 # {= straight_drives(30, 0, np.radians(1.5), rng)[:, 1].std():.1f =} m wide (one standard deviation).
 # Lengths that are wrong by a whole 20 % make it only
 # {= straight_drives(30, 0.2, 0, rng)[:, 0].std():.1f =} m long. And no ellipse fits an arc well:
@@ -505,8 +505,8 @@ for name, (far, turned) in zip(("odometry", "icp"), per_step, strict=True):
 # In {= sum(by_icp < by_wheels for by_wheels, by_icp in ends) =} of {= len(ends) =} laps the matcher
 # ends nearer to the start than the odometry of the same drive. Now look at the steps: it measures
 # their *length* hardly better than the wheels do, but their *turn*
-# {= per_step[0, 1] / per_step[1, 1]:.0f =} times as well. The cure works where
-# the harm was done. It is no full cure: its errors add up as well, only from a smaller start.
+# {= per_step[0, 1] / per_step[1, 1]:.0f =} times better. The cure works where
+# the harm was done. It is no full cure: its errors add up too, but they are smaller.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=4
 # ## The same on a real robot
