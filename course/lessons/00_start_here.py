@@ -4,13 +4,13 @@
 # **Afterwards you will be able to** run a lesson, predict before you run, move its sliders, check
 # an exercise, read the symbols and units of the first lessons, and get help.
 #
-# **15 minutes.** You need nothing before; a little Python and some school trigonometry help.
+# **20 minutes.** You need nothing before; a little Python and some school trigonometry help.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* let everybody run the set-up check before the class begins. The one thing to
 # get across here is the habit of predicting: nobody runs a cell before a number is written down.
 
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=1
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=2
 # ## Is everything there?
 #
 # Click into the next cell and press **Shift+Enter**: the cell runs, and the next one is selected.
@@ -27,7 +27,7 @@ setup_check.report()
 # on another Python than that of the course. Close it, run `make lab` in the folder of the project
 # (on Windows `python lab.py`), and open it in the JupyterLab that comes up.
 
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=5
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=6
 # ## How a lesson works
 #
 # Each section takes the same steps: a **question**, your **prediction**, a cell to **run**, an
@@ -120,6 +120,7 @@ def look(x, y):
     return fig
 
 
+# %% name="first-slider-picture"
 views.explore(
     look,
     alt="From the right of the room the table hides the left of it; sliders move the lidar.",
@@ -135,7 +136,7 @@ views.explore(
 # Run All Cells*. And should you want it back as it was handed out, type `slamlab reset lesson-00`
 # in a terminal (*File → New → Terminal*). What you had written is kept in a file beside it.
 
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=2
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=3
 # ## How an exercise works
 #
 # Every lesson from 01 on has an exercise. You write functions; below each of them stands a cell such
@@ -157,7 +158,7 @@ views.explore(
 # - In a terminal, `slamlab check NOTEBOOK` checks a whole notebook, and `slamlab reset 01` brings
 #   exercise 01 back as it was.
 
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=3
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=4
 # ## Conventions
 #
 # | | here | not |
@@ -225,12 +226,12 @@ for theta in (25, 115):
 # [appendix](#Appendix:-notation). With the cursor behind a name in a cell, **Shift+Tab** shows what
 # it does.
 
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=1 name="map-of-lessons"
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=2 name="map-of-lessons"
 # ## Map of the lessons
 #
 # | | lesson | what it shows | lesson | exercise |
 # | --- | --- | --- | --- | --- |
-# | 00 | [Start here](00_start_here.ipynb) | how all this works | 15 min | |
+# | 00 | [Start here](00_start_here.ipynb) | how all this works | 20 min | |
 # | 01 | [Why SLAM](01_why_slam.ipynb) | a robot that believes its wheels draws a map that does not close | 45 min | 60 min |
 # | 02 | [Sensors and worlds](02_sensors_and_worlds.ipynb) | how a lidar, an infrared and an ultrasonic scanner see a room, and how a real one errs | 60 min | 60 min |
 # | 03 | [The Kalman filter](03_kalman_filter.ipynb) | predict, measure, correct: the gain derived, the filter's word about its own error tested | 75 min | 60 min |

@@ -532,8 +532,13 @@ ask(
     right="twice, side by side or crossing",
 )
 
-# %% slideshow={"slide_type": "fragment"} name="intel-picture" answers="01-again"
+# %% slideshow={"slide_type": "fragment"} name="intel-maps" answers="01-again" tags=["nbval-check-output"]
 intel = intel_maps.stored()
+long, across = (np.ptp(points, axis=0).max() for points in intel.points.values())
+print(f"a way of {intel.way:.0f} m, in {intel.readings} readings")
+print(f"maps {long:.0f} m long (odometry) and {across:.0f} m (icp)")
+
+# %% slideshow={"slide_type": "subslide"} name="intel-picture" answers="01-again"
 fig, _ = views.side_by_side(
     {
         "Intel Research Lab: odometry alone": [Points("naive", intel.points["odometry"])],
@@ -542,7 +547,6 @@ fig, _ = views.side_by_side(
     size=(11, 5.5),
     shared=False,
 )
-long, across = (np.ptp(points, axis=0).max() for points in intel.points.values())
 views.show(
     fig,
     f"Left a tangle {long:.0f} m long; right rooms round a ring, {across:.0f} m across, many of "
