@@ -4,6 +4,7 @@
 - ``walls``: Smolec's SLAM by its parts; ``feet``: his listing, and what its verdict hangs on
 - ``three``: BOR, MAK, Monte Carlo, with ``three_records`` of each drive, ``three_rows`` of its
   table, ``three_costs``
+- ``intel_maps``: the maps of a real log that lesson 01 shows
 - ``arena_logs``: the six data sets as files; ``paired_statistics``, ``study_command``: what they
   share
 """
