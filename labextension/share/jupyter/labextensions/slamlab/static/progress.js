@@ -1,6 +1,8 @@
 // Progress at the head of a notebook: the points of each task, the questions that are answered.
 // It is read from progress.json, which the kernel writes beside the folders of the notebooks.
 
+import { element } from "./element.js";
+
 const TASK = /\bcheck\("([^"\\]+)"\)/;
 const QUESTION = /\bask\(\s*"([^"\\]+)"/;
 
@@ -49,8 +51,7 @@ export async function showProgress(panel, app, Widget) {
   if (!context.model.getMetadata("slamlab")) return;
   const items = tasksAndQuestions(context.model);
   if (!items.length) return;
-  const bar = document.createElement("ul");
-  bar.className = "slamlab-progress";
+  const bar = element("ul", "slamlab-progress");
   bar.setAttribute("aria-label", "Progress");
   panel.contentHeader.addWidget(new Widget({ node: bar }));
 
@@ -62,8 +63,7 @@ export async function showProgress(panel, app, Widget) {
     if (JSON.stringify(states) === shown || panel.isDisposed) return;
     shown = JSON.stringify(states);
     bar.replaceChildren(...states.map(({ mark, text, words }) => {
-      const entry = document.createElement("li");
-      entry.textContent = `${mark} ${text}`;
+      const entry = element("li", "", `${mark} ${text}`);
       entry.title = words;
       return entry;
     }));

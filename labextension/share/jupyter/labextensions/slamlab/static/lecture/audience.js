@@ -1,7 +1,8 @@
 // The class in the lecture: its phones see the slide as it stands, and are asked. A process beside the kernel
 // (slamlab.audience) listens for them; this page sends it the slide that is shown, and gets counts alone.
 
-import { drawBars, made } from "./poll_bars.js";
+import { button, element } from "../element.js";
+import { drawBars } from "./poll_bars.js";
 import { copyOf, seen } from "./shown_slide.js";
 
 const PAUSE = 500; // [ms] between two slides sent, at least
@@ -10,16 +11,6 @@ const STYLE = new URL("audience.css", import.meta.url).href;
 
 const starting = (host) => `print(__import__("json").dumps(__import__("slamlab.audience").audience.start(${
   JSON.stringify(location.origin)}, host=${JSON.stringify(host)})))`;
-
-function button(words, deed) {
-  const element = made("button", "", words);
-  element.type = "button";
-  element.onclick = (event) => {
-    deed();
-    if (event.detail) element.blur(); // clicked by a mouse: the deck's keys are the deck's again
-  };
-  return element;
-}
 
 // The question of a cell that asks one: {id, cell, unit, choices: elements or null, text}, or null.
 function questionOf(cell) {
@@ -39,15 +30,15 @@ export class Audience {
     this.question = null; // the one that is open, with its choices' texts
     this.timers = new Set();
     this.sent = Promise.resolve(); // slides go out one after another
-    this.panel = made("section", "slamlab-class");
+    this.panel = element("section", "slamlab-class");
     this.panel.setAttribute("aria-label", "The class");
     this.panel.dataset.slamlabCloses = ""; // Escape closes it
-    this.strip = made("div", "slamlab-poll");
+    this.strip = element("div", "slamlab-poll");
     this.strip.setAttribute("role", "group");
     this.strip.setAttribute("aria-label", "A question to the class");
-    this.bars = made("section", "slamlab-bars");
+    this.bars = element("section", "slamlab-bars");
     this.bars.setAttribute("aria-label", "What the class answers");
-    this.status = made("span");
+    this.status = element("span");
     this.status.setAttribute("role", "status");
     if (!document.querySelector(`link[href="${STYLE}"]`)) {
       document.head.append(Object.assign(document.createElement("link"), { rel: "stylesheet", href: STYLE }));
@@ -61,7 +52,7 @@ export class Audience {
   // ---- the process --------------------------------------------------------------------------------
 
   async start(host) {
-    this.panel.replaceChildren(made("p", "", "Starting …"));
+    this.panel.replaceChildren(element("p", "", "Starting …"));
     try {
       this.told = JSON.parse(await this.deck.run(starting(host)));
       await this.alive();
@@ -119,7 +110,7 @@ export class Audience {
     this.timers.clear();
     clearTimeout(this.sending);
     this.told = this.question = this.sending = null;
-    for (const element of [this.panel, this.strip, this.bars]) element.remove();
+    for (const shown of [this.panel, this.strip, this.bars]) shown.remove();
   }
 
   // ---- the panel: how to come in ------------------------------------------------------------------
@@ -137,33 +128,33 @@ export class Audience {
 
   offer(problem) {
     this.panel.replaceChildren(
-      made("h2", "", "The class"),
-      made("p", "", "Phones can see the slide that is shown, look back at earlier ones, and answer questions. They give no "
+      element("h2", "", "The class"),
+      element("p", "", "Phones can see the slide that is shown, look back at earlier ones, and answer questions. They give no "
         + "name, and nothing is kept after the lecture."),
-      made("p", "", "Nothing listens until you open it. The notebook, its files and its kernel cannot be reached from there."),
+      element("p", "", "Nothing listens until you open it. The notebook, its files and its kernel cannot be reached from there."),
       button("open it to phones on this network", () => this.start("0.0.0.0")),
       button("open it on this machine alone, to try it", () => this.start("127.0.0.1")),
       button("close", () => this.toggle()),
-      made("p", "", problem),
+      element("p", "", problem),
     );
   }
 
   showWay() {
     const { addresses, code } = this.told;
     const { address, qr } = addresses[this.address % addresses.length];
-    const picture = made("div", "slamlab-qr");
+    const picture = element("div", "slamlab-qr");
     picture.setAttribute("role", "img");
     picture.setAttribute("aria-label", `QR code of ${address}`);
     picture.append(document.importNode(new DOMParser().parseFromString(qr, "image/svg+xml").documentElement, true));
-    const way = made("div", "", made("p", "", "Scan this, or open"), made("p", "slamlab-class-address", `http://${address}`),
-      made("p", "", "and type"), made("p", "slamlab-class-code", `${code.slice(0, 4)} ${code.slice(4)}`), made("p", "slamlab-class-here"));
+    const way = element("div", "", element("p", "", "Scan this, or open"), element("p", "slamlab-class-address", `http://${address}`),
+      element("p", "", "and type"), element("p", "slamlab-class-code", `${code.slice(0, 4)} ${code.slice(4)}`), element("p", "slamlab-class-here"));
     const buttons = [button("hide", () => this.toggle())];
     if (addresses.length > 1) {
       buttons.push(button("another address of this machine", () => { this.address += 1; this.showWay(); }));
     }
     buttons.push(button("end it for the class", () => { this.end(); }));
-    this.panel.replaceChildren(made("h2", "", "The class"), made("div", "slamlab-class-way", picture, way),
-      made("div", "slamlab-hands", ...buttons));
+    this.panel.replaceChildren(element("h2", "", "The class"), element("div", "slamlab-class-way", picture, way),
+      element("div", "slamlab-hands", ...buttons));
     this.alive().catch(() => {});
   }
 
@@ -188,8 +179,8 @@ export class Audience {
     if (this.told && slide >= 0 && slide === this.place) await this.tell("PUT", "/slide", { slide, html });
   }
 
-  copy(element) {
-    return copyOf(element, (editor) => this.cells().find((cell) => cell.node.contains(editor))?.model.sharedModel.getSource() ?? "");
+  copy(part) {
+    return copyOf(part, (editor) => this.cells().find((cell) => cell.node.contains(editor))?.model.sharedModel.getSource() ?? "");
   }
 
   cells() {
@@ -254,12 +245,12 @@ export class Audience {
 
   drawHands(isOpen) {
     const fields = this.question.choices.map((_, n) => {
-      const field = made("input");
+      const field = element("input");
       Object.assign(field, { type: "number", min: 0, max: 10000, step: 1, value: 0 });
-      return [made("label", "", `${"ABCDEFGH"[n]} `, field), field];
+      return [element("label", "", `${"ABCDEFGH"[n]} `, field), field];
     });
-    const form = made("form", "slamlab-hands", ...fields.map(([label]) => label));
-    const count = made("button", "", "count them");
+    const form = element("form", "slamlab-hands", ...fields.map(([label]) => label));
+    const count = element("button", "", "count them");
     form.append(count, button("back", () => this.drawControls(isOpen)));
     form.onsubmit = async (event) => {
       event.preventDefault();

@@ -1,5 +1,7 @@
 // Code on a slide: folded to its one telling line unless it is short or the subject; locked.
 
+import { element } from "../element.js";
+
 const SHORT = 6; // lines that need no folding
 const SUBJECT = "code"; // tag of a cell whose code is what the slide is about
 const SHOWS = /^(views\.|ax\.|fig\b|plt\.|display\(|with |for |@|\)|\]|\})/; // says little
@@ -20,8 +22,7 @@ export function foldCode(cell) {
   cell.node.classList.add("slamlab-code");
   let line = cell.node.querySelector(".slamlab-telling");
   if (!line) {
-    line = document.createElement("code");
-    line.className = "slamlab-telling";
+    line = element("code", "slamlab-telling");
     cell.inputArea.node.after(line);
   }
   line.textContent = tellingLine(source);

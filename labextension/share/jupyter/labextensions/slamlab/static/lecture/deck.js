@@ -1,5 +1,6 @@
 // The deck: a notebook shown slide by slide on the whole screen, its kernel and controls alive.
 
+import { element, giveBackFocus } from "../element.js";
 import { guard } from "./guard.js";
 import { Bar } from "./bar.js";
 import { keysOf } from "./keys.js";
@@ -37,8 +38,8 @@ export class Deck {
   constructor(panel, app) {
     Object.assign(this, { panel, app, notebook: panel.content });
     this.page = this.notebook.node.querySelector(".jp-WindowedPanel-viewport");
-    this.layer = document.createElement("div");
-    this.layer.className = "slamlab-layer";
+    this.layer = element("div", "slamlab-layer");
+    giveBackFocus(this.layer);
   }
 
   // Start at the slide of a cell, or at the first one.

@@ -1,7 +1,7 @@
 // The deck's end of the presenter's window: says what is shown, does what it is told. Both ends speak
 // through a channel named by the notebook, so that each may be reloaded without the other.
 
-import { element } from "./overview.js";
+import { element } from "../element.js";
 import { slidesOfSection } from "./plan.js";
 import { copied, pictureOf, stylesOf, stylesSignature } from "./picture.js";
 
@@ -38,13 +38,12 @@ class Presenting {
   // A key may open no window where a click on a link may.
   #offer(address) {
     this.deck.layer.querySelector(".slamlab-offer")?.remove();
-    const offer = element("p", "The browser let no window open. ", "slamlab-offer");
+    const link = element("a", "", "Open the presenter's window");
+    const offer = element("p", "slamlab-offer", "The browser let no window open. ", link);
     offer.dataset.slamlabCloses = "";
     offer.setAttribute("role", "alert");
-    const link = element("a", "Open the presenter's window");
     Object.assign(link, { href: address, target: "slamlab-presenter" });
     link.addEventListener("click", () => offer.remove());
-    offer.append(link);
     this.deck.layer.append(offer);
     link.focus();
   }

@@ -1,6 +1,6 @@
 // What a lecture changes in a lesson is kept apart from its file until the lecturer says what to keep.
 
-import { element } from "./overview.js";
+import { button, element } from "../element.js";
 
 const plain = (model) => JSON.stringify(model.toJSON());
 
@@ -37,12 +37,8 @@ export function keepFile(panel, Widget) {
 }
 
 function question(Widget, restore, keep) {
-  const node = element("div", "The lecture changed this lesson. ", "slamlab-changed");
+  const answers = [button("Restore it", restore), button("Keep the changes", keep)];
+  const node = element("div", "slamlab-changed", "The lecture changed this lesson. ", ...answers);
   node.setAttribute("role", "alert");
-  for (const [label, action] of [["Restore it", restore], ["Keep the changes", keep]]) {
-    const button = element("button", label);
-    button.addEventListener("click", action);
-    node.append(button);
-  }
   return new Widget({ node });
 }
