@@ -7,7 +7,6 @@ import { copyOf, seen } from "./shown_slide.js";
 
 const PAUSE = 500; // [ms] between two slides sent, at least
 const COUNTING = 1000; // [ms] between two looks at the counts
-const STYLE = new URL("audience.css", import.meta.url).href;
 
 const starting = (host) => `print(__import__("json").dumps(__import__("slamlab.audience").audience.start(${
   JSON.stringify(location.origin)}, host=${JSON.stringify(host)})))`;
@@ -40,9 +39,6 @@ export class Audience {
     this.bars.setAttribute("aria-label", "What the class answers");
     this.status = element("span");
     this.status.setAttribute("role", "status");
-    if (!document.querySelector(`link[href="${STYLE}"]`)) {
-      document.head.append(Object.assign(document.createElement("link"), { rel: "stylesheet", href: STYLE }));
-    }
     deck.button("class", "let the class see the slide on their phones, and ask them", () => this.toggle());
     deck.key("a", "the class: address, code, phones", () => this.toggle());
     deck.changed.connect(() => this.changed());
