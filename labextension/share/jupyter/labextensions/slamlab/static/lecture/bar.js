@@ -1,6 +1,7 @@
 // The bar below the slide: buttons for who has no keys, the slide's number, the time.
 
 import { button, element } from "../element.js";
+import { clockFace } from "./plan.js";
 
 const TELL = 4000; // ms a notice stays
 
@@ -77,7 +78,6 @@ export class Bar {
   }
 
   #tick() {
-    const seconds = Math.floor((Date.now() - this.began) / 1000);
-    this.timer.textContent = `${Math.floor(seconds / 60)}:${String(seconds % 60).padStart(2, "0")}`;
+    this.timer.textContent = clockFace((Date.now() - this.began) / 1000);
   }
 }
