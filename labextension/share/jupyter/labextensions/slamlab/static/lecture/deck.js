@@ -60,7 +60,7 @@ export class Deck {
     this.minutes = this.slides.map((slide) => slide.minutes);
     const slide = this.slides.findLastIndex(({ cells }) => cells[0] <= cell);
     this.gather();
-    this.go(this.stops.findIndex((stop) => stop.slide >= slide));
+    this.goToSlide(Math.max(0, slide));
     this.unscroll = () => this.#unscroll();
     notebook.node.addEventListener("scroll", this.unscroll, true);
     this.observer = new ResizeObserver(() => this.#later());
@@ -105,6 +105,8 @@ export class Deck {
     this.changed.emit(this);
     this.#prepare();
   }
+
+  goToSlide(number) { this.go(this.#first(number)); }
 
   // The same stop anew, after its content changed, or the size of all.
   again(all = true) {

@@ -14,9 +14,7 @@ export function keysOf(deck) {
   add(["PageDown", "ArrowRight", " ", "Enter"], "next", () => deck.next());
   add(["PageUp", "ArrowLeft", "Shift+ "], "back", () => deck.back());
   add(["F5", "Home"], "from the beginning", () => deck.go(0));
-  add(["Shift+F5"], "this slide from its beginning", () => {
-    deck.go(deck.stops.findIndex(({ slide }) => slide === deck.slide));
-  });
+  add(["Shift+F5"], "this slide from its beginning", () => deck.goToSlide(deck.slide));
   add(["End"], "last slide", () => deck.go(deck.stops.length - 1));
   add([".", "b"], "blank, and back", () => deck.layer.classList.toggle("slamlab-blank"));
   add(["o"], "overview", () => toggleOverview(deck));

@@ -26,7 +26,7 @@ function card(deck, slide, number) {
   if (number === deck.slide) button.setAttribute("aria-current", "true");
   button.addEventListener("click", () => {
     deck.layer.querySelector(OPEN).remove();
-    deck.go(deck.stops.findIndex((stop) => stop.slide === number));
+    deck.goToSlide(number);
   });
   return element("li", "", button);
 }

@@ -79,7 +79,7 @@ class Presenting {
       this.#tell();
     }
     if (key) this.deck.keys.get(key)?.action();
-    if (slide >= 0) this.deck.go(this.deck.stops.findIndex((stop) => stop.slide === slide));
+    if (slide >= 0) this.deck.goToSlide(slide);
     if (key) this.#tell(); // some keys change no stop
   }
 
