@@ -2,9 +2,9 @@
 // It is read from progress.json, which the kernel writes beside the folders of the notebooks.
 
 import { element } from "./element.js";
+import { questionIn } from "./questions.js";
 
 const TASK = /\bcheck\("([^"\\]+)"\)/;
-const QUESTION = /\bask\(\s*"([^"\\]+)"/;
 
 // what there is to be done in a notebook, in its order
 function tasksAndQuestions(model) {
@@ -12,9 +12,9 @@ function tasksAndQuestions(model) {
   for (const cell of model.cells) {
     if (cell.type !== "code") continue;
     const source = cell.sharedModel.getSource();
-    const task = TASK.exec(source)?.[1], question = QUESTION.exec(source)?.[1];
+    const task = TASK.exec(source)?.[1], question = questionIn(source);
     if (task) found.push({ kind: "task", id: task, of: cell.getMetadata("nbgrader")?.points });
-    else if (question) found.push({ kind: "question", id: question });
+    else if (question) found.push({ kind: "question", id: question.id });
   }
   return found;
 }

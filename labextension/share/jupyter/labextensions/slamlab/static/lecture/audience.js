@@ -2,6 +2,7 @@
 // (slamlab.audience) listens for them; this page sends it the slide that is shown, and gets counts alone.
 
 import { button, element } from "../element.js";
+import { questionIn } from "../questions.js";
 import { drawBars } from "./poll_bars.js";
 import { copyOf, seen } from "./shown_slide.js";
 
@@ -11,15 +12,14 @@ const COUNTING = 1000; // [ms] between two looks at the counts
 const starting = (host) => `print(__import__("json").dumps(__import__("slamlab.audience").audience.start(${
   JSON.stringify(location.origin)}, host=${JSON.stringify(host)})))`;
 
-// The question of a cell that asks one: {id, cell, unit, choices: elements or null, text}, or null.
+// The question of a cell that asks one: {id, unit, text: element, items: elements or null}; else null.
 function questionOf(cell) {
-  const source = cell.model.sharedModel.getSource();
+  const question = questionIn(cell.model.sharedModel.getSource());
   const text = cell.node.querySelector(".jp-OutputArea-output.jp-RenderedMarkdown");
-  const asked = /\bask\(\s*["']([^"']{1,60})["']/.exec(source);
-  if (!asked || !text || !seen(text)) return null;
+  if (!question || !text || !seen(text)) return null;
   const items = [...text.querySelectorAll("ul:last-of-type > li")];
   const lettered = items.length > 1 && items.every((item, n) => item.firstElementChild?.textContent === "ABCDEFGH"[n]);
-  return { id: asked[1], unit: /\bunit=["']([^"']*)["']/.exec(source)?.[1] ?? "", text, items: lettered ? items : null };
+  return { ...question, text, items: lettered ? items : null };
 }
 
 export class Audience {

@@ -2,13 +2,13 @@
 // through a channel named by the notebook, so that each may be reloaded without the other.
 
 import { element } from "../element.js";
+import { questionIn } from "../questions.js";
 import { slidesOfSection } from "./plan.js";
 import { copied, pictureOf, stylesOf, stylesSignature } from "./picture.js";
 
 const PAGE = new URL("presenter.html", import.meta.url).href;
 const SIZE = "popup,width=1200,height=760";
 const PAUSES = [100, 700]; // ms that pictures wait: for the next key; for what is drawn and laid out meanwhile
-const QUESTION = /\bask\(/;
 const OWN = new Set(["p", "f"]); // keys that mean another thing there
 
 export const channelOf = (path) => `slamlab-lecture:${path}`;
@@ -144,7 +144,7 @@ class Presenting {
     const [, last] = slidesOfSection(slides, slide);
     return slides.slice(slide, last + 1).flatMap(({ cells }, k) => cells
       .map((index) => notebook.widgets[index])
-      .filter(({ model }) => model.type === "code" && QUESTION.test(model.sharedModel.getSource()))
+      .filter(({ model }) => model.type === "code" && questionIn(model.sharedModel.getSource()))
       .map((cell) => ({ slide: slide + k, ...asked(cell) })));
   }
 
