@@ -6,10 +6,12 @@ let actions; // NotebookActions, which the container hands over
 
 export function useActions(NotebookActions) { actions = NotebookActions; }
 
-// The code cell that is meant: the one touched last if it is in sight, else the last one shown.
+// The code cell that is meant: the one touched last if it is in sight, else the last one shown; it is
+// told where there is none.
 function codeCell(deck) {
   const seen = deck.notebook.widgets.filter(({ node, model }) => model.type === "code"
     && !node.classList.contains("slamlab-off") && !node.classList.contains("slamlab-later"));
+  if (!seen.length) deck.notice("There is no code on this slide.");
   return seen.find(({ node }) => node === deck.touched) ?? seen.at(-1);
 }
 
@@ -22,7 +24,7 @@ async function runThese(deck, cells, words) {
 
 export async function runCell(deck) {
   const cell = codeCell(deck);
-  if (!cell) return deck.notice("There is no code on this slide.");
+  if (!cell) return;
   await runThese(deck, [cell], "running …");
 }
 
@@ -31,10 +33,18 @@ export async function runAll(deck) {
   await runThese(deck, cells, "running all cells up to here …");
 }
 
+// Fold the code to its telling line, or show the whole of it.
+export function foldOrUnfold(deck) {
+  const cell = codeCell(deck);
+  if (!cell) return;
+  cell.node.classList.toggle("slamlab-folded");
+  deck.again();
+}
+
 // Open the code of a cell for changes; Escape locks it again.
 export function unlock(deck) {
   const cell = codeCell(deck);
-  if (!cell) return deck.notice("There is no code on this slide.");
+  if (!cell) return;
   unlockCode(cell);
   deck.locking = () => {
     foldCode(cell);
