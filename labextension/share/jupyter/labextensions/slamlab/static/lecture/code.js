@@ -19,7 +19,6 @@ export function foldCode(cell) {
   const source = cell.model.sharedModel.getSource();
   const subject = cell.model.getMetadata("tags")?.includes(SUBJECT);
   cell.node.classList.toggle("slamlab-folded", !subject && source.trim().split("\n").length > SHORT);
-  cell.node.classList.add("slamlab-code");
   let line = cell.node.querySelector(".slamlab-telling");
   if (!line) {
     line = element("code", "slamlab-telling");

@@ -57,7 +57,6 @@ export class Deck {
     this.release = guard(this);
     this.bar = new Bar(this);
     this.slides = slidesOf(notebook);
-    this.minutes = this.slides.map((slide) => slide.minutes);
     const slide = this.slides.findLastIndex(({ cells }) => cells[0] <= cell);
     this.gather();
     this.goToSlide(Math.max(0, slide));
@@ -155,7 +154,7 @@ export class Deck {
     page.classList.remove("slamlab-columns");
     refold(notebook);
     for (const cell of notebook.widgets) {
-      cell.node.classList.remove("slamlab-off", "slamlab-later", "slamlab-right", "slamlab-code");
+      cell.node.classList.remove("slamlab-off", "slamlab-later", "slamlab-right");
       for (const one of cell.node.querySelectorAll(".slamlab-later, .slamlab-gone")) {
         one.classList.remove("slamlab-later", "slamlab-gone");
       }

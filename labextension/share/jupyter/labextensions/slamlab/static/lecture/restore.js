@@ -7,8 +7,8 @@ const plain = (model) => JSON.stringify(model.toJSON());
 // Keep a notebook's file as it is from now on; the result ends that with a question, if need be.
 export function keepFile(panel, Widget) {
   const { context } = panel;
-  const before = plain(context.model), wasDirty = context.model.dirty;
   if (context.slamlabKept) return context.slamlabKept; // an earlier lecture waits for its answer
+  const before = plain(context.model), wasDirty = context.model.dirty;
   let asking;
   context.save = async () => { asking?.node.querySelector("button").focus(); };
   const release = () => {
@@ -22,7 +22,6 @@ export function keepFile(panel, Widget) {
     release();
   };
   context.slamlabKept = {
-    restore,
     end() {
       if (plain(context.model) === before) {
         context.model.dirty = wasDirty;
