@@ -22,7 +22,7 @@ function questionOf(cell) {
   return { ...question, text, items: lettered ? items : null };
 }
 
-export class Audience {
+class Audience {
   constructor(deck) {
     this.deck = deck;
     this.told = null; // where the process is

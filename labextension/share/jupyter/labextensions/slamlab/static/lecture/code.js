@@ -7,7 +7,7 @@ const SUBJECT = "code"; // tag of a cell whose code is what the slide is about
 const SHOWS = /^(views\.|ax\.|fig\b|plt\.|display\(|with |for |@|\)|\]|\})/; // says little
 
 // The line that stands for folded code: the last statement that does more than show something.
-export function tellingLine(source) {
+function tellingLine(source) {
   const lines = source.split("\n").filter((line) => line.trim() && !line.startsWith("#"));
   const outer = lines.filter((line) => /^\S/.test(line));
   const telling = outer.findLast((line) => !SHOWS.test(line)) ?? outer[0] ?? "";
