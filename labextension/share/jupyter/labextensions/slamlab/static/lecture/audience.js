@@ -3,8 +3,9 @@
 
 import { button, element } from "../element.js";
 import { questionIn } from "../questions.js";
-import { drawBars } from "./poll_bars.js";
+import { drawBars, LETTERS, many } from "./poll_bars.js";
 import { copyOf, seen } from "./shown_slide.js";
+import { isShown } from "./stops.js";
 
 const PAUSE = 500; // [ms] between two slides sent, at least
 const COUNTING = 1000; // [ms] between two looks at the counts
@@ -18,7 +19,7 @@ function questionOf(cell) {
   const text = cell.node.querySelector(".jp-OutputArea-output.jp-RenderedMarkdown");
   if (!question || !text || !seen(text)) return null;
   const items = [...text.querySelectorAll("ul:last-of-type > li")];
-  const lettered = items.length > 1 && items.every((item, n) => item.firstElementChild?.textContent === "ABCDEFGH"[n]);
+  const lettered = items.length > 1 && items.every((item, n) => item.firstElementChild?.textContent === LETTERS[n]);
   return { ...question, text, items: lettered ? items : null };
 }
 
@@ -91,7 +92,7 @@ class Audience {
     const told = await this.ask("GET", "/alive");
     this.here = told.phones;
     const count = this.panel.querySelector(".slamlab-class-here");
-    if (count) count.textContent = `${told.phones} ${told.phones === 1 ? "phone is" : "phones are"} here.`;
+    if (count) count.textContent = `${many(told.phones, "phone")} here.`;
   }
 
   every(milliseconds, deed) {
@@ -142,8 +143,12 @@ class Audience {
     picture.setAttribute("role", "img");
     picture.setAttribute("aria-label", `QR code of ${address}`);
     picture.append(document.importNode(new DOMParser().parseFromString(qr, "image/svg+xml").documentElement, true));
-    const way = element("div", "", element("p", "", "Scan this, or open"), element("p", "slamlab-class-address", `http://${address}`),
-      element("p", "", "and type"), element("p", "slamlab-class-code", `${code.slice(0, 4)} ${code.slice(4)}`), element("p", "slamlab-class-here"));
+    const way = element("div", "",
+      element("p", "", "Scan this, or open"),
+      element("p", "slamlab-class-address", `http://${address}`),
+      element("p", "", "and type"),
+      element("p", "slamlab-class-code", `${code.slice(0, 4)} ${code.slice(4)}`),
+      element("p", "slamlab-class-here"));
     const buttons = [button("hide", () => this.toggle())];
     if (addresses.length > 1) {
       buttons.push(button("another address of this machine", () => { this.address += 1; this.showWay(); }));
@@ -180,9 +185,9 @@ class Audience {
   }
 
   cells() {
-    // notes are not shown; were they, they would still be no business of the class
-    const shared = (cell) => !["notes", "skip"].includes(cell.model.getMetadata("slideshow")?.slide_type);
-    return this.deck.panel.content.widgets.filter((cell) => this.deck.page.contains(cell.node) && seen(cell.node) && shared(cell));
+    // were notes in sight by mistake, they would still be no business of the class
+    const { page, panel } = this.deck;
+    return panel.content.widgets.filter((cell) => page.contains(cell.node) && seen(cell.node) && isShown(cell));
   }
 
   // ---- a question ---------------------------------------------------------------------------------
@@ -217,7 +222,7 @@ class Audience {
   async count() {
     const counts = await this.tell("GET", "/poll");
     if (!counts || !this.question) return;
-    this.status.textContent = `${counts.answers} ${counts.answers === 1 ? "answer" : "answers"}, ${counts.phones} phones`;
+    this.status.textContent = `${many(counts.answers, "answer")}, ${many(counts.phones, "phone")}`;
     drawBars(this.bars, this.question, counts);
   }
 
@@ -226,11 +231,17 @@ class Audience {
     this.label = () => { bars.textContent = this.bars.isConnected ? "hide bars" : "show bars"; };
     const hands = this.question.choices ? [button("show of hands", () => this.drawHands(isOpen))] : [];
     const last = isOpen
-      ? button("close the poll", async () => { if (await this.tell("POST", "/poll/close")) { this.show(true); this.drawControls(false); } })
+      ? button("close the poll", () => this.closePoll())
       : button("done", () => this.done());
     this.strip.replaceChildren(bars, ...hands, last, this.status);
     this.deck.layer.append(this.strip);
     this.label();
+  }
+
+  async closePoll() {
+    if (!await this.tell("POST", "/poll/close")) return;
+    this.show(true);
+    this.drawControls(false);
   }
 
   show(on) {
@@ -243,7 +254,7 @@ class Audience {
     const fields = this.question.choices.map((_, n) => {
       const field = element("input");
       Object.assign(field, { type: "number", min: 0, max: 10000, step: 1, value: 0 });
-      return [element("label", "", `${"ABCDEFGH"[n]} `, field), field];
+      return [element("label", "", `${LETTERS[n]} `, field), field];
     });
     const form = element("form", "slamlab-hands", ...fields.map(([label]) => label));
     const count = element("button", "", "count them");

@@ -2,6 +2,7 @@
 // shows, so that it does not matter which of the two windows was there first, or was reloaded.
 
 import { element, giveBackFocus } from "../element.js";
+import { channelOf } from "./channel.js";
 import { nameOf } from "./guard.js";
 import { clockFace, planAt } from "./plan.js";
 import { Screen } from "./screen.js";
@@ -16,7 +17,7 @@ const KERNEL = {
 };
 
 const path = decodeURIComponent(location.hash.slice(1));
-const channel = new BroadcastChannel(`slamlab-lecture:${path}`);
+const channel = channelOf(path);
 const at = (id) => document.getElementById(id);
 const present = new Screen(at("present"), "The slide now"), next = new Screen(at("next"), "What comes next");
 const kept = JSON.parse(sessionStorage.getItem(path) ?? "{}"); // {began, slide}: outlives a reload

@@ -1,8 +1,8 @@
-// The deck's end of the presenter's window: says what is shown, does what it is told. Both ends speak
-// through a channel named by the notebook, so that each may be reloaded without the other.
+// The deck's end of the presenter's window: says what is shown, does what it is told.
 
 import { element } from "../element.js";
 import { questionIn } from "../questions.js";
+import { channelOf } from "./channel.js";
 import { slidesOfSection } from "./plan.js";
 import { copied, pictureOf, stylesOf, stylesSignature } from "./picture.js";
 
@@ -11,8 +11,6 @@ const SIZE = "popup,width=1200,height=760";
 const PAUSES = [100, 700]; // ms that pictures wait: for the next key; for what is drawn and laid out meanwhile
 const OWN = new Set(["p", "f"]); // keys that mean another thing there
 
-export const channelOf = (path) => `slamlab-lecture:${path}`;
-
 export function addPresenter(deck) { return new Presenting(deck); }
 
 class Presenting {
@@ -20,7 +18,7 @@ class Presenting {
     this.deck = deck;
     this.id = crypto.randomUUID(); // two decks of one notebook must not be mixed up
     this.path = deck.panel.context.path;
-    this.channel = new BroadcastChannel(channelOf(this.path));
+    this.channel = channelOf(this.path);
     this.channel.onmessage = ({ data }) => this.#heard(data);
     deck.key("p", "presenter's window", () => this.open());
     deck.button("presenter", "The presenter's window: notes, next slide, time (p)", () => this.open());

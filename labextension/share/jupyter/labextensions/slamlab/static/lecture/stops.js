@@ -6,7 +6,7 @@ const STEP = ".slamlab-step";
 const typeOf = (cell) => cell.model.getMetadata("slideshow")?.slide_type ?? "-";
 
 // notes are for the speaker, skipped cells only for the kernel
-const isShown = (cell) => !["notes", "skip"].includes(typeOf(cell));
+export const isShown = (cell) => !["notes", "skip"].includes(typeOf(cell));
 
 // HTML of a cell's outputs, whether they are drawn or not.
 export function htmlOf(cell) {
