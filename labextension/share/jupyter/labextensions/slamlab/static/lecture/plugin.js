@@ -9,7 +9,6 @@ import { keepFile } from "./restore.js";
 import { useActions } from "./running.js";
 
 const COMMAND = "slamlab:lecture";
-const EXTENSIONS = [addAudience, addPresenter, addInk]; // each is given the deck once it is shown
 const asked = new URLSearchParams(window.location.search).has("lecture");
 
 export function lecturePlugin({ INotebookTracker, NotebookActions, ICommandPalette, Widget }) {
@@ -55,5 +54,7 @@ async function lecture(panel, app, Widget, cell) {
   deck.ended.connect(() => kept.end());
   deck.start(cell);
   panel.slamlabDeck = deck; // for tests
-  for (const extend of EXTENSIONS) extend(deck);
+  addAudience(deck);
+  addPresenter(deck);
+  deck.ink = addInk(deck); // the handout waits for it
 }

@@ -4,7 +4,7 @@ import { element } from "../element.js";
 import { questionIn } from "../questions.js";
 import { channelOf } from "./channel.js";
 import { slidesOfSection } from "./plan.js";
-import { copied, pictureOf, stylesOf, stylesSignature } from "./picture.js";
+import { copied, notesOf, pictureOf, stylesOf, stylesSignature } from "./picture.js";
 
 const PAGE = new URL("presenter.html", import.meta.url).href;
 const SIZE = "popup,width=1200,height=760";
@@ -112,10 +112,10 @@ class Presenting {
       this.heard.styled = styles;
     }
     const drawn = {
-      present: pictureOf(deck, deck.at),
-      next: pictureOf(deck, deck.at + 1),
+      present: pictureOf(deck, deck.at)?.outerHTML ?? "",
+      next: pictureOf(deck, deck.at + 1)?.outerHTML ?? "",
       then: deck.slides[deck.stops[deck.at + 1]?.slide]?.title,
-      notes: this.#notes(),
+      notes: notesOf(deck, deck.slide).map((note) => note.innerHTML),
       questions: this.#questions(),
     };
     const text = JSON.stringify(drawn);
@@ -126,14 +126,6 @@ class Presenting {
     if (this.heard.knows === this.serial) return;
     this.channel.postMessage({ from: this.id, said: "pictures", serial: this.serial, at: deck.at, ...drawn });
     this.heard.knows = this.serial;
-  }
-
-  #notes() {
-    const { notebook, slides, slide } = this.deck;
-    return slides[slide].notes
-      .map((index) => notebook.widgets[index].node.querySelector(".jp-RenderedMarkdown"))
-      .filter(Boolean) // not drawn yet
-      .map((note) => copied(note).innerHTML);
   }
 
   // The questions of this slide and of what is left of its section: [{slide, html, text}].
