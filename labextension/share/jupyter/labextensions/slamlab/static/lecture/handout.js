@@ -35,7 +35,8 @@ function style({ width, height }, notes) {
   const [w, h] = [`${width}px !important`, `${height}px !important`];
   return element("style", "", `
     @page { size: ${width}px ${notes ? Math.round(width * Math.SQRT2) : height}px; margin: 0; }
-    html, body { overflow: visible !important; height: auto !important; position: static !important; background: #ffffff; }
+    html, body { overflow: visible !important; height: auto !important; position: static !important; }
+    html, body, body.jp-ThemedContainer { background: #ffffff !important; }
     .slamlab-book section { break-after: page; }
     .slamlab-book section:last-child { break-after: auto; }
     .slamlab-book .slamlab-deck, .slamlab-book .slamlab-deck > .jp-Notebook { position: relative !important; width: ${w}; height: ${h}; display: block; }
