@@ -35,5 +35,5 @@ def write_handout(notebook, out, notes=False, screen=SCREEN):
     ink, lost = ink_of(notebook).name, made["lost"]
     missing = [] if made["inkRead"] else [f"{ink} could not be read: nothing drawn is printed"]
     if lost:
-        missing.append(f"{ink}: not printed, as what they were drawn on is gone: {lost} strokes")
+        missing.append(f"{ink}: strokes not printed, as what they were drawn on is gone: {lost}")
     return made["leaves"], missing
