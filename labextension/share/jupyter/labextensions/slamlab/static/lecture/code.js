@@ -1,6 +1,8 @@
-// Code on a slide: folded to its one telling line unless it is short or the subject; locked.
+// Code on a slide: folded to its one telling line unless it is short or the subject; locked. Of code that
+// asks a question nothing is shown: it holds the answer.
 
 import { element } from "../element.js";
+import { questionIn } from "../questions.js";
 
 const SHORT = 6; // lines that need no folding
 const SUBJECT = "code"; // tag of a cell whose code is what the slide is about
@@ -18,13 +20,14 @@ export function foldCode(cell) {
   if (cell.model.type !== "code") return;
   const source = cell.model.sharedModel.getSource();
   const subject = cell.model.getMetadata("tags")?.includes(SUBJECT);
-  cell.node.classList.toggle("slamlab-folded", !subject && source.trim().split("\n").length > SHORT);
+  const asks = Boolean(questionIn(source));
+  cell.node.classList.toggle("slamlab-folded", asks || (!subject && source.trim().split("\n").length > SHORT));
   let line = cell.node.querySelector(".slamlab-telling");
   if (!line) {
     line = element("code", "slamlab-telling");
     cell.inputArea.node.after(line);
   }
-  line.textContent = tellingLine(source);
+  line.textContent = asks ? "" : tellingLine(source);
 }
 
 // Nobody edits by accident: what is inert takes no focus, no key and no click.
