@@ -194,7 +194,7 @@ class Audience {
 
   drawStrip() {
     if (this.question) return;
-    const question = this.cells().map(questionOf).find(Boolean);
+    const question = this.cells().map(questionOf).findLast(Boolean);
     if (!question) {
       this.strip.remove();
       return;
