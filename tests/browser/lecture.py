@@ -26,7 +26,8 @@ SEEN = """() => {
         && Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top) > 1));
     return {
         stop: Number(stop), stops: Number(stops), shrink: Number(shrink),
-        cut: page.scrollHeight > page.clientHeight + 1 || outside.length > 0 || wide.length > 0 || covered,
+        cut: page.scrollHeight > page.clientHeight + 1 || covered
+            || outside.length > 0 || wide.length > 0,
         letters: Math.min(...letters(
             ".jp-RenderedMarkdown p, .jp-RenderedMarkdown li, .jp-RenderedMarkdown td, .cm-line, "
             + ".jp-OutputArea-output pre, mjx-container, .widget-label, .slamlab-telling")),
