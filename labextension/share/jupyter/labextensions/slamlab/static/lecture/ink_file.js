@@ -39,6 +39,7 @@ export class InkFile {
 
   // Write now what is still to be written; one after another. The server writes in place and puts the
   // former file back if that fails; only a server that is killed while it writes leaves a torn one.
+  // It renames onto no file that exists, so a new file under another name would leave a moment with none.
   flush() {
     clearTimeout(this.timer);
     last = last.then(async () => {
