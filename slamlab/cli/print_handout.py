@@ -22,7 +22,7 @@ def add_parser(subparsers):
 
 
 def run(arguments) -> int:
-    """Print; 2 where it cannot be done."""
+    """Print; 1 where some ink is missing, 2 where it cannot be done."""
     from slamlab.lecturing.handout import write_handout
     from slamlab.lecturing.headless import Unavailable
     from slamlab.lecturing.shown_lesson import ShowError, lesson
@@ -30,9 +30,11 @@ def run(arguments) -> int:
     try:
         notebook = lesson(arguments.lesson)
         out = arguments.out or Path(notebook.stem + ".pdf")
-        count = write_handout(notebook, out, arguments.notes)
+        count, missing = write_handout(notebook, out, arguments.notes)
     except (ShowError, Unavailable, OSError) as error:
         print(f"slamlab handout: {error}", file=sys.stderr)
         return 2
     print(f"{out}: {count} slides")
-    return 0
+    for what in missing:
+        print(f"slamlab handout: {what}", file=sys.stderr)
+    return int(bool(missing))

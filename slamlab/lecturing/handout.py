@@ -19,7 +19,7 @@ def write_handout(notebook, out, notes=False, screen=SCREEN):
 
     Returns
     -------
-    int, the number of slides
+    (int, list of str) : the number of pages; what could not be put on them
 
     Raises
     ------
@@ -29,8 +29,11 @@ def write_handout(notebook, out, notes=False, screen=SCREEN):
     """
     with shown(notebook, screen) as page:
         page.begin()
-        wanted = {"notes": notes, "ink": ink_of(notebook).exists()}
-        count = page.ask("handout.js", "leaves", wanted)
+        made = page.ask("handout.js", "leaves", {"notes": notes})
         page.page.emulate_media(media="screen")
         out.write_bytes(page.page.pdf(print_background=True, prefer_css_page_size=True))
-    return count
+    ink, lost = ink_of(notebook).name, made["lost"]
+    missing = [] if made["inkRead"] else [f"{ink} could not be read: nothing drawn is printed"]
+    if lost:
+        missing.append(f"{ink}: strokes not printed, as what they were drawn on is gone: {lost}")
+    return made["leaves"], missing

@@ -1,6 +1,7 @@
 """A lesson shown as a lecture in the browser, and what can be seen of it."""
 
-# what is shown of a slide: its place, whether it is cut off, its letters in pixels of the screen
+# what is shown of a slide: its place, whether it is cut off, its letters in pixels of the screen;
+# a cell that lies on another counts as cut off
 SEEN = """() => {
     const deck = document.querySelector(".slamlab-deck");
     const page = deck.querySelector(".jp-WindowedPanel-viewport");
@@ -18,9 +19,15 @@ SEEN = """() => {
     const outside = [...page.querySelectorAll(".jp-Cell")].filter((one) => isSeen(one)
         && (one.getBoundingClientRect().bottom > Math.min(box.bottom, innerHeight) + 1
             || one.getBoundingClientRect().top < -1));
+    const boxes = [...page.querySelectorAll(".jp-Cell")].filter(isSeen)
+        .map((one) => one.getBoundingClientRect());
+    const covered = boxes.some((a, k) => boxes.slice(k + 1).some((b) =>
+        Math.min(a.right, b.right) - Math.max(a.left, b.left) > 1
+        && Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top) > 1));
     return {
         stop: Number(stop), stops: Number(stops), shrink: Number(shrink),
-        cut: page.scrollHeight > page.clientHeight + 1 || outside.length > 0 || wide.length > 0,
+        cut: page.scrollHeight > page.clientHeight + 1 || covered
+            || outside.length > 0 || wide.length > 0,
         letters: Math.min(...letters(
             ".jp-RenderedMarkdown p, .jp-RenderedMarkdown li, .jp-RenderedMarkdown td, .cm-line, "
             + ".jp-OutputArea-output pre, mjx-container, .widget-label, .slamlab-telling")),

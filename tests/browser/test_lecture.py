@@ -12,6 +12,7 @@ LESSONS = ("04_models_and_jacobians.ipynb", "07_correlations.ipynb")
 SCREENS = ((1280, 720), pytest.param((1920, 1080), marks=pytest.mark.walk))
 SMALLEST = 0.75  # of the usual letters
 BASE = 18  # letters at 720 lines [pixels]
+CODE = ".jp-CodeCell:not(.slamlab-off):not(.slamlab-later)"  # in sight
 NAMES = """
     PageDown PageUp ArrowRight ArrowLeft ArrowUp ArrowDown Space Shift+Space . b o c n t + - 0 ? h
     F5 Shift+F5 Home End a m y x z d v s l p i j k Delete Backspace Enter Control+s Control+z
@@ -112,7 +113,7 @@ def test_what_is_unlocked_changed_and_run_is_restored(lecture, lab_folder):
     before = json.loads(stored(lab_folder, lesson))
     lecture.visit.open(lesson)
     lecture.start()
-    while not lecture.page.locator(".jp-CodeCell:not(.slamlab-off):not(.slamlab-later)").count():
+    while not lecture.page.locator(CODE).count():
         lecture.press("PageDown")
     place = lecture.seen["stop"]
     lecture.press("r")  # what the cell needs
@@ -137,11 +138,23 @@ def test_what_is_unlocked_changed_and_run_is_restored(lecture, lab_folder):
     ]
 
 
+def test_code_that_stops_with_an_error_is_told(lecture):
+    lecture.visit.open("02_sensors_and_worlds.ipynb")
+    lecture.start()
+    while not lecture.page.locator(CODE).count():
+        lecture.press("PageDown")
+    lecture.press("e")
+    lecture.page.keyboard.press("Control+Home")
+    lecture.page.keyboard.type("1 / 0\n")
+    lecture.press("Control+Enter")
+    lecture.page.locator(".slamlab-notice", has_text="stopped with an error").wait_for()
+
+
 def test_what_was_changed_can_be_kept(lecture, lab_folder):
     lesson = "02_sensors_and_worlds.ipynb"
     lecture.visit.open(lesson)
     lecture.start()
-    while not lecture.page.locator(".jp-CodeCell:not(.slamlab-off):not(.slamlab-later)").count():
+    while not lecture.page.locator(CODE).count():
         lecture.press("PageDown")
     lecture.press("e")
     lecture.page.keyboard.press("Control+End")

@@ -1,13 +1,17 @@
 """slamlab rehearse and slamlab handout, in a real browser."""
 
+import json
 import re
 import shutil
 import zlib
 
+import nbformat
 import pytest
 
 from slamlab.cli import main
 from slamlab.lecturing import headless
+
+BLUE, RED = b"0 .4471 .698", b".8353 .3686 0"  # colours of ink, as a PDF has them
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -60,11 +64,37 @@ def test_a_handout_has_a_page_for_each_slide_and_its_text(write, tmp_path):
     assert b"/Font" in data  # text, no picture of it
 
 
-def test_notes_stand_on_upright_pages(write, tmp_path):
+def test_notes_stand_on_upright_white_pages(write, tmp_path):
     out = tmp_path / "out.pdf"
     assert main(["handout", str(write()), "--notes", "--out", str(out)]) == 0
-    count, ((width, height),), _ = pages(out)
+    count, ((width, height),), data = pages(out)
     assert count == 2 and height > width
+    assert not re.search(rb"(\.7\d* ){3}rg", data), "JupyterLab's grey is below the notes"
+
+
+def stroke(cell, colour="blue"):
+    """A stroke on the first text of a cell."""
+    anchor = {"cell": cell, "kind": "text", "nth": 0}
+    points = [[0, 0, 0.5], [60, 10, 0.5], [90, 0, 0.5]]
+    look = {"id": f"{cell}-{colour}", "tool": "pen", "colour": colour, "width": 3}
+    return look | {"anchor": anchor, "points": points}
+
+
+def test_a_handout_has_the_ink_and_says_which_it_lacks(write, tmp_path, capsys):
+    notebook, out = write(), tmp_path / "out.pdf"
+    cells = [cell.id for cell in nbformat.read(notebook, as_version=4).cells]
+    ink = notebook.with_suffix(".ink.json")
+    strokes = [stroke(cells[0]), stroke(cells[3], "red"), stroke("no cell")]
+    ink.write_text(json.dumps({"version": 1, "strokes": strokes}))
+    assert main(["handout", str(notebook), "--out", str(out)]) == 1
+    assert set(re.findall(rb"([\d.]+ [\d.]+ [\d.]+) RG", pages(out)[2])) >= {BLUE, RED}
+    assert "is gone: 1" in capsys.readouterr().err
+
+    ink.write_text('{"version": 1, "strokes": [{')
+    assert main(["handout", str(notebook), "--out", str(out)]) == 1
+    assert "could not be read" in capsys.readouterr().err
+    assert pages(out)[0] == 2
+    assert ink.read_text() == '{"version": 1, "strokes": [{'
 
 
 def test_what_is_no_notebook_is_told(tmp_path, capsys):

@@ -1,5 +1,6 @@
 // Derivations (slamlab.derivation) are played line by line, back and forth; without this all lines show.
 
+import { button, element } from "./element.js";
 import { forEachElement } from "./watching.js";
 
 export function playDerivations(panel) {
@@ -12,34 +13,24 @@ export function playDerivations(panel) {
 
 function playback(derivation, steps) {
   let shown = steps.length;
-  const bar = document.createElement("div");
-  bar.className = "slamlab-playback";
-  bar.setAttribute("role", "group");
-  bar.setAttribute("aria-label", derivation.getAttribute("aria-label") ?? "Derivation");
-  const told = document.createElement("span");
+  const told = element("span");
   told.setAttribute("role", "status");
   const buttons = [
-    ["|◀", "first line only", () => 0],
-    ["◀", "one line back", () => shown - 1],
-    ["▶", "next line", () => shown + 1],
-    ["▶|", "all lines", () => steps.length],
-  ].map(([sign, name, target]) => {
-    const button = document.createElement("button");
-    button.type = "button";
-    button.textContent = sign;
-    button.title = name;
-    button.setAttribute("aria-label", name);
-    button.addEventListener("click", () => show(target()));
-    return button;
-  });
-  bar.append(...buttons, told);
+    button("|◀", () => show(0), "first line only"),
+    button("◀", () => show(shown - 1), "one line back"),
+    button("▶", () => show(shown + 1), "next line"),
+    button("▶|", () => show(steps.length), "all lines"),
+  ];
+  const bar = element("div", "slamlab-playback", ...buttons, told);
+  bar.setAttribute("role", "group");
+  bar.setAttribute("aria-label", derivation.getAttribute("aria-label") ?? "Derivation");
 
   function show(count) {
     shown = Math.min(Math.max(count, 0), steps.length);
     steps.forEach((step, k) => step.classList.toggle("slamlab-later", k >= shown));
     told.textContent = `line ${shown + 1} of ${steps.length + 1}`;
-    buttons.forEach((button, k) => { // not disabled: a button in focus would lose it
-      button.setAttribute("aria-disabled", k < 2 ? shown === 0 : shown === steps.length);
+    buttons.forEach((one, k) => { // not disabled: a button in focus would lose it
+      one.setAttribute("aria-disabled", k < 2 ? shown === 0 : shown === steps.length);
     });
   }
   show(shown);

@@ -12,7 +12,7 @@ const NARROW = 1000; // pixels, below which the side bar leaves a notebook too l
 // The plugins; offered is what the application shares: its classes and tokens by their names.
 export function plugins(offered) {
   const { INotebookTracker, Widget } = offered;
-  for (const sheet of ["style.css", "lecture/lecture.css", "lecture/ink.css"]) {
+  for (const sheet of ["style.css", "lecture/lecture.css", "lecture/ink.css", "lecture/audience.css"]) {
     const style = document.createElement("link");
     style.rel = "stylesheet";
     style.href = new URL(sheet, import.meta.url).href;

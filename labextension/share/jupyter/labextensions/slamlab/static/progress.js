@@ -1,8 +1,10 @@
 // Progress at the head of a notebook: the points of each task, the questions that are answered.
 // It is read from progress.json, which the kernel writes beside the folders of the notebooks.
 
+import { element } from "./element.js";
+import { questionIn } from "./questions.js";
+
 const TASK = /\bcheck\("([^"\\]+)"\)/;
-const QUESTION = /\bask\(\s*"([^"\\]+)"/;
 
 // what there is to be done in a notebook, in its order
 function tasksAndQuestions(model) {
@@ -10,9 +12,9 @@ function tasksAndQuestions(model) {
   for (const cell of model.cells) {
     if (cell.type !== "code") continue;
     const source = cell.sharedModel.getSource();
-    const task = TASK.exec(source)?.[1], question = QUESTION.exec(source)?.[1];
+    const task = TASK.exec(source)?.[1], question = questionIn(source);
     if (task) found.push({ kind: "task", id: task, of: cell.getMetadata("nbgrader")?.points });
-    else if (question) found.push({ kind: "question", id: question });
+    else if (question) found.push({ kind: "question", id: question.id });
   }
   return found;
 }
@@ -49,8 +51,7 @@ export async function showProgress(panel, app, Widget) {
   if (!context.model.getMetadata("slamlab")) return;
   const items = tasksAndQuestions(context.model);
   if (!items.length) return;
-  const bar = document.createElement("ul");
-  bar.className = "slamlab-progress";
+  const bar = element("ul", "slamlab-progress");
   bar.setAttribute("aria-label", "Progress");
   panel.contentHeader.addWidget(new Widget({ node: bar }));
 
@@ -62,8 +63,7 @@ export async function showProgress(panel, app, Widget) {
     if (JSON.stringify(states) === shown || panel.isDisposed) return;
     shown = JSON.stringify(states);
     bar.replaceChildren(...states.map(({ mark, text, words }) => {
-      const entry = document.createElement("li");
-      entry.textContent = `${mark} ${text}`;
+      const entry = element("li", "", `${mark} ${text}`);
       entry.title = words;
       return entry;
     }));

@@ -1,57 +1,45 @@
 // The class in the lecture: its phones see the slide as it stands, and are asked. A process beside the kernel
 // (slamlab.audience) listens for them; this page sends it the slide that is shown, and gets counts alone.
 
-import { drawBars, made } from "./poll_bars.js";
+import { button, element } from "../element.js";
+import { questionIn } from "../questions.js";
+import { drawBars, LETTERS, many } from "./poll_bars.js";
 import { copyOf, seen } from "./shown_slide.js";
+import { isShown } from "./stops.js";
 
 const PAUSE = 500; // [ms] between two slides sent, at least
 const COUNTING = 1000; // [ms] between two looks at the counts
-const STYLE = new URL("audience.css", import.meta.url).href;
 
 const starting = (host) => `print(__import__("json").dumps(__import__("slamlab.audience").audience.start(${
   JSON.stringify(location.origin)}, host=${JSON.stringify(host)})))`;
 
-function button(words, deed) {
-  const element = made("button", "", words);
-  element.type = "button";
-  element.onclick = (event) => {
-    deed();
-    if (event.detail) element.blur(); // clicked by a mouse: the deck's keys are the deck's again
-  };
-  return element;
-}
-
-// The question of a cell that asks one: {id, cell, unit, choices: elements or null, text}, or null.
+// The question of a cell that asks one: {id, unit, text: element, items: elements or null}; else null.
 function questionOf(cell) {
-  const source = cell.model.sharedModel.getSource();
+  const question = questionIn(cell.model.sharedModel.getSource());
   const text = cell.node.querySelector(".jp-OutputArea-output.jp-RenderedMarkdown");
-  const asked = /\bask\(\s*["']([^"']{1,60})["']/.exec(source);
-  if (!asked || !text || !seen(text)) return null;
+  if (!question || !text || !seen(text)) return null;
   const items = [...text.querySelectorAll("ul:last-of-type > li")];
-  const lettered = items.length > 1 && items.every((item, n) => item.firstElementChild?.textContent === "ABCDEFGH"[n]);
-  return { id: asked[1], unit: /\bunit=["']([^"']*)["']/.exec(source)?.[1] ?? "", text, items: lettered ? items : null };
+  const lettered = items.length > 1 && items.every((item, n) => item.firstElementChild?.textContent === LETTERS[n]);
+  return { ...question, text, items: lettered ? items : null };
 }
 
-export class Audience {
+class Audience {
   constructor(deck) {
     this.deck = deck;
     this.told = null; // where the process is
     this.question = null; // the one that is open, with its choices' texts
     this.timers = new Set();
     this.sent = Promise.resolve(); // slides go out one after another
-    this.panel = made("section", "slamlab-class");
+    this.panel = element("section", "slamlab-class");
     this.panel.setAttribute("aria-label", "The class");
     this.panel.dataset.slamlabCloses = ""; // Escape closes it
-    this.strip = made("div", "slamlab-poll");
+    this.strip = element("div", "slamlab-poll");
     this.strip.setAttribute("role", "group");
     this.strip.setAttribute("aria-label", "A question to the class");
-    this.bars = made("section", "slamlab-bars");
+    this.bars = element("section", "slamlab-bars");
     this.bars.setAttribute("aria-label", "What the class answers");
-    this.status = made("span");
+    this.status = element("span");
     this.status.setAttribute("role", "status");
-    if (!document.querySelector(`link[href="${STYLE}"]`)) {
-      document.head.append(Object.assign(document.createElement("link"), { rel: "stylesheet", href: STYLE }));
-    }
     deck.button("class", "let the class see the slide on their phones, and ask them", () => this.toggle());
     deck.key("a", "the class: address, code, phones", () => this.toggle());
     deck.changed.connect(() => this.changed());
@@ -61,7 +49,7 @@ export class Audience {
   // ---- the process --------------------------------------------------------------------------------
 
   async start(host) {
-    this.panel.replaceChildren(made("p", "", "Starting …"));
+    this.panel.replaceChildren(element("p", "", "Starting …"));
     try {
       this.told = JSON.parse(await this.deck.run(starting(host)));
       await this.alive();
@@ -104,7 +92,7 @@ export class Audience {
     const told = await this.ask("GET", "/alive");
     this.here = told.phones;
     const count = this.panel.querySelector(".slamlab-class-here");
-    if (count) count.textContent = `${told.phones} ${told.phones === 1 ? "phone is" : "phones are"} here.`;
+    if (count) count.textContent = `${many(told.phones, "phone")} here.`;
   }
 
   every(milliseconds, deed) {
@@ -119,7 +107,7 @@ export class Audience {
     this.timers.clear();
     clearTimeout(this.sending);
     this.told = this.question = this.sending = null;
-    for (const element of [this.panel, this.strip, this.bars]) element.remove();
+    for (const shown of [this.panel, this.strip, this.bars]) shown.remove();
   }
 
   // ---- the panel: how to come in ------------------------------------------------------------------
@@ -137,33 +125,37 @@ export class Audience {
 
   offer(problem) {
     this.panel.replaceChildren(
-      made("h2", "", "The class"),
-      made("p", "", "Phones can see the slide that is shown, look back at earlier ones, and answer questions. They give no "
+      element("h2", "", "The class"),
+      element("p", "", "Phones can see the slide that is shown, look back at earlier ones, and answer questions. They give no "
         + "name, and nothing is kept after the lecture."),
-      made("p", "", "Nothing listens until you open it. The notebook, its files and its kernel cannot be reached from there."),
+      element("p", "", "Nothing listens until you open it. The notebook, its files and its kernel cannot be reached from there."),
       button("open it to phones on this network", () => this.start("0.0.0.0")),
       button("open it on this machine alone, to try it", () => this.start("127.0.0.1")),
       button("close", () => this.toggle()),
-      made("p", "", problem),
+      element("p", "", problem),
     );
   }
 
   showWay() {
     const { addresses, code } = this.told;
     const { address, qr } = addresses[this.address % addresses.length];
-    const picture = made("div", "slamlab-qr");
+    const picture = element("div", "slamlab-qr");
     picture.setAttribute("role", "img");
     picture.setAttribute("aria-label", `QR code of ${address}`);
     picture.append(document.importNode(new DOMParser().parseFromString(qr, "image/svg+xml").documentElement, true));
-    const way = made("div", "", made("p", "", "Scan this, or open"), made("p", "slamlab-class-address", `http://${address}`),
-      made("p", "", "and type"), made("p", "slamlab-class-code", `${code.slice(0, 4)} ${code.slice(4)}`), made("p", "slamlab-class-here"));
+    const way = element("div", "",
+      element("p", "", "Scan this, or open"),
+      element("p", "slamlab-class-address", `http://${address}`),
+      element("p", "", "and type"),
+      element("p", "slamlab-class-code", `${code.slice(0, 4)} ${code.slice(4)}`),
+      element("p", "slamlab-class-here"));
     const buttons = [button("hide", () => this.toggle())];
     if (addresses.length > 1) {
       buttons.push(button("another address of this machine", () => { this.address += 1; this.showWay(); }));
     }
     buttons.push(button("end it for the class", () => { this.end(); }));
-    this.panel.replaceChildren(made("h2", "", "The class"), made("div", "slamlab-class-way", picture, way),
-      made("div", "slamlab-hands", ...buttons));
+    this.panel.replaceChildren(element("h2", "", "The class"), element("div", "slamlab-class-way", picture, way),
+      element("div", "slamlab-hands", ...buttons));
     this.alive().catch(() => {});
   }
 
@@ -188,21 +180,21 @@ export class Audience {
     if (this.told && slide >= 0 && slide === this.place) await this.tell("PUT", "/slide", { slide, html });
   }
 
-  copy(element) {
-    return copyOf(element, (editor) => this.cells().find((cell) => cell.node.contains(editor))?.model.sharedModel.getSource() ?? "");
+  copy(part) {
+    return copyOf(part, (editor) => this.cells().find((cell) => cell.node.contains(editor))?.model.sharedModel.getSource() ?? "");
   }
 
   cells() {
-    // notes are not shown; were they, they would still be no business of the class
-    const shared = (cell) => !["notes", "skip"].includes(cell.model.getMetadata("slideshow")?.slide_type);
-    return this.deck.panel.content.widgets.filter((cell) => this.deck.page.contains(cell.node) && seen(cell.node) && shared(cell));
+    // were notes in sight by mistake, they would still be no business of the class
+    const { page, panel } = this.deck;
+    return panel.content.widgets.filter((cell) => page.contains(cell.node) && seen(cell.node) && isShown(cell));
   }
 
   // ---- a question ---------------------------------------------------------------------------------
 
   drawStrip() {
     if (this.question) return;
-    const question = this.cells().map(questionOf).find(Boolean);
+    const question = this.cells().map(questionOf).findLast(Boolean);
     if (!question) {
       this.strip.remove();
       return;
@@ -230,7 +222,7 @@ export class Audience {
   async count() {
     const counts = await this.tell("GET", "/poll");
     if (!counts || !this.question) return;
-    this.status.textContent = `${counts.answers} ${counts.answers === 1 ? "answer" : "answers"}, ${counts.phones} phones`;
+    this.status.textContent = `${many(counts.answers, "answer")}, ${many(counts.phones, "phone")}`;
     drawBars(this.bars, this.question, counts);
   }
 
@@ -239,11 +231,17 @@ export class Audience {
     this.label = () => { bars.textContent = this.bars.isConnected ? "hide bars" : "show bars"; };
     const hands = this.question.choices ? [button("show of hands", () => this.drawHands(isOpen))] : [];
     const last = isOpen
-      ? button("close the poll", async () => { if (await this.tell("POST", "/poll/close")) { this.show(true); this.drawControls(false); } })
+      ? button("close the poll", () => this.closePoll())
       : button("done", () => this.done());
     this.strip.replaceChildren(bars, ...hands, last, this.status);
     this.deck.layer.append(this.strip);
     this.label();
+  }
+
+  async closePoll() {
+    if (!await this.tell("POST", "/poll/close")) return;
+    this.show(true);
+    this.drawControls(false);
   }
 
   show(on) {
@@ -254,12 +252,12 @@ export class Audience {
 
   drawHands(isOpen) {
     const fields = this.question.choices.map((_, n) => {
-      const field = made("input");
+      const field = element("input");
       Object.assign(field, { type: "number", min: 0, max: 10000, step: 1, value: 0 });
-      return [made("label", "", `${"ABCDEFGH"[n]} `, field), field];
+      return [element("label", "", `${LETTERS[n]} `, field), field];
     });
-    const form = made("form", "slamlab-hands", ...fields.map(([label]) => label));
-    const count = made("button", "", "count them");
+    const form = element("form", "slamlab-hands", ...fields.map(([label]) => label));
+    const count = element("button", "", "count them");
     form.append(count, button("back", () => this.drawControls(isOpen)));
     form.onsubmit = async (event) => {
       event.preventDefault();

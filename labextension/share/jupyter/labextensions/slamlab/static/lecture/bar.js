@@ -1,19 +1,20 @@
 // The bar below the slide: buttons for who has no keys, the slide's number, the time.
 
-import { element } from "./overview.js";
+import { button, element } from "../element.js";
+import { clockFace } from "./plan.js";
 
 const TELL = 4000; // ms a notice stays
 
 export class Bar {
   constructor(deck) {
     this.deck = deck;
-    this.node = element("div", "", "slamlab-bar");
-    this.section = element("span", "", "slamlab-section");
-    this.number = element("span", "", "slamlab-number");
-    this.timer = element("span", "", "slamlab-timer");
-    this.told = element("span", "", "slamlab-notice");
+    this.node = element("div", "slamlab-bar");
+    this.section = element("span", "slamlab-section");
+    this.number = element("span", "slamlab-number");
+    this.timer = element("span", "slamlab-timer");
+    this.told = element("span", "slamlab-notice");
     this.told.setAttribute("role", "status");
-    this.buttons = element("span", "", "slamlab-buttons");
+    this.buttons = element("span", "slamlab-buttons");
     this.node.append(this.buttons, this.told, this.section, this.timer, this.number);
     deck.layer.append(this.node);
     this.timer.hidden = true;
@@ -37,15 +38,12 @@ export class Bar {
   }
 
   button(label, title, action) {
-    const button = element("button", label);
-    button.title = title;
-    button.setAttribute("aria-label", title);
-    button.addEventListener("click", () => {
+    const made = button(label, () => {
       action();
-      button.blur(); // or the space bar would press it again
-    });
-    this.buttons.append(button);
-    return button;
+      made.blur(); // or the deck would not have its keys back
+    }, title);
+    this.buttons.append(made);
+    return made;
   }
 
   notice(text, stays = TELL) {
@@ -62,12 +60,12 @@ export class Bar {
   help() {
     const open = this.deck.layer.querySelector(".slamlab-help");
     if (open) return open.remove();
-    const help = element("dl", "", "slamlab-help");
+    const help = element("dl", "slamlab-help");
     help.dataset.slamlabCloses = "";
     const byWhat = Map.groupBy(this.deck.keys, ([, { does }]) => does);
     for (const [does, keys] of byWhat) {
       const names = keys.map(([key]) => key.replace(/ $/, "Space").replace("Arrow", ""));
-      help.append(element("dt", names.join(", ")), element("dd", does));
+      help.append(element("dt", "", names.join(", ")), element("dd", "", does));
     }
     this.deck.layer.append(help);
   }
@@ -80,7 +78,6 @@ export class Bar {
   }
 
   #tick() {
-    const seconds = Math.floor((Date.now() - this.began) / 1000);
-    this.timer.textContent = `${Math.floor(seconds / 60)}:${String(seconds % 60).padStart(2, "0")}`;
+    this.timer.textContent = clockFace((Date.now() - this.began) / 1000);
   }
 }

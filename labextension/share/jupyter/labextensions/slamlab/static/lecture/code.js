@@ -1,11 +1,15 @@
-// Code on a slide: folded to its one telling line unless it is short or the subject; locked.
+// Code on a slide: folded to its one telling line unless it is short or the subject; locked. Of code that
+// asks a question nothing is shown: it holds the answer.
+
+import { element } from "../element.js";
+import { questionIn } from "../questions.js";
 
 const SHORT = 6; // lines that need no folding
 const SUBJECT = "code"; // tag of a cell whose code is what the slide is about
 const SHOWS = /^(views\.|ax\.|fig\b|plt\.|display\(|with |for |@|\)|\]|\})/; // says little
 
 // The line that stands for folded code: the last statement that does more than show something.
-export function tellingLine(source) {
+function tellingLine(source) {
   const lines = source.split("\n").filter((line) => line.trim() && !line.startsWith("#"));
   const outer = lines.filter((line) => /^\S/.test(line));
   const telling = outer.findLast((line) => !SHOWS.test(line)) ?? outer[0] ?? "";
@@ -16,15 +20,14 @@ export function foldCode(cell) {
   if (cell.model.type !== "code") return;
   const source = cell.model.sharedModel.getSource();
   const subject = cell.model.getMetadata("tags")?.includes(SUBJECT);
-  cell.node.classList.toggle("slamlab-folded", !subject && source.trim().split("\n").length > SHORT);
-  cell.node.classList.add("slamlab-code");
+  const asks = Boolean(questionIn(source));
+  cell.node.classList.toggle("slamlab-folded", asks || (!subject && source.trim().split("\n").length > SHORT));
   let line = cell.node.querySelector(".slamlab-telling");
   if (!line) {
-    line = document.createElement("code");
-    line.className = "slamlab-telling";
+    line = element("code", "slamlab-telling");
     cell.inputArea.node.after(line);
   }
-  line.textContent = tellingLine(source);
+  line.textContent = asks ? "" : tellingLine(source);
 }
 
 // Nobody edits by accident: what is inert takes no focus, no key and no click.

@@ -1,5 +1,6 @@
 // The deck: a notebook shown slide by slide on the whole screen, its kernel and controls alive.
 
+import { element, giveBackFocus } from "../element.js";
 import { guard } from "./guard.js";
 import { Bar } from "./bar.js";
 import { keysOf } from "./keys.js";
@@ -37,8 +38,8 @@ export class Deck {
   constructor(panel, app) {
     Object.assign(this, { panel, app, notebook: panel.content });
     this.page = this.notebook.node.querySelector(".jp-WindowedPanel-viewport");
-    this.layer = document.createElement("div");
-    this.layer.className = "slamlab-layer";
+    this.layer = element("div", "slamlab-layer");
+    giveBackFocus(this.layer);
   }
 
   // Start at the slide of a cell, or at the first one.
@@ -56,10 +57,9 @@ export class Deck {
     this.release = guard(this);
     this.bar = new Bar(this);
     this.slides = slidesOf(notebook);
-    this.minutes = this.slides.map((slide) => slide.minutes);
     const slide = this.slides.findLastIndex(({ cells }) => cells[0] <= cell);
     this.gather();
-    this.go(this.stops.findIndex((stop) => stop.slide >= slide));
+    this.goToSlide(Math.max(0, slide));
     this.unscroll = () => this.#unscroll();
     notebook.node.addEventListener("scroll", this.unscroll, true);
     this.observer = new ResizeObserver(() => this.#later());
@@ -104,6 +104,8 @@ export class Deck {
     this.changed.emit(this);
     this.#prepare();
   }
+
+  goToSlide(number) { this.go(this.#first(number)); }
 
   // The same stop anew, after its content changed, or the size of all.
   again(all = true) {
@@ -152,7 +154,7 @@ export class Deck {
     page.classList.remove("slamlab-columns");
     refold(notebook);
     for (const cell of notebook.widgets) {
-      cell.node.classList.remove("slamlab-off", "slamlab-later", "slamlab-right", "slamlab-code");
+      cell.node.classList.remove("slamlab-off", "slamlab-later", "slamlab-right");
       for (const one of cell.node.querySelectorAll(".slamlab-later, .slamlab-gone")) {
         one.classList.remove("slamlab-later", "slamlab-gone");
       }

@@ -5,7 +5,8 @@ import { stepsOf } from "./stops.js";
 export const PAGE = { width: 960, height: 540 }; // pixels of a page that is neither zoomed nor shrunk
 const SHRINK = [1, 0.94, 0.88, 0.82, 0.76]; // below three quarters letters are too small for a hall
 const SMALL = [0.7, 0.6, 0.5, 0.4, 0.3]; // for one cell that is too tall: better small than cut off
-const COLUMNS = ["", "minmax(0, 1fr) minmax(0, 1fr)", "minmax(0, 2fr) minmax(0, 3fr)"]; // one column, or text beside what is to be seen
+// one column, or text beside the one thing that is to be seen
+const COLUMNS = ["", "minmax(0, 1fr) minmax(0, 1fr)", "minmax(0, 2fr) minmax(0, 3fr)"];
 const LETTERS = 0.75; // a figure's own letters may shrink to this part of their size
 const LARGEST = 4; // times a figure grows
 const FIGURE = "img.slamlab-figure";
@@ -18,14 +19,14 @@ export function zoomOf(size) {
 const isPicture = (cell) => Boolean(cell.node.querySelector(".jp-OutputArea-output img, canvas, .jupyter-widgets"));
 
 // Fit the cells of a slide into pages; `show(cells)` shows just these, `show(cells, lines, step)` of a
-// derivation as many lines at this step. Layouts cost time: the
-// largest letters are tried first, which mostly fit, then the smallest, then those between.
+// derivation as many lines at this step. Layouts cost time: the largest letters are tried first, which
+// mostly fit, then the smallest, then those between.
 // Returns [{cells, shrink, columns, figure, lines}].
 export function pagesOf(page, notebook, slide, zoom, show) {
   const wayAt = (cells, shrink, lines, step) => {
     show(cells, lines, step);
     const shown = cells.map((index) => notebook.widgets[index]);
-    const beside = shown.some(isPicture) && !shown.every(isPicture);
+    const beside = shown.length > 1 && shown.filter(isPicture).length === 1; // two would lie on each other
     const ways = (beside ? COLUMNS : COLUMNS.slice(0, 1))
       .map((columns) => grown(page, notebook, { cells, shrink, columns, figure: LETTERS / shrink }, zoom))
       .filter(Boolean);

@@ -28,15 +28,18 @@ class Ink {
     deck.changed.connect(() => this.#place());
   }
 
+  // Whether the file was read, if there is one.
   async #load() {
+    let kept;
     try {
-      const kept = await this.file.read();
-      this.strokes = [...kept, ...this.strokes];
+      kept = await this.file.read();
+      this.strokes = [...kept ?? [], ...this.strokes];
     } catch (error) {
       this.deck.notice(`The ink's file could not be read (${error.message}): what you draw now is not kept.`);
       this.file = undefined; // what is in there must not be lost
     }
     this.#show();
+    return Boolean(kept);
   }
 
   cycle() {

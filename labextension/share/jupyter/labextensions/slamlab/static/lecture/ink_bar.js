@@ -1,6 +1,6 @@
 // The small bar of the ink's tools and colours.
 
-import { element } from "./overview.js";
+import { button, element } from "../element.js";
 
 export const TOOLS = [
   { tool: "pen", label: "pen", width: 3 },
@@ -15,7 +15,7 @@ export const COLOURS = { blue: "#0072b2", red: "#d55e00", green: "#009e73", pink
 export class InkBar {
   constructor(ink) {
     this.ink = ink;
-    this.node = element("div", "", "slamlab-inkbar");
+    this.node = element("div", "slamlab-inkbar");
     this.node.setAttribute("role", "toolbar");
     this.node.setAttribute("aria-label", "Ink");
     this.node.dataset.slamlabCloses = ""; // by Escape
@@ -33,16 +33,9 @@ export class InkBar {
   }
 
   #button(label, title, action) {
-    const button = element("button", label);
-    button.type = "button";
-    button.title = title;
-    button.setAttribute("aria-label", title);
-    button.addEventListener("click", (event) => {
-      action();
-      if (event.detail) button.blur(); // pressed by a mouse, it would keep the space bar
-    });
-    this.node.append(button);
-    return button;
+    const made = button(label, action, title);
+    this.node.append(made);
+    return made;
   }
 
   // Say which tool and colour are in use.

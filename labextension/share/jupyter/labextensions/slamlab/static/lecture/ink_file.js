@@ -13,7 +13,7 @@ export class InkFile {
     this.path = `${notebook.replace(/\.ipynb$/, "")}.ink.json`;
   }
 
-  // The strokes that are kept; none if there is no file. A damaged file is put aside.
+  // The strokes that are kept; none if there is no file. A damaged file is put aside: undefined.
   async read() {
     await last;
     const folder = this.path.split("/").slice(0, -1).join("/");
@@ -27,7 +27,7 @@ export class InkFile {
     const aside = this.#free(listed.map(({ path }) => path));
     await this.contents.rename(this.path, aside);
     this.tell(`The file of the ink was damaged: it is kept as ${aside.split("/").at(-1)}, and a new one begins.`);
-    return [];
+    return undefined;
   }
 
   // Keep strokes, a while after the last change; what goes wrong is told and tried again at the next.
@@ -39,6 +39,7 @@ export class InkFile {
 
   // Write now what is still to be written; one after another. The server writes in place and puts the
   // former file back if that fails; only a server that is killed while it writes leaves a torn one.
+  // It renames onto no file that exists, so a new file under another name would leave a moment with none.
   flush() {
     clearTimeout(this.timer);
     last = last.then(async () => {

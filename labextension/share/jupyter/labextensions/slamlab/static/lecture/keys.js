@@ -1,7 +1,7 @@
 // Keys of the deck, remote controls among them: what each does is said by the help.
 
 import { toggleOverview } from "./overview.js";
-import { runAll, runCell, unlock } from "./running.js";
+import { foldOrUnfold, runAll, runCell, unlock } from "./running.js";
 
 // By key: {does, action}.
 export function keysOf(deck) {
@@ -14,16 +14,11 @@ export function keysOf(deck) {
   add(["PageDown", "ArrowRight", " ", "Enter"], "next", () => deck.next());
   add(["PageUp", "ArrowLeft", "Shift+ "], "back", () => deck.back());
   add(["F5", "Home"], "from the beginning", () => deck.go(0));
-  add(["Shift+F5"], "this slide from its beginning", () => {
-    deck.go(deck.stops.findIndex(({ slide }) => slide === deck.slide));
-  });
+  add(["Shift+F5"], "this slide from its beginning", () => deck.goToSlide(deck.slide));
   add(["End"], "last slide", () => deck.go(deck.stops.length - 1));
   add([".", "b"], "blank, and back", () => deck.layer.classList.toggle("slamlab-blank"));
   add(["o"], "overview", () => toggleOverview(deck));
-  add(["c"], "code: folded or whole", () => {
-    deck.notebook.widgets[deck.cell]?.node.classList.toggle("slamlab-folded");
-    deck.again();
-  });
+  add(["c"], "code: folded or whole", () => foldOrUnfold(deck));
   add(["Ctrl+Enter", "Shift+Enter"], "run this cell", () => runCell(deck));
   add(["r"], "run all cells up to here", () => runAll(deck));
   add(["e"], "unlock this cell's code, to change it", () => unlock(deck));

@@ -1,5 +1,6 @@
 // All slides at a glance: a card each, with its heading and its first picture.
 
+import { element } from "../element.js";
 import { htmlOf } from "./stops.js";
 
 const OPEN = ".slamlab-overview";
@@ -7,8 +8,7 @@ const OPEN = ".slamlab-overview";
 export function toggleOverview(deck) {
   const open = deck.layer.querySelector(OPEN);
   if (open) return open.remove();
-  const list = document.createElement("ol");
-  list.className = "slamlab-overview";
+  const list = element("ol", "slamlab-overview");
   list.dataset.slamlabCloses = "";
   list.setAttribute("aria-label", "All slides");
   list.append(...deck.slides.map((slide, number) => card(deck, slide, number)));
@@ -18,24 +18,17 @@ export function toggleOverview(deck) {
 }
 
 function card(deck, slide, number) {
-  const item = document.createElement("li");
-  const button = document.createElement("button");
-  button.append(element("b", `${number + 1}`), element("span", slide.title || "—"));
-  if (slide.minutes) button.append(element("small", `${slide.minutes} min`));
+  const button = element("button", "", element("b", "", `${number + 1}`), element("span", "", slide.title || "—"));
+  if (slide.minutes) button.append(element("small", "", `${slide.minutes} min`));
   const html = slide.cells.map((index) => htmlOf(deck.notebook.widgets[index])).join("");
   const src = /src="(data:image[^"]+)"/.exec(html)?.[1];
   if (src) button.append(Object.assign(new Image(), { src, alt: "" }));
   if (number === deck.slide) button.setAttribute("aria-current", "true");
   button.addEventListener("click", () => {
     deck.layer.querySelector(OPEN).remove();
-    deck.go(deck.stops.findIndex((stop) => stop.slide === number));
+    deck.goToSlide(number);
   });
-  item.append(button);
-  return item;
-}
-
-export function element(tag, text, className = "") {
-  return Object.assign(document.createElement(tag), { textContent: text, className });
+  return element("li", "", button);
 }
 
 function step(list, event) {

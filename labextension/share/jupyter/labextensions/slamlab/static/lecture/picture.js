@@ -1,4 +1,5 @@
-// What a stop looks like, as HTML that needs nothing of the notebook: for the presenter's window.
+// What a stop looks like, in elements that need nothing of the notebook: for the presenter's window and
+// the handout.
 
 import { layOut } from "./fit.js";
 import { reveal } from "./stops.js";
@@ -12,6 +13,8 @@ export function copied(element) {
   copy.querySelectorAll("canvas").forEach((canvas, k) => {
     const image = inert.createElement("img");
     for (const { name, value } of canvas.attributes) image.setAttribute(name, value);
+    const { clientWidth: width, clientHeight: height } = drawn[k]; // styles name a canvas, not an image
+    if (width) Object.assign(image.style, { width: `${width}px`, height: `${height}px` });
     try {
       image.src = drawn[k].toDataURL();
     } catch {
@@ -28,12 +31,12 @@ function copyOf(cell) {
   return { node, model: cell.model, outputArea: { node: node.querySelector(".jp-OutputArea") ?? node } };
 }
 
-// A stop of a deck, given by its number, within copies of all that stands around the page; nothing if
+// A stop of a deck, given by its number, within copies of all that stands around the page; undefined if
 // there is no such stop, or its slide is not laid out yet.
 export function pictureOf(deck, number) {
   const stop = deck.stops[number];
   const pages = deck.layouts.get(stop?.slide);
-  if (!pages) return "";
+  if (!pages) return undefined;
   const shown = pages.findLast(({ cells }) => cells[0] <= stop.cell) ?? pages[0];
   const widgets = []; // only this page's, each at its index
   for (const index of shown.cells) widgets[index] = copyOf(deck.notebook.widgets[index]);
@@ -49,7 +52,7 @@ export function pictureOf(deck, number) {
   }
   tree.removeAttribute("popover"); // or it would have to be opened
   if (number === deck.at) tree.append(overlay(deck));
-  return tree.outerHTML;
+  return tree;
 }
 
 // What is drawn over the slide.
@@ -57,6 +60,14 @@ function overlay(deck) {
   const layer = inert.importNode(deck.layer, false);
   layer.append(...[...deck.layer.querySelectorAll(":scope > svg")].map(copied));
   return layer;
+}
+
+// A slide's notes, each a copy of what stands in its cell.
+export function notesOf({ notebook, slides }, slide) {
+  return slides[slide].notes
+    .map((index) => notebook.widgets[index].node.querySelector(".jp-RenderedMarkdown"))
+    .filter(Boolean) // not drawn yet
+    .map(copied);
 }
 
 // The styles of this page and the marks of its theme: {sheets: [{href} or {text}], html, body}.

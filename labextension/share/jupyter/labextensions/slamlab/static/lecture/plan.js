@@ -1,7 +1,7 @@
 // The planned time of a lecture: sections begin at slides that say their minutes.
 
 // The sections of slides {title, minutes}: [{title, slide, minutes, from, to}], from and to in minutes.
-export function sectionsOf(slides) {
+function sectionsOf(slides) {
   const sections = [];
   let from = 0;
   slides.forEach(({ title, minutes }, slide) => {
@@ -13,7 +13,7 @@ export function sectionsOf(slides) {
 }
 
 // The section of a slide; undefined before the first one.
-export const sectionAt = (sections, slide) => sections.findLast((section) => section.slide <= slide);
+const sectionAt = (sections, slide) => sections.findLast((section) => section.slide <= slide);
 
 // The first and the last slide of the section of a slide; alone if nothing is planned.
 export function slidesOfSection(slides, slide) {

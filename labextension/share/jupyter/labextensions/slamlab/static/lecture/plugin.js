@@ -1,15 +1,14 @@
 // The lecture begins by a button of the notebook, the palette, or an address with ?lecture=1.
 
+import { element } from "../element.js";
 import { addAudience } from "./audience.js";
 import { Deck } from "./deck.js";
 import { addInk } from "./ink.js";
 import { addPresenter } from "./presenting.js";
 import { keepFile } from "./restore.js";
 import { useActions } from "./running.js";
-import { element } from "./overview.js";
 
 const COMMAND = "slamlab:lecture";
-const EXTENSIONS = [addAudience, addPresenter, addInk]; // each is given the deck once it is shown
 const asked = new URLSearchParams(window.location.search).has("lecture");
 
 export function lecturePlugin({ INotebookTracker, NotebookActions, ICommandPalette, Widget }) {
@@ -41,12 +40,10 @@ export function lecturePlugin({ INotebookTracker, NotebookActions, ICommandPalet
 }
 
 function startButton(Widget, app) {
-  const button = element("button", "Lecture", "jp-ToolbarButtonComponent slamlab-lecture-start");
+  const button = element("button", "jp-ToolbarButtonComponent slamlab-lecture-start", "Lecture");
   button.title = "Show this notebook slide by slide, from this cell on";
   button.addEventListener("click", () => app.commands.execute(COMMAND));
-  const node = element("div", "", "jp-ToolbarButton");
-  node.append(button);
-  return new Widget({ node });
+  return new Widget({ node: element("div", "jp-ToolbarButton", button) });
 }
 
 async function lecture(panel, app, Widget, cell) {
@@ -57,5 +54,7 @@ async function lecture(panel, app, Widget, cell) {
   deck.ended.connect(() => kept.end());
   deck.start(cell);
   panel.slamlabDeck = deck; // for tests
-  for (const extend of EXTENSIONS) extend(deck);
+  addAudience(deck);
+  addPresenter(deck);
+  deck.ink = addInk(deck); // the handout waits for it
 }

@@ -1,6 +1,8 @@
 // The presenter's window: notes, the slide that comes, time; its keys are the deck's. It asks for all it
 // shows, so that it does not matter which of the two windows was there first, or was reloaded.
 
+import { element, giveBackFocus } from "../element.js";
+import { channelOf } from "./channel.js";
 import { nameOf } from "./guard.js";
 import { clockFace, planAt } from "./plan.js";
 import { Screen } from "./screen.js";
@@ -15,7 +17,7 @@ const KERNEL = {
 };
 
 const path = decodeURIComponent(location.hash.slice(1));
-const channel = new BroadcastChannel(`slamlab-lecture:${path}`);
+const channel = channelOf(path);
 const at = (id) => document.getElementById(id);
 const present = new Screen(at("present"), "The slide now"), next = new Screen(at("next"), "What comes next");
 const kept = JSON.parse(sessionStorage.getItem(path) ?? "{}"); // {began, slide}: outlives a reload
@@ -96,9 +98,8 @@ function showPictures(told) {
 }
 
 function question({ slide, html, text }) {
-  const where = document.createElement("p"), asked = document.createElement("div");
-  where.className = "where";
-  where.textContent = slide === state.slide ? "on this slide" : `on slide ${slide + 1}`;
+  const where = element("p", "where", slide === state.slide ? "on this slide" : `on slide ${slide + 1}`);
+  const asked = element("div");
   if (html) asked.innerHTML = html;
   else asked.textContent = text;
   return [where, asked];
@@ -139,8 +140,7 @@ document.querySelectorAll("[data-key]").forEach((button) => {
 });
 at("slides").addEventListener("change", () => tell({ slide: Number(at("slides").value) }));
 at("again").addEventListener("click", () => { keep({ began: Date.now() }); tick(); });
-// pressed by a mouse, a button would keep the space bar
-document.addEventListener("click", (event) => { if (event.detail) event.target.closest("button")?.blur(); });
+giveBackFocus(document);
 setInterval(tick, 1000);
 setInterval(ask, ASKING);
 ask();

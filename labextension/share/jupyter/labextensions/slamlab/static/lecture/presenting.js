@@ -1,17 +1,15 @@
-// The deck's end of the presenter's window: says what is shown, does what it is told. Both ends speak
-// through a channel named by the notebook, so that each may be reloaded without the other.
+// The deck's end of the presenter's window: says what is shown, does what it is told.
 
-import { element } from "./overview.js";
+import { element } from "../element.js";
+import { questionIn } from "../questions.js";
+import { channelOf } from "./channel.js";
 import { slidesOfSection } from "./plan.js";
-import { copied, pictureOf, stylesOf, stylesSignature } from "./picture.js";
+import { copied, notesOf, pictureOf, stylesOf, stylesSignature } from "./picture.js";
 
 const PAGE = new URL("presenter.html", import.meta.url).href;
 const SIZE = "popup,width=1200,height=760";
 const PAUSES = [100, 700]; // ms that pictures wait: for the next key; for what is drawn and laid out meanwhile
-const QUESTION = /\bask\(/;
 const OWN = new Set(["p", "f"]); // keys that mean another thing there
-
-export const channelOf = (path) => `slamlab-lecture:${path}`;
 
 export function addPresenter(deck) { return new Presenting(deck); }
 
@@ -20,7 +18,7 @@ class Presenting {
     this.deck = deck;
     this.id = crypto.randomUUID(); // two decks of one notebook must not be mixed up
     this.path = deck.panel.context.path;
-    this.channel = new BroadcastChannel(channelOf(this.path));
+    this.channel = channelOf(this.path);
     this.channel.onmessage = ({ data }) => this.#heard(data);
     deck.key("p", "presenter's window", () => this.open());
     deck.button("presenter", "The presenter's window: notes, next slide, time (p)", () => this.open());
@@ -38,13 +36,12 @@ class Presenting {
   // A key may open no window where a click on a link may.
   #offer(address) {
     this.deck.layer.querySelector(".slamlab-offer")?.remove();
-    const offer = element("p", "The browser let no window open. ", "slamlab-offer");
+    const link = element("a", "", "Open the presenter's window");
+    const offer = element("p", "slamlab-offer", "The browser let no window open. ", link);
     offer.dataset.slamlabCloses = "";
     offer.setAttribute("role", "alert");
-    const link = element("a", "Open the presenter's window");
     Object.assign(link, { href: address, target: "slamlab-presenter" });
     link.addEventListener("click", () => offer.remove());
-    offer.append(link);
     this.deck.layer.append(offer);
     link.focus();
   }
@@ -80,7 +77,7 @@ class Presenting {
       this.#tell();
     }
     if (key) this.deck.keys.get(key)?.action();
-    if (slide >= 0) this.deck.go(this.deck.stops.findIndex((stop) => stop.slide === slide));
+    if (slide >= 0) this.deck.goToSlide(slide);
     if (key) this.#tell(); // some keys change no stop
   }
 
@@ -115,10 +112,10 @@ class Presenting {
       this.heard.styled = styles;
     }
     const drawn = {
-      present: pictureOf(deck, deck.at),
-      next: pictureOf(deck, deck.at + 1),
+      present: pictureOf(deck, deck.at)?.outerHTML ?? "",
+      next: pictureOf(deck, deck.at + 1)?.outerHTML ?? "",
       then: deck.slides[deck.stops[deck.at + 1]?.slide]?.title,
-      notes: this.#notes(),
+      notes: notesOf(deck, deck.slide).map((note) => note.innerHTML),
       questions: this.#questions(),
     };
     const text = JSON.stringify(drawn);
@@ -131,21 +128,13 @@ class Presenting {
     this.heard.knows = this.serial;
   }
 
-  #notes() {
-    const { notebook, slides, slide } = this.deck;
-    return slides[slide].notes
-      .map((index) => notebook.widgets[index].node.querySelector(".jp-RenderedMarkdown"))
-      .filter(Boolean) // not drawn yet
-      .map((note) => copied(note).innerHTML);
-  }
-
   // The questions of this slide and of what is left of its section: [{slide, html, text}].
   #questions() {
     const { notebook, slides, slide } = this.deck;
     const [, last] = slidesOfSection(slides, slide);
     return slides.slice(slide, last + 1).flatMap(({ cells }, k) => cells
       .map((index) => notebook.widgets[index])
-      .filter(({ model }) => model.type === "code" && QUESTION.test(model.sharedModel.getSource()))
+      .filter(({ model }) => model.type === "code" && questionIn(model.sharedModel.getSource()))
       .map((cell) => ({ slide: slide + k, ...asked(cell) })));
   }
 

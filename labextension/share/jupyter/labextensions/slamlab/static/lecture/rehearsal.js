@@ -1,10 +1,7 @@
 // What `slamlab rehearse` asks: the lesson run, and stepped through stop by stop.
 
 import { fits } from "./fit.js";
-
-const FRAMES = 2; // after a stop: what changes its size is laid out anew in the next frame
-
-const drawn = () => new Promise((resolve) => { requestAnimationFrame(resolve); });
+import { settled } from "./frames.js";
 
 const within = (ms, promise) => Promise.race([promise, new Promise((resolve) => { setTimeout(resolve, ms, "late"); })]);
 
@@ -46,7 +43,7 @@ export async function walk(panel) {
   deck.go(0);
   for (let before = -1; deck.at !== before; deck.next()) {
     before = deck.at;
-    for (let frame = 0; frame < FRAMES; frame++) await drawn();
+    await settled();
     const { title, minutes, cells } = deck.slides[deck.slide];
     seen.push({
       slide: deck.slide + 1,

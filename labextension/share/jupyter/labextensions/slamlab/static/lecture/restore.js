@@ -1,14 +1,14 @@
 // What a lecture changes in a lesson is kept apart from its file until the lecturer says what to keep.
 
-import { element } from "./overview.js";
+import { button, element } from "../element.js";
 
 const plain = (model) => JSON.stringify(model.toJSON());
 
 // Keep a notebook's file as it is from now on; the result ends that with a question, if need be.
 export function keepFile(panel, Widget) {
   const { context } = panel;
-  const before = plain(context.model), wasDirty = context.model.dirty;
   if (context.slamlabKept) return context.slamlabKept; // an earlier lecture waits for its answer
+  const before = plain(context.model), wasDirty = context.model.dirty;
   let asking;
   context.save = async () => { asking?.node.querySelector("button").focus(); };
   const release = () => {
@@ -22,7 +22,6 @@ export function keepFile(panel, Widget) {
     release();
   };
   context.slamlabKept = {
-    restore,
     end() {
       if (plain(context.model) === before) {
         context.model.dirty = wasDirty;
@@ -37,12 +36,8 @@ export function keepFile(panel, Widget) {
 }
 
 function question(Widget, restore, keep) {
-  const node = element("div", "The lecture changed this lesson. ", "slamlab-changed");
+  const answers = [button("Restore it", restore), button("Keep the changes", keep)];
+  const node = element("div", "slamlab-changed", "The lecture changed this lesson. ", ...answers);
   node.setAttribute("role", "alert");
-  for (const [label, action] of [["Restore it", restore], ["Keep the changes", keep]]) {
-    const button = element("button", label);
-    button.addEventListener("click", action);
-    node.append(button);
-  }
   return new Widget({ node });
 }

@@ -1,16 +1,18 @@
 // A slide in the presenter's window: laid out as on the large screen and made smaller as a whole.
 
+import { element } from "../element.js";
+
 // Scripts of a slide run in the deck alone; here its looks are enough.
 const EMPTY = '<!doctype html><html lang="en"><head><title>slide</title></head><body></body></html>';
 
 export class Screen {
   constructor(place, name) {
     Object.assign(this, { place, size: [960, 540] });
-    this.frame = document.createElement("iframe");
+    this.frame = element("iframe");
     this.frame.sandbox = "allow-same-origin";
     this.frame.title = name;
     this.frame.inert = true;
-    this.words = document.createElement("p");
+    this.words = element("p");
     this.ready = new Promise((done) => { this.frame.addEventListener("load", done, { once: true }); });
     this.frame.srcdoc = EMPTY;
     place.append(this.frame, this.words);

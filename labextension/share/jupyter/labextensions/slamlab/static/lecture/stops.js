@@ -1,12 +1,15 @@
 // Slides and stops of a notebook. A slide begins at a cell of type slide or subslide; a stop is what
-// one key press reveals: the slide's first cells, a fragment, a folded answer, a step of an output.
+// one key press reveals: the slide's first cells, a fragment, what follows a question, a folded answer, a
+// step of an output.
+
+import { questionIn } from "../questions.js";
 
 const STEP = ".slamlab-step";
 
 const typeOf = (cell) => cell.model.getMetadata("slideshow")?.slide_type ?? "-";
 
 // notes are for the speaker, skipped cells only for the kernel
-const isShown = (cell) => !["notes", "skip"].includes(typeOf(cell));
+export const isShown = (cell) => !["notes", "skip"].includes(typeOf(cell));
 
 // HTML of a cell's outputs, whether they are drawn or not.
 export function htmlOf(cell) {
@@ -45,9 +48,11 @@ export function slidesOf(notebook) {
 // first `step` of what waits in it. Pages begin at the cells named in `breaks`.
 export function stopsOf(notebook, slide, number, breaks = []) {
   const stops = [];
-  slide.cells.forEach((index, k) => {
+  let asked = true; // a slide's first cell begins a stop, too
+  slide.cells.forEach((index) => {
     const cell = notebook.widgets[index];
-    const begins = k === 0 || typeOf(cell) === "fragment" || breaks.includes(index);
+    const begins = asked || typeOf(cell) === "fragment" || breaks.includes(index);
+    asked = cell.model.type === "code" && Boolean(questionIn(cell.model.sharedModel.getSource()));
     const folded = Number(isFolded(cell));
     const waiting = folded + stepsOf(cell);
     if (!begins && stops.at(-1).step === 0) stops.pop(); // it comes together with the one before
