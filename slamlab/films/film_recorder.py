@@ -1,0 +1,82 @@
+"""Recorder of films: takes scenes, one a frame, and writes them to a file as they come."""
+
+import gzip
+import os
+from contextlib import suppress
+from pathlib import Path
+
+from slamlab.files.errors import SourceError
+from slamlab.films.film_file import FilmError, FrameEncoder, check_header, header_line
+
+SIZE = 720, 480  # of the picture, as of a live view [pixels]
+
+
+class FilmRecorder:
+    """Recorder of a film, a context manager; the file is there when it is left.
+
+    However it is left, what was recorded until then is a whole film. One without frames is not
+    kept. Until then the film is beside, in ``FILE.part``.
+
+    Parameters
+    ----------
+    path : str or Path, a new file, or a film, which is replaced
+    title : str
+    alt : str, what the film shows, for who cannot see it
+    size : (width, height) of the picture [pixels]
+
+    Raises
+    ------
+    FilmError : another file is there
+    SourceError : it cannot be written
+    """
+
+    def __init__(self, path, title, alt, size=SIZE):
+        self.path, self.frames = Path(path), 0
+        self._header = title, alt, size
+        self._encoder = FrameEncoder()
+        self._part = self.path.with_name(f"{self.path.name}.part")
+        if self.path.exists():
+            _require_film(self.path)
+        try:
+            self._bytes = open(self._part, "wb")  # noqa: SIM115  (closed by close)
+        except OSError as error:
+            raise SourceError(f"{self.path} cannot be written: {error.strerror}") from None
+        # no name and no time in it: the same frames are the same bytes
+        self._file = gzip.GzipFile("", "wb", compresslevel=9, fileobj=self._bytes, mtime=0)
+
+    def add(self, scene):
+        """Add a frame.
+
+        Parameters
+        ----------
+        scene : Scene; the film's robot has the first one's radius
+        """
+        if not self.frames:
+            self._file.write(header_line(*self._header, scene.radius))
+        self.frames += 1
+        self._file.write(self._encoder.encode(scene))
+
+    def close(self):
+        """End the film; may be called twice."""
+        if self._file.closed:
+            return
+        with self._bytes:
+            self._file.close()
+        if self.frames:
+            os.replace(self._part, self.path)
+        else:
+            with suppress(FileNotFoundError):
+                self._part.unlink()
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *exc):
+        self.close()
+
+
+def _require_film(path):
+    try:
+        check_header(path)
+    except FilmError:
+        raise FilmError(f"{path} is there, and no film of this version: name a new file") from None
