@@ -5,7 +5,7 @@ import html
 from pathlib import Path
 from string import Template
 
-from slamlab.films.film_file import check_header
+from slamlab.films.film_reader import check_header
 from slamlab.views.player.library import FILM, script, styles
 
 HERE = Path(__file__).parent

@@ -6,7 +6,8 @@ from contextlib import suppress
 from pathlib import Path
 
 from slamlab.files.errors import SourceError
-from slamlab.films.film_file import FilmError, FrameEncoder, check_header, header_line
+from slamlab.films.film_file import FrameEncoder, header_line
+from slamlab.films.film_reader import FilmError, check_header
 
 SIZE = 720, 480  # of the picture, as of a live view [pixels]
 

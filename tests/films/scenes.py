@@ -62,8 +62,12 @@ def damaged(made):
     packed = gzip.compress(whole)
     flipped = bytearray(packed)
     flipped[len(packed) // 2] ^= 0x55
-    newer = whole.replace(b'"version":1', b'"version":2', 1)
-    frame = whole.index(b'{"status"')
+
+    def changed(old, new):
+        assert old in whole
+        return gzip.compress(whole.replace(old, new, 1))
+
+    first = "frame 1 is damaged"
     return [
         (packed[:-20], "cut off", "cut off"),
         (packed[: len(packed) // 2], "cut off", "cut off"),
@@ -72,11 +76,13 @@ def damaged(made):
         (b"P6 no film at all", "is no film", "damaged"),
         (gzip.compress(b"# CARMEN log\n" * 50), "is no film", "is no film"),
         (gzip.compress(b"[" * 100_000), "is no film", "is no film"),
-        (gzip.compress(newer), "of version 2", "of version 2"),
+        (changed(b'"version":1', b'"version":2'), "of version 2", "of version 2"),
         (gzip.compress(whole[:-7]), "frame 30 is damaged", "damaged"),
-        (gzip.compress(whole[:frame]), "without frames", "no frames"),
-        (gzip.compress(whole.replace(b"[0,0,5]", b"[9,0,5]", 1)), "frame 1 is", "damaged"),
-        (gzip.compress(whole.replace(b"[0,0,5]", b"[0,7,5]", 1)), "frame 1 is", "damaged"),
-        (gzip.compress(whole.replace(b"[0,0,5]", b"[0,0,-5]", 1)), "frame 1 is", "damaged"),
-        (gzip.compress(whole.replace(b'"kind":"points"', b'"kind":"clouds"', 1)), "frame 1", ""),
+        (gzip.compress(whole[: whole.index(b'{"status"')]), "without frames", "no frames"),
+        (changed(b"[0,0,5]", b"[9,0,5]"), first, "damaged"),
+        (changed(b"[0,0,5]", b"[0,7,5]"), first, "damaged"),
+        (changed(b"[0,0,5]", b"[0,0,-5]"), first, "damaged"),
+        (changed(b'"kind":"points"', b'"kind":"clouds"'), first, "damaged"),
+        (changed(b"#005fa3", b"url(a)"), first, "damaged"),
+        (changed(b"[0.001,0.001]", b"[0.001,-1]"), first, "damaged"),
     ]

@@ -1,4 +1,4 @@
-"""Quantising: whatever the numbers are, they come back but for half a step, and packing is exact."""
+"""Quantising: whatever numbers are, they come back but for half a step, and packing is exact."""
 
 import numpy as np
 import pytest
@@ -55,7 +55,9 @@ def test_steps_only_grow_and_columns_drawn_together_share_one(table, later):
     then = steps(kind, np.resize(later[1], (3, len(first))), first)
     assert all(after >= before for before, after in zip(first, then, strict=True))
     for what in set(COLUMNS[kind]):
-        assert len({s for s, column in zip(then, COLUMNS[kind], strict=True) if column == what}) == 1
+        assert (
+            len({s for s, column in zip(then, COLUMNS[kind], strict=True) if column == what}) == 1
+        )
 
 
 def test_places_in_a_building_are_kept_to_the_millimetre():

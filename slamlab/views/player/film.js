@@ -4,6 +4,7 @@ const FILM_FORMAT = "slamlab film", FILM_VERSION = 1;
 const NO_NUMBER = -32768; // stands for what is not finite
 const DAMAGED = "The film is damaged or was cut off: ask for it again, or record it anew.";
 const LINE_END = 10;
+const WIDTHS = { points: 2, segments: 4, boxes: 4, poses: 3, ellipses: 5, samples: 3, curve: 2 };
 
 // what is wrong with a film, said to a reader
 class FilmError extends Error {}
@@ -62,6 +63,7 @@ function decodeFilm(data) {
   let before = new Map();
   while (at < data.length) {
     const { status, layers = [], rows } = line();
+    if (!layers.every(isLayer)) throw new FilmError(DAMAGED);
     declared.push(...layers);
     const entries = rows.map(([id, keep, follow]) => {
       const { kind, name, colour, panel, steps } = declared[id];
@@ -93,6 +95,9 @@ function decodeFilm(data) {
   if (!frames.length) throw new FilmError("The film has no frames.");
   return new Film(header, declared, frames);
 }
+
+const isLayer = ({ kind, colour, steps }) => steps.length == WIDTHS[kind]
+  && steps.every((step) => step > 0 && step < Infinity) && /^#[0-9a-f]{6}$/i.test(colour);
 
 function filmHeader(line) {
   let header;
