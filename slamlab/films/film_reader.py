@@ -6,6 +6,7 @@ import re
 import zlib
 from contextlib import closing
 from dataclasses import dataclass, replace
+from pathlib import Path
 
 import numpy as np
 
@@ -82,6 +83,8 @@ def check_header(path):
     -------
     dict, the header
     """
+    if Path(path).is_dir():
+        raise FilmError(f"{path} is a folder: name a film in it")
     try:
         with open(path, "rb") as file:
             packed = file.read(2) == GZIP

@@ -2,10 +2,11 @@
 
 import gzip
 import os
-from contextlib import suppress
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from slamlab.files.errors import SourceError
+from slamlab.files.text_files import reason
 from slamlab.films.film_file import FrameEncoder, header_line
 from slamlab.films.film_reader import FilmError, check_header
 
@@ -28,7 +29,7 @@ class FilmRecorder:
     Raises
     ------
     FilmError : another file is there
-    SourceError : it cannot be written
+    SourceError : it cannot be written, then or later
     """
 
     def __init__(self, path, title, alt, size=SIZE):
@@ -38,10 +39,8 @@ class FilmRecorder:
         self._part = self.path.with_name(f"{self.path.name}.part")
         if self.path.exists():
             _require_film(self.path)
-        try:
+        with self._writing():
             self._bytes = open(self._part, "wb")  # noqa: SIM115  (closed by close)
-        except OSError as error:
-            raise SourceError(f"{self.path} cannot be written: {error.strerror}") from None
         # no name and no time in it: the same frames are the same bytes
         self._file = gzip.GzipFile("", "wb", compresslevel=9, fileobj=self._bytes, mtime=0)
 
@@ -52,21 +51,23 @@ class FilmRecorder:
         ----------
         scene : Scene; the film's robot has the first one's radius
         """
+        frame = self._encoder.encode(scene)
         if not self.frames:
-            self._file.write(header_line(*self._header, scene.radius))
+            frame = header_line(*self._header, scene.radius) + frame
+        with self._writing():
+            self._file.write(frame)
         self.frames += 1
-        self._file.write(self._encoder.encode(scene))
 
     def close(self):
         """End the film; may be called twice."""
-        if self._file.closed:
+        if self._bytes.closed:
             return
-        with self._bytes:
-            self._file.close()
-        if self.frames:
-            os.replace(self._part, self.path)
-        else:
-            with suppress(FileNotFoundError):
+        with self._writing():
+            with self._bytes:
+                self._file.close()
+            if self.frames:
+                os.replace(self._part, self.path)
+            else:
                 self._part.unlink()
 
     def __enter__(self):
@@ -75,8 +76,22 @@ class FilmRecorder:
     def __exit__(self, *exc):
         self.close()
 
+    @contextmanager
+    def _writing(self):
+        """Say which file it is that cannot be written; half a film is no use and takes room."""
+        try:
+            yield
+        except OSError as error:
+            if hasattr(self, "_bytes"):
+                with suppress(OSError):  # it may hold bytes that find no room either
+                    self._bytes.close()
+                self._part.unlink(missing_ok=True)
+            raise SourceError(f"{self.path} cannot be written: {reason(error)}") from None
+
 
 def _require_film(path):
+    if not path.is_file():
+        raise FilmError(f"{path} is no file: name a new one")
     try:
         check_header(path)
     except FilmError:

@@ -281,3 +281,30 @@ def test_a_film_of_situation_2_plays_to_its_end(opened, tmp_path):
     assert page.root.evaluate(PLAYED)[-1] == 144
     assert page.root.locator(".slamlab-status").text_content().startswith("step 145 · t = ")
     assert json.loads(page.scrubber.get_attribute("max")) == 144
+
+
+def test_a_finger_scrolls_the_page_until_the_picture_was_tapped(opened, made):
+    page = opened(made, viewport={"width": 390, "height": 400}, has_touch=True, is_mobile=True)
+    whole, touch = page.at(29), page.context.new_cdp_session(page.page)
+
+    def swipe():
+        touch.send("Input.dispatchTouchEvent", {"type": "touchStart", "touchPoints": [at(300)]})
+        for y in range(285, 150, -15):
+            touch.send("Input.dispatchTouchEvent", {"type": "touchMove", "touchPoints": [at(y)]})
+        touch.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+
+    def at(y):
+        return {"x": 200, "y": y}
+
+    swipe()
+    page.page.wait_for_function("scrollY > 0")
+    assert page.at(29) == whole
+    page.page.evaluate("scrollTo(0, 0)")
+    page.page.touchscreen.tap(200, 200)
+    page.page.wait_for_function("document.activeElement.tagName == 'CANVAS'")
+    swipe()
+    page.page.wait_for_function(
+        "([canvas, whole]) => canvas.toDataURL() !== whole",
+        arg=[page.canvas.element_handle(), whole],
+    )
+    assert page.page.evaluate("scrollY") == 0

@@ -1,5 +1,6 @@
 """A film read again is what was recorded, but for half a step; what is damaged is refused."""
 
+import errno
 import gzip
 import json
 import tempfile
@@ -120,7 +121,7 @@ def test_what_is_no_whole_film_is_refused_and_said_why(tmp_path, which):
 def test_what_cannot_be_read_is_said(tmp_path):
     with pytest.raises(SourceError, match="no such file"):
         load(tmp_path / "nothing")
-    with pytest.raises(SourceError, match="is a folder"):
+    with pytest.raises(SourceError, match="is a folder: name a film"):
         load(tmp_path)
 
 
@@ -148,8 +149,24 @@ def test_a_film_replaces_a_film_and_nothing_else(tmp_path):
     with pytest.raises(FilmError, match="name a new file"):
         FilmRecorder(path, "", "")
     assert path.read_text() == "a diary"
+    with pytest.raises(FilmError, match="is no file"):
+        FilmRecorder(tmp_path, "", "")
     with pytest.raises(SourceError, match="cannot be written"):
         FilmRecorder(tmp_path / "nowhere" / "f", "", "")
+
+
+def test_a_full_disk_is_said_and_nothing_half_written_stays(tmp_path, monkeypatch):
+    def full(data):
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    with (
+        pytest.raises(SourceError, match="f cannot be written: no space left on device"),
+        FilmRecorder(tmp_path / "f", "", "") as film,
+    ):
+        film.add(scenes(1)[0])
+        monkeypatch.setattr(film._file, "write", full)
+        film.add(scenes(1)[0])
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_a_page_holds_the_film_and_asks_for_nothing(tmp_path):
@@ -159,7 +176,7 @@ def test_a_page_holds_the_film_and_asks_for_nothing(tmp_path):
     assert "Says &quot;so&quot;." in text
     assert "default-src 'none'" in text
     assert "http" not in text.replace("http-equiv", "")
-    assert "--jp-" not in text
+    assert "jp-" not in text, "it knows nothing of JupyterLab"
 
 
 def test_numbers_that_are_not_finite_are_shown_as_none():

@@ -7,7 +7,7 @@ import numpy as np
 import traitlets
 
 from slamlab.views.colours import COLOURS
-from slamlab.views.live.canvas import JUPYTER_THEME
+from slamlab.views.live.canvas import JUPYTER_STYLES, JUPYTER_THEME
 from slamlab.views.player.library import DRAWING, script, styles
 
 HERE = Path(__file__).parent
@@ -30,7 +30,7 @@ class Board(anywidget.AnyWidget):
     """
 
     _esm = script(DRAWING, JUPYTER_THEME, HERE / "board.js")
-    _css = styles(HERE / "board.css")
+    _css = styles(JUPYTER_STYLES, HERE / "board.css")
     alt = traitlets.Unicode().tag(sync=True)
     world = traitlets.Dict().tag(sync=True)
     scan = traitlets.Bytes().tag(sync=True)

@@ -9,7 +9,8 @@ computes a pose or a map. Read in this order:
 - ``back_pressure``: frame rate and flow control; its screens ``canvas`` (browser), ``raster``
 - ``controls``, ``drive_commands``, ``drive_control``: buttons, keyboard driving, typed commands
 - ``split_maps``, ``cell_views``: maps side by side, views by cell
-- ``canvas.js``, ``jupyter_theme.js``: the widget in the browser, on :mod:`slamlab.views.player`
+- ``canvas.js``, ``jupyter_theme.js``, ``jupyter.css``: the widget in the browser, which draws by
+  :mod:`slamlab.views.player`
 """
 
 from slamlab.views.live.live_view import live

@@ -18,6 +18,8 @@ export default () => {
       const how = Object.fromEntries(
         ["width", "height", "title", "alt"].map((name) => [name, model.get(name)]));
       const picture = feed.show(how, jupyterTheme());
+      // the notebook would take the arrow keys for itself
+      for (const part of [picture.root, picture.canvas]) part.dataset.lmSuppressShortcuts = "true";
       const forget = onJupyterTheme(() => picture.wear(jupyterTheme()));
       el.append(picture.root);
       return () => {

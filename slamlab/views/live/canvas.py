@@ -11,7 +11,8 @@ from slamlab.views.live.frame_packing import FramePacker, Scene
 from slamlab.views.player.library import LIVE, script, styles
 
 HERE = Path(__file__).parent
-JUPYTER_THEME = HERE / "jupyter_theme.js"  # for every widget that draws
+# for every widget that draws
+JUPYTER_THEME, JUPYTER_STYLES = HERE / "jupyter_theme.js", HERE / "jupyter.css"
 
 # Jupyter's server lets TCP hold a short message back until the one before is acknowledged, which a
 # browser on the same machine does 40 ms later; a message of two of loopback's packets is not held
@@ -33,7 +34,7 @@ class CanvasWidget(anywidget.AnyWidget):
     """
 
     _esm = script(LIVE, JUPYTER_THEME, HERE / "canvas.js")
-    _css = styles()
+    _css = styles(JUPYTER_STYLES)
     alt = traitlets.Unicode().tag(sync=True)
     title = traitlets.Unicode().tag(sync=True)
     width = traitlets.Int(720).tag(sync=True)

@@ -27,8 +27,6 @@ class LiveFeed {
     const { layers } = this;
     const box = () => layers.bounds(), aim = (camera) => camera.follow(box(), layers.header.run);
     const picture = new Picture(how, layers, theme, aim, box);
-    // the notebook would take the arrow keys for itself
-    picture.root.dataset.lmSuppressShortcuts = picture.canvas.dataset.lmSuppressShortcuts = "true";
     let driving = false;
     picture.onPainted = () => {
       const { number, behind } = layers.header, { dataset } = picture.root;

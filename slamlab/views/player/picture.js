@@ -75,7 +75,8 @@ class Picture {
       canvas.addEventListener(end, () => { canvas.style.cursor = ""; });
     }
     canvas.addEventListener("pointermove", (event) => {
-      if (!event.buttons) return;
+      const scrolls = event.pointerType == "touch" && !canvas.matches(":focus");
+      if (!event.buttons || scrolls) return;
       const [, , enlarged] = onCanvas(canvas, event);
       this.camera.pan(event.movementX / enlarged, event.movementY / enlarged);
       this.repaint();
