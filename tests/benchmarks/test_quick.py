@@ -37,6 +37,14 @@ SMALL = {  # what is set to run in seconds, and what the rows must compare: (nam
             ("wheels: width of the turn", "hull of samples"),
         },
     ),
+    "films": (
+        {"RUNS": {"clouds": ("polygon", "icp", 800)}},
+        {
+            ("size: clouds", "the live view's frames"),
+            ("size: clouds", "goal 800 kB"),
+            ("replay: clouds", "goal 7 ms"),
+        },
+    ),
     "icp": (
         {"BASINS": {"near": ((10,), (0.1,)), "far": ((90,), (0.5,))}},
         {
