@@ -18,6 +18,7 @@ SHARED = {"common", "icp_peers", "__main__"}
 OF_A_FOLDER = {"corrected_logs"}  # of logs, a test of its own
 ELSEWHERE = {
     "devices",
+    "films",
     "grading",
     "live",
     "raycast",
@@ -35,14 +36,6 @@ SMALL = {  # what is set to run in seconds, and what the rows must compare: (nam
             ("N = 10: slamlab", "MAK filter"),
             ("slamlab: N = 30 over N = 10", "constant"),
             ("wheels: width of the turn", "hull of samples"),
-        },
-    ),
-    "films": (
-        {"RUNS": {"clouds": ("polygon", "icp", 800)}},
-        {
-            ("size: clouds", "the live view's frames"),
-            ("size: clouds", "goal 800 kB"),
-            ("replay: clouds", "goal 7 ms"),
         },
     ),
     "icp": (
