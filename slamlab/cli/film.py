@@ -40,7 +40,7 @@ def run(arguments) -> int:
         told = f"{out} cannot be written: {error.strerror}; name another page by --out"
         print(f"slamlab film: {told}", file=sys.stderr)
         return 2
-    print(f"written to {out}: {len(film.frames)} frames, a page that plays them")
+    print(f"written to {out}: {len(film)} frames, a page that plays them")
     if not arguments.no_open and not _opened(out):
         print("no browser was found: open the page in one")
     return 0

@@ -26,16 +26,37 @@ class FilmError(SourceError):
 
 @dataclass(frozen=True)
 class Film:
-    """Film that was read from a file.
+    """Film that was read from a file; its frames are gone through one by one.
 
     Parameters
     ----------
     header : dict
-    frames : list of (status, list of Drawable)
+    layers : list of (Drawable without rows, steps of its columns)
+    records : list, a frame: status line, list of (layer's number, rows to keep, packed rows)
     """
 
     header: dict
-    frames: list
+    layers: list
+    records: list
+
+    def __len__(self):
+        """Number of frames."""
+        return len(self.records)
+
+    def __iter__(self):
+        """Yield each frame: status line, list of Drawable."""
+        before = {}
+        for status, entries in self.records:
+            now = {}
+            for number, keep, data in entries:
+                added = unpack(data, len(self.layers[number][1]))
+                now[number] = np.concatenate([before[number][:keep], added]) if keep else added
+            before = now
+            yield status, [self._shown(number, whole) for number, whole in now.items()]
+
+    def _shown(self, number, whole):
+        layer, steps = self.layers[number]
+        return replace(layer, rows=restore(whole, steps))
 
 
 def load(path):
@@ -60,16 +81,17 @@ def load(path):
         raise FilmError(f"{path} is damaged or was cut off: fetch it again, or record it anew")
     line, _, rest = content.partition(b"\n")
     header = _header(line, path)
-    frames, before, layers, at = [], {}, [], 0
+    records, counts, layers, at = [], {}, [], 0
     while at < len(rest):
         try:
-            (status, shown), before, at = _frame(rest, at, layers, before)
-        except (ValueError, TypeError, KeyError, IndexError, RecursionError):
-            raise FilmError(f"{path}: frame {len(frames) + 1} is damaged: record it anew") from None
-        frames.append((status, shown))
-    if not frames:
+            record, counts, at = _record(rest, at, layers, counts)
+        except (ValueError, TypeError, KeyError, AttributeError, IndexError, RecursionError):
+            where = f"frame {len(records) + 1}"
+            raise FilmError(f"{path}: {where} is damaged: record it anew") from None
+        records.append(record)
+    if not records:
         raise FilmError(f"{path} is a film without frames: record it anew")
-    return Film(header, frames)
+    return Film(header, layers, records)
 
 
 def check_header(path):
@@ -112,26 +134,32 @@ def _header(line, path):
         ) from None
     if version != VERSION:
         raise FilmError(f"{path} is of version {version}, this slamlab reads {VERSION}: update it")
+    try:
+        texts = all(isinstance(header[name], str) for name in ("title", "alt"))
+        wide, high = header["size"]
+        sound = texts and wide > 0 and high > 0 and header["radius"] >= 0
+    except (ValueError, TypeError, KeyError):
+        sound = False
+    if not sound:
+        raise FilmError(f"{path}: its header is damaged: record it anew")
     return header
 
 
-def _frame(data, at, layers, before):
-    """Frame at a place of the file, the rows of its layers by number, and the next one's place."""
+def _record(data, at, layers, before):
+    """Frame at a place of the file, how many rows each of its layers has, and the next place."""
     end = data.index(b"\n", at)
     line, at = json.loads(data[at:end]), end + 1
     layers += [_layer(told) for told in line.get("layers", [])]
-    shown, now = [], {}
+    entries, counts = [], {}
     for number, keep, follow in line["rows"]:
-        layer, scale = layers[number]
-        old = before.get(number, layer.rows)
-        size = 2 * follow * len(scale)
-        if not 0 <= keep <= len(old) or follow < 0 or number < 0 or at + size > len(data):
+        size = 2 * follow * len(layers[number][1])
+        fits = 0 <= keep <= before.get(number, 0) and follow >= 0 and at + size <= len(data)
+        if not fits or number < 0 or number in counts:
             raise ValueError
-        new = restore(unpack(data[at : at + size], len(scale)), scale)
-        now[number] = np.concatenate([old[:keep], new])
-        shown.append(replace(layer, rows=now[number]))
+        entries.append((number, keep, data[at : at + size]))
+        counts[number] = keep + follow
         at += size
-    return (str(line["status"]), shown), now, at
+    return (str(line["status"]), entries), counts, at
 
 
 def _layer(told):

@@ -108,8 +108,8 @@ def test_what_the_browser_decodes_is_what_python_reads(opened, made):
     page = opened(made)
     decoded = page.page.evaluate(DECODED)
     film = films.load(made.with_name("run.film"))
-    assert len(decoded) == len(film.frames) == 30
-    for found, (_, shown) in zip(decoded, film.frames, strict=True):
+    assert len(decoded) == len(film) == 30
+    for found, (_, shown) in zip(decoded, film, strict=True):
         assert [each[:2] for each in found] == [[layer.kind, layer.name] for layer in shown]
         for (_, _, numbers), layer in zip(found, shown, strict=True):
             rows = np.array(numbers, dtype=float).reshape(layer.rows.shape)

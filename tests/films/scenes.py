@@ -77,6 +77,8 @@ def damaged(made):
         (gzip.compress(b"# CARMEN log\n" * 50), "is no film", "is no film"),
         (gzip.compress(b"[" * 100_000), "is no film", "is no film"),
         (changed(b'"version":1', b'"version":2'), "of version 2", "of version 2"),
+        (changed(b'"size":[720,480]', b'"size":[720]'), "header is damaged", "damaged"),
+        (changed(b'"title":"A run"', b'"title":17'), "header is damaged", "damaged"),
         (gzip.compress(whole[:-7]), "frame 30 is damaged", "damaged"),
         (gzip.compress(whole[: whole.index(b'{"status"')]), "without frames", "no frames"),
         (changed(b"[0,0,5]", b"[9,0,5]"), first, "damaged"),

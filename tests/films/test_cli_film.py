@@ -25,10 +25,10 @@ def test_a_run_is_filmed_a_frame_a_reading_with_truth_and_naive_track_beside(tmp
     assert f"slamlab film {path} plays it" in capsys.readouterr().out
     film = load(path)
     assert film.header["title"] == "walls on sim:situation-1"
-    assert len(film.frames) == 288
-    tracks = {layer.name: layer for layer in film.frames[99][1] if layer.kind == "poses"}
+    assert len(film) == 288
+    tracks = {layer.name: layer for layer in list(film)[99][1] if layer.kind == "poses"}
     assert [len(tracks[name].rows) for name in ("truth", "naive", "corrected")] == [100] * 3
-    assert film.frames[99][0].startswith("step 100 of 288 · t = ")
+    assert list(film)[99][0].startswith("step 100 of 288 · t = ")
     assert np.allclose(tracks["truth"].rows, tracks["corrected"].rows, atol=0.1)
     assert path.stat().st_size <= 100_000
 
@@ -37,14 +37,14 @@ def test_a_film_of_clouds_of_points_is_small_as_well(tmp_path):
     path = tmp_path / "run.film"
     assert main(["run", "sim:situation-1", "--estimator", "icp", "--film", str(path)]) == 0
     assert path.stat().st_size <= 800_000
-    naive = [layer.kind for layer in load(path).frames[-1][1] if layer.name == "naive"]
+    naive = [layer.kind for layer in list(load(path))[-1][1] if layer.name == "naive"]
     assert sorted(naive) == ["points", "poses"], "the estimator has a naive map of its own"
 
 
 def test_an_estimator_that_is_odometry_has_no_track_beside(tmp_path):
     path = tmp_path / "run.film"
     assert main(["run", "sim:polygon", "--estimator", "odometry", "--film", str(path)]) == 0
-    names = [(layer.kind, layer.name) for layer in load(path).frames[-1][1]]
+    names = [(layer.kind, layer.name) for layer in list(load(path))[-1][1]]
     assert len(names) == len(set(names))
 
 

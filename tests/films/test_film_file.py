@@ -38,8 +38,8 @@ def assert_same(scene, shown, step=0.001):
 def test_every_kind_of_layer_comes_back(tmp_path):
     made = scenes()
     film = load(record(tmp_path / "run.film", made))
-    assert len(film.frames) == len(made)
-    for scene, (status, shown) in zip(made, film.frames, strict=True):
+    assert len(film) == len(made)
+    for scene, (status, shown) in zip(made, film, strict=True):
         assert status == scene.status
         assert_same(scene, shown)
     assert film.header["title"] == "A run"
@@ -55,7 +55,7 @@ def test_however_a_table_comes_in_pieces_each_frame_has_its_rows(cuts, size, see
     encoder = FrameEncoder()
     frames = [encoder.encode(Scene([Points("map", rows[:cut])])) for cut in cuts]
     film = read(header_line("", "", (1, 1), 0.1) + b"".join(frames))
-    for frame, (_, (layer,)) in enumerate(film.frames):
+    for frame, (_, (layer,)) in enumerate(film):
         allowed = np.array(steps("points", rows[: max(cuts[: frame + 1])])) / 2
         assert layer.rows.shape == (cuts[frame], 2)
         assert np.all(np.abs(layer.rows - rows[: cuts[frame]]) <= allowed * (1 + 1e-9))
@@ -82,17 +82,18 @@ def test_of_what_stays_nothing_is_written_and_a_name_once():
 def test_a_layer_that_outgrows_its_steps_is_named_again_and_comes_whole():
     near, far = np.array([[1.0, 2]]), np.array([[1.0, 2], [300, -4]])
     film = read(content([Scene([Points("map", rows)]) for rows in (near, far, far)]))
-    assert_same(Scene([Points("map", near)]), film.frames[0][1])
-    assert film.frames[1][1][0].rows == pytest.approx(far, abs=0.005)
-    assert film.frames[2][1][0].rows == pytest.approx(far, abs=0.005)
+    first, *others = (shown for _, shown in film)
+    assert_same(Scene([Points("map", near)]), first)
+    for (layer,) in others:
+        assert layer.rows == pytest.approx(far, abs=0.005)
 
 
 def test_a_layer_that_was_gone_comes_back_whole():
     rows = np.array([[1.0, 2], [3, 4]])
     made = [Scene([Points("map", rows)]), Scene([]), Scene([Points("map", rows)])]
     film = read(content(made))
-    assert [len(shown) for _, shown in film.frames] == [1, 0, 1]
-    assert_same(made[2], film.frames[2][1])
+    assert [len(shown) for _, shown in film] == [1, 0, 1]
+    assert_same(made[2], list(film)[2][1])
 
 
 def test_the_same_frames_are_the_same_bytes(tmp_path):
@@ -132,7 +133,7 @@ def test_a_film_is_whole_however_its_recording_ends(tmp_path):
             film.add(scene)
         assert not film.path.exists()
         raise KeyboardInterrupt
-    assert len(load(tmp_path / "f").frames) == 3
+    assert len(load(tmp_path / "f")) == 3
     assert [path.name for path in tmp_path.iterdir()] == ["f"]
 
 
@@ -144,7 +145,7 @@ def test_a_film_without_frames_is_not_kept(tmp_path):
 
 def test_a_film_replaces_a_film_and_nothing_else(tmp_path):
     path = record(tmp_path / "f", scenes(2))
-    assert len(load(record(path, scenes(4))).frames) == 4
+    assert len(load(record(path, scenes(4)))) == 4
     path.write_text("a diary")
     with pytest.raises(FilmError, match="name a new file"):
         FilmRecorder(path, "", "")
@@ -181,5 +182,5 @@ def test_a_page_holds_the_film_and_asks_for_nothing(tmp_path):
 
 def test_numbers_that_are_not_finite_are_shown_as_none():
     film = read(content([Scene([Poses("truth", [[0, np.inf, 0], [1, np.nan, 0], [1, 2, 3]])])]))
-    ((_, (layer,)),) = film.frames
+    ((_, (layer,)),) = film
     assert np.isnan(layer.rows).tolist() == [[False, True, False]] * 2 + [[False] * 3]

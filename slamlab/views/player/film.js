@@ -111,6 +111,10 @@ function filmHeader(line) {
     throw new FilmError(`The film is of version ${header.version}, this player plays version `
       + `${FILM_VERSION}: make the page anew with the slamlab that wrote the film.`);
   }
+  const { title, alt, size, radius } = header;
+  const texts = [title, alt].every((text) => typeof text == "string");
+  const sound = texts && size?.length == 2 && [...size, radius + 1].every((number) => number > 0);
+  if (!sound) throw new FilmError(DAMAGED);
   return header;
 }
 

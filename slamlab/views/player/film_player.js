@@ -103,10 +103,13 @@ async function showFilm(place, bytes, theme, how) {
     player.playWhenSeen();
     return player;
   } catch (error) {
-    if (!(error instanceof FilmError)) throw error;
-    const said = element("p", {}, { textContent: error.message });
+    const foreseen = error instanceof FilmError;
+    const said = element("p", {}, {
+      textContent: foreseen ? error.message : `The film cannot be played here: ${error.message}`,
+    });
     said.setAttribute("role", "alert");
     place.replaceChildren(said);
+    if (!foreseen) throw error;
     return null;
   }
 }
