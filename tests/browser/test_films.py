@@ -242,7 +242,7 @@ def test_the_wheel_scrolls_the_page_until_the_picture_was_clicked(opened, made):
     whole = page.at(29)
     page.canvas.hover()
     page.page.mouse.wheel(0, 100)
-    page.page.wait_for_function("scrollY > 0")
+    page.page.wait_for_function("() => scrollY > 0")
     assert page.at(29) == whole
     page.canvas.click()
     page.page.mouse.wheel(0, -100)
@@ -297,11 +297,11 @@ def test_a_finger_scrolls_the_page_until_the_picture_was_tapped(opened, made):
         return {"x": 200, "y": y}
 
     swipe()
-    page.page.wait_for_function("scrollY > 0")
+    page.page.wait_for_function("() => scrollY > 0")
     assert page.at(29) == whole
     page.page.evaluate("scrollTo(0, 0)")
     page.page.touchscreen.tap(200, 200)
-    page.page.wait_for_function("document.activeElement.tagName == 'CANVAS'")
+    page.page.wait_for_function("() => document.activeElement.tagName == 'CANVAS'")
     swipe()
     page.page.wait_for_function(
         "([canvas, whole]) => canvas.toDataURL() !== whole",
