@@ -21,6 +21,7 @@ gridmap          occupancy grids
 estimators       every SLAM of the course: ``estimators.make``, ``estimators.run``
 evaluation       NEES, trajectory errors, relations
 views            every drawing and widget: figures, sliders, the live view, the world editor
+films            recordings of a live view's frames, and the page that plays one
 
 The course's own machinery:
 

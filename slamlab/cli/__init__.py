@@ -2,7 +2,7 @@
 
 Read in this order:
 
-- ``run``, ``convert``: estimators over sources, sources into reading logs
+- ``run``, ``convert``: estimators over sources, sources into reading logs; ``film``: films of runs
 - ``emulate``, ``record``, ``replay``: devices
 - ``progress``, ``reset`` (and update): a student's own folder
 - ``check``, ``grade``, ``gradebook_verbs`` (merge, adjust, export): exercises
@@ -18,8 +18,8 @@ from importlib import import_module
 
 from slamlab import __version__
 
-COMMANDS = ("run", "convert", "emulate", "record", "replay", "check", "grade", "gradebook_verbs",
-            "progress", "reset", "rehearse", "print_handout")  # fmt: skip
+COMMANDS = ("run", "film", "convert", "emulate", "record", "replay", "check", "grade",
+            "gradebook_verbs", "progress", "reset", "rehearse", "print_handout")  # fmt: skip
 SUBCOMMANDS = {"grade": ("merge", "adjust", "export")}
 """Subcommands, written as two words; a folder of such a name is given as ./merge."""
 

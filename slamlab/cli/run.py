@@ -3,6 +3,7 @@
 import csv
 import json
 import sys
+from contextlib import nullcontext
 from dataclasses import replace
 from pathlib import Path
 
@@ -37,6 +38,12 @@ def add_parser(subparsers):
         metavar="FILE",
         type=Path,
         help="where to write the trajectory as TUM text, which evo reads",
+    )
+    parser.add_argument(
+        "--film",
+        metavar="FILE",
+        type=Path,
+        help="where to record a film of the run, which slamlab film plays",
     )
     parser.add_argument(
         "--relations",
@@ -77,7 +84,8 @@ def run(arguments) -> int:
             if arguments.tum is not None:
                 arguments.tum.touch()
             naive = _naive_beside(estimator)
-            result = _with_progress(source, estimator, naive)
+            with _film(arguments, opened) as film:
+                result = _with_progress(source, estimator, naive, film)
         if not result.frames:
             raise sources.SourceError(f"{source.name} gave no reading")
         summary = summarise(result, arguments.estimator, relations, _options(arguments))
@@ -105,6 +113,8 @@ def run(arguments) -> int:
         print(f"written to {arguments.out}: trajectory.csv, map.png, summary.json")
     if arguments.tum is not None:
         print(f"written to {arguments.tum}: the trajectory as TUM text")
+    if arguments.film is not None:
+        print(f"written to {arguments.film}: the film; slamlab film {arguments.film} plays it")
     return source.code
 
 
@@ -238,12 +248,28 @@ def _naive_beside(estimator):
     return None if has_one else DeadReckoning()
 
 
-def _with_progress(source, estimator, naive=None):
+def _film(arguments, source):
+    """The recorder of --film; a context of nothing where none is wanted."""
+    if arguments.film is None:
+        return nullcontext()
+    from slamlab.films import FilmRecorder
+
+    title = f"{arguments.estimator} on {source.name.rpartition('/')[2]}"
+    return FilmRecorder(
+        arguments.film, title, f"Film of a map as it grows, x across, y up: {title}."
+    )
+
+
+def _with_progress(source, estimator, naive=None, film=None):
     from rich.console import Console
     from rich.progress import Progress
 
     from slamlab.estimators.runner import run as feed
 
+    if film is not None:
+        from slamlab.views.live.run_scene import run_scene  # late: it takes a plotting library
+
+    beside = {"naive": naive} if naive not in (None, estimator) else {}
     # in a notebook, too, a command's progress goes where its errors go
     console = Console(stderr=True, force_jupyter=False)
     with Progress(console=console, transient=True) as progress:
@@ -252,6 +278,9 @@ def _with_progress(source, estimator, naive=None):
         def on_step(reading, estimator):
             if naive not in (None, estimator):
                 naive.step(reading)
+            if film is not None:
+                count = film.frames + 1
+                film.add(run_scene(source, estimator, beside, count, reading.time))
             progress.advance(bar)
 
         return feed(source, estimator, on_step)

@@ -11,6 +11,7 @@ Read in this order:
 - ``comparison``, ``box_drawing``, ``heatmap``, ``interval_plot``, ``loglog_plot``, ``matrix_plot``,
   ``linked_map``, ``scan_overlay``, ``resampling_wheel``, ``frame_sketches``: one plot each
 - ``sliders``, ``play_button``, ``widget_errors``: interactive figures
+- ``player``: the drawing in a browser, in JavaScript; of what runs and of films
 - ``live``: any source and estimator, live, driven by hand; ``editor``: a world edited by hand
 """
 

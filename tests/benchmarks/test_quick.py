@@ -18,6 +18,7 @@ SHARED = {"common", "icp_peers", "__main__"}
 OF_A_FOLDER = {"corrected_logs"}  # of logs, a test of its own
 ELSEWHERE = {
     "devices",
+    "films",
     "grading",
     "live",
     "raycast",

@@ -58,7 +58,7 @@ def test_a_robot_is_chosen_run_and_driven_and_a_recording_is_played(views, visit
 def test_wheel_and_drag_move_the_picture_and_fit_shows_all_again(views, visit):
     view = views[1]
     whole = view.picture()
-    view.canvas.hover()
+    view.canvas.click()
     visit.page.mouse.wheel(0, -300)
     view.until(lambda picture: picture != whole)
     near = view.picture()
@@ -68,6 +68,41 @@ def test_wheel_and_drag_move_the_picture_and_fit_shows_all_again(views, visit):
     view.until(lambda picture: picture not in (whole, near))
     view.press("fit")
     view.until(lambda picture: picture == whole)
+
+
+def test_the_wheel_over_a_picture_that_nobody_clicked_scrolls_the_notebook(views, visit):
+    view = views[1]
+    view.canvas.scroll_into_view_if_needed()
+    whole, place = view.picture(), view.canvas.bounding_box()["y"]
+    view.canvas.hover()
+    visit.page.mouse.wheel(0, -120)
+    visit.page.wait_for_function(
+        "([canvas, y]) => canvas.getBoundingClientRect().y > y",
+        arg=[view.canvas.element_handle(), place],
+    )
+    assert view.picture() == whole
+    visit.page.keyboard.down("Control")
+    visit.page.mouse.wheel(0, -120)
+    visit.page.keyboard.up("Control")
+    view.until(lambda picture: picture != whole)
+
+
+def test_the_picture_takes_jupyterlabs_dark_colours_and_gives_them_back(views, visit):
+    view = views[1]
+    light = view.picture()
+    for theme, ground in (("Dark", [17, 17, 17]), ("Light", [255, 255, 255])):
+        visit.page.evaluate(
+            "theme => jupyterapp.commands.execute('apputils:change-theme', { theme })",
+            f"JupyterLab {theme}",
+        )
+        visit.page.wait_for_function(
+            """([canvas, ground]) => {
+                const { data } = canvas.getContext("2d").getImageData(1, 1, 1, 1);
+                return ground.every((value, at) => data[at] == value);
+            }""",
+            arg=[view.canvas.element_handle(), ground],
+        )
+    view.until(lambda picture: picture == light)
 
 
 def test_without_javascript_of_ours_a_picture_is_shown_and_steps_on(views, visit):

@@ -2,9 +2,8 @@
 
 import pytest
 
-from course.source import ROOT
+from slamlab.views.player.library import DRAWING, script
 
-LIVE = ROOT / "slamlab" / "views" / "live"
 TEXTS = """(rows) => {
     const said = [], camera = new Camera(700, 400);
     const g = new Proxy({}, {
@@ -12,7 +11,7 @@ TEXTS = """(rows) => {
         set: () => true,
     });
     const curves = [{ rows: new Float32Array(rows.map((x) => x ?? NaN)), colour: "#000000" }];
-    panel(g, camera, "error [m]", curves, 0);
+    panel(g, camera, "error [m]", curves, 0, LIGHT);
     return said;
 }"""
 
@@ -24,8 +23,7 @@ TEXTS = """(rows) => {
 )
 def test_before_there_is_a_range_the_axis_says_a_second(browser, rows, times):
     page = browser.new_page()
-    for name in ("plane.js", "drawing.js", "panels.js"):
-        page.add_script_tag(content=(LIVE / name).read_text("utf-8"))
+    page.add_script_tag(content=script(DRAWING))
     said = page.evaluate(TEXTS, rows)
     page.close()
     assert times <= set(said)

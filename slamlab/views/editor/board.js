@@ -65,7 +65,7 @@ function render({ model, el }) {
   const width = model.get("width"), height = model.get("height");
   const canvas = element("canvas", {});
   const sheet = element("div", {}, { className: "slamlab-board" });
-  const status = element("div", { ...TEXT, padding: "4px 0", minHeight: "2.6em" });
+  const status = element("div", {});
   const root = element("div", { width: `${width}px`, maxWidth: "100%" });
   canvas.setAttribute("role", "img");
   canvas.setAttribute("aria-label", model.get("alt"));
@@ -78,16 +78,17 @@ function render({ model, el }) {
   el.append(root);
 
   const camera = new Camera(width, height);
-  let world = model.get("world"), handles = [], dragged = null, due = false;
+  let world = model.get("world"), handles = [], dragged = null, due = false, theme;
 
   const paint = () => {
     due = false;
     camera.width = canvas.clientWidth || width;
     camera.height = Math.round(camera.width * height / width);
     const layers = layersOf(model, world);
-    // a picture that moves while something is dragged would run away with it
-    if (!dragged) camera.follow(layers.bounds(), 0);
-    draw(canvas, camera, layers);
+    draw(canvas, camera, layers, theme, () => {
+      // a picture that moves while something is dragged would run away with it
+      if (!dragged) camera.follow(layers.bounds(), 0);
+    });
     for (const { button, ends } of handles) {
       const [x, y] = place(world, ends), name = named(ends);
       Object.assign(button.style, { left: `${camera.px(x)}px`, top: `${camera.py(y)}px` });
@@ -98,6 +99,12 @@ function render({ model, el }) {
   const repaint = () => {
     if (!due) requestAnimationFrame(paint);
     due = true;
+  };
+
+  const wear = () => {
+    theme = jupyterTheme();
+    status.style.color = theme.ink;
+    repaint();
   };
 
   const showPosition = ({ ends }) => {
@@ -190,8 +197,11 @@ function render({ model, el }) {
   model.on("change:scan", repaint);
   const resized = new ResizeObserver(repaint);
   resized.observe(canvas);
+  const forget = onJupyterTheme(wear);
+  wear();
   arrange();
   return () => {
+    forget();
     model.off("change:world", worldChanged);
     model.off("change:scan", repaint);
     resized.disconnect();

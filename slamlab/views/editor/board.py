@@ -7,7 +7,8 @@ import numpy as np
 import traitlets
 
 from slamlab.views.colours import COLOURS
-from slamlab.views.live.scripts import script, styles
+from slamlab.views.live.canvas import JUPYTER_STYLES, JUPYTER_THEME
+from slamlab.views.player.library import DRAWING, script, styles
 
 HERE = Path(__file__).parent
 
@@ -28,8 +29,8 @@ class Board(anywidget.AnyWidget):
     width, height : int [CSS pixels]; narrower where the notebook is
     """
 
-    _esm = script(HERE / "board.js")
-    _css = styles(HERE / "board.css")
+    _esm = script(DRAWING, JUPYTER_THEME, HERE / "board.js")
+    _css = styles(JUPYTER_STYLES, HERE / "board.css")
     alt = traitlets.Unicode().tag(sync=True)
     world = traitlets.Dict().tag(sync=True)
     scan = traitlets.Bytes().tag(sync=True)

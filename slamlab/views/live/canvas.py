@@ -8,7 +8,11 @@ import traitlets
 
 from slamlab.views.live.back_pressure import Screen
 from slamlab.views.live.frame_packing import FramePacker, Scene
-from slamlab.views.live.scripts import script, styles
+from slamlab.views.player.library import LIVE, script, styles
+
+HERE = Path(__file__).parent
+# for every widget that draws
+JUPYTER_THEME, JUPYTER_STYLES = HERE / "jupyter_theme.js", HERE / "jupyter.css"
 
 # Jupyter's server lets TCP hold a short message back until the one before is acknowledged, which a
 # browser on the same machine does 40 ms later; a message of two of loopback's packets is not held
@@ -16,7 +20,9 @@ MIN_MESSAGE = 2 * 65536  # [bytes]
 
 
 class CanvasWidget(anywidget.AnyWidget):
-    """Widget with a canvas in equal scale, the browser's side; mouse wheel zooms, dragging pans.
+    """Widget with a canvas in equal scale, the browser's side; dragging pans, Ctrl and wheel zoom.
+
+    The wheel alone scrolls the page, until the canvas was clicked.
 
     Parameters
     ----------
@@ -27,8 +33,8 @@ class CanvasWidget(anywidget.AnyWidget):
         comes with the widget itself, so that it is there while the kernel does other things
     """
 
-    _esm = script(Path(__file__).with_name("canvas.js"))
-    _css = styles()
+    _esm = script(LIVE, JUPYTER_THEME, HERE / "canvas.js")
+    _css = styles(JUPYTER_STYLES)
     alt = traitlets.Unicode().tag(sync=True)
     title = traitlets.Unicode().tag(sync=True)
     width = traitlets.Int(720).tag(sync=True)

@@ -125,6 +125,24 @@ def _ellipses(centres, covariances):
     return _table(np.column_stack([centres, half, angle]), 5)
 
 
+def keyed(drawables):
+    """List of (key, drawable): by its key a layer is found again in the next frame."""
+    found = {}
+    for drawable in drawables:
+        key = f"{drawable.kind} {drawable.panel} {drawable.name}"
+        while key in found:
+            key += "'"
+        found[key] = drawable
+    return list(found.items())
+
+
+def rows_in_common(old, new):
+    """Number of rows at the beginning in which two tables are equal (longest common prefix)."""
+    shorter = min(len(old), len(new))
+    differs = (old[:shorter] != new[:shorter]).any(axis=1)
+    return int(differs.argmax()) if differs.any() else shorter
+
+
 class FramePacker:
     """Incremental (delta) encoder of frames for one screen: rows it already has are not sent again.
 
@@ -152,11 +170,8 @@ class FramePacker:
             following rows of all layers, float32 little-endian, in the same order
         """
         sent, entries, pieces = {}, [], []
-        for drawable in drawables:
-            key = f"{drawable.kind} {drawable.panel} {drawable.name}"
-            while key in sent:
-                key += "'"
-            keep = self._rows_to_keep(key, drawable.rows)
+        for key, drawable in keyed(drawables):
+            keep = rows_in_common(self._sent_rows.get(key, drawable.rows[:0]), drawable.rows)
             pieces.append(drawable.rows[keep:].astype("<f4", order="C").tobytes())
             entries.append(
                 {
@@ -173,9 +188,3 @@ class FramePacker:
             sent[key] = drawable.rows
         self._sent_rows = sent
         return entries, b"".join(pieces)
-
-    def _rows_to_keep(self, key, new):
-        old = self._sent_rows.get(key)
-        if old is None or len(old) > len(new) or not np.array_equal(old, new[: len(old)]):
-            return 0
-        return len(old)

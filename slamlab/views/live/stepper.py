@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from slamlab.layers import Poses
 from slamlab.views.live.frame_packing import Scene
 from slamlab.views.live.reading_thread import background_reader
+from slamlab.views.live.run_scene import run_layers, step_line
 
 
 class Stepper:
@@ -171,11 +171,10 @@ class Stepper:
         )
 
     def _layers(self):
-        layers = [] if self._extra is None else list(self._extra(self))
-        if self._truth and self.source.truth is not None:
-            layers.append(Poses("truth", self.source.truth.poses[: self.count]))
-        layers += [Poses(name, each.trajectory().poses) for name, each in self.others.items()]
-        return layers + self.estimator.layers()
+        beneath = [] if self._extra is None else list(self._extra(self))
+        return beneath + run_layers(
+            self.source, self.estimator, self.others, self.count, self._truth
+        )
 
     def status(self):
         """Status line: step, time, the estimator's status, the note.
@@ -187,11 +186,9 @@ class Stepper:
         late = f"no reading for {self.waited:.0f} s" if self.waited >= 1 else ""
         if not self.count:
             return late or "no reading yet"
-        whole = len(self.source)
-        step = f"step {self.count}" + (f" of {whole}" if whole > self.count else "")
         note = self._note(self) if self._note is not None else ""
-        parts = [step, f"t = {self.time:.1f} s", self.estimator.status, note, late]
-        return " · ".join(part for part in parts if part)
+        more = self.estimator.status, note, late
+        return step_line(self.count, len(self.source), self.time, *more)
 
 
 def _make(maker, material):

@@ -3,16 +3,16 @@
 const PANEL = 92; // height of a panel of curves [px]
 
 // title to curves, in order
-function panels(layers) {
+function panels(list) {
   const found = new Map();
-  for (const layer of layers.list.filter(({ kind }) => kind == "curve")) {
+  for (const layer of list.filter(({ kind }) => kind == "curve")) {
     found.set(layer.panel, [...(found.get(layer.panel) ?? []), layer]);
   }
   return found;
 }
 
 // curves over time, the panel's upper edge at top
-function panel(g, camera, title, curves, top) {
+function panel(g, camera, title, curves, top, theme) {
   const [w] = camera.inner(), h = PANEL - 26, left = MARGIN.left;
   const box = [Infinity, -Infinity, 0, -Infinity];
   for (const { rows } of curves) {
@@ -23,10 +23,10 @@ function panel(g, camera, title, curves, top) {
   const [t0, t1, low, high] = box[0] < box[1] ? box : [begin, begin + 1, 0, 1];
   const px = (t) => left + (t - t0) / (t1 - t0) * w;
   const py = (v) => top + h - (v - low) / ((high - low) || 1) * h;
-  g.strokeStyle = AXIS;
+  g.strokeStyle = theme.axis;
   g.lineWidth = 1;
   g.strokeRect(left + 0.5, top + 0.5, w - 1, h - 1);
-  g.fillStyle = INK;
+  g.fillStyle = theme.ink;
   g.textBaseline = "middle";
   g.textAlign = "right";
   g.fillText(String(+high.toPrecision(2)), left - 5, top + 6);

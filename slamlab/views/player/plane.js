@@ -8,15 +8,13 @@ class Layers {
     this.header = null;
   }
 
-  // decode a frame: keep old rows, add those that follow
-  receive(header, view) {
-    const end = view.byteOffset + view.byteLength; // a copy, for a start at a multiple of four
-    const brought = new Float32Array(view.buffer.slice(view.byteOffset, end));
+  // take in a frame: keep old rows, add those that follow, which the numbers are
+  receive(header, brought) {
     const before = new Map(this.list.map((layer) => [layer.key, layer]));
     let at = 0;
     this.list = header.layers.map((entry) => {
       const had = before.get(entry.key);
-      const store = had ?? { data: new Float32Array(0) };
+      const store = had ?? { data: entry.room ?? new Float32Array(0) };
       const start = entry.keep * entry.width, end = start + entry.follow * entry.width;
       if (store.data.length < end) {
         // room to grow: most layers get a few rows each frame
@@ -32,23 +30,33 @@ class Layers {
   }
 
   bounds() {
-    const box = [Infinity, -Infinity, Infinity, -Infinity];
-    for (const layer of this.list) {
-      const { rows, width, kind } = layer;
-      if (kind == "curve") continue;
-      for (let i = 0; i < rows.length; i += width) {
-        if (kind == "segments") {
-          widen(box, rows[i], rows[i + 1]);
-          widen(box, rows[i + 2], rows[i + 3]);
-        } else if (kind == "boxes") {
-          widen(box, rows[i], rows[i + 2]);
-          widen(box, rows[i + 1], rows[i + 3]);
-        } else {
-          widen(box, rows[i], rows[i + 1]);
-        }
-      }
+    const box = nowhere();
+    for (const { kind, width, rows } of this.list) surround(box, kind, width, rows);
+    return somewhere(box);
+  }
+}
+
+// numbers of a message: a copy, for a start at a multiple of four
+function floats(view) {
+  return new Float32Array(view.buffer.slice(view.byteOffset, view.byteOffset + view.byteLength));
+}
+
+const nowhere = () => [Infinity, -Infinity, Infinity, -Infinity];
+const somewhere = (box) => (box[0] <= box[1] ? box : [-1, 1, -1, 1]);
+
+// widen a box by a layer's rows
+function surround(box, kind, width, rows) {
+  if (kind == "curve") return;
+  for (let i = 0; i < rows.length; i += width) {
+    if (kind == "segments") {
+      widen(box, rows[i], rows[i + 1]);
+      widen(box, rows[i + 2], rows[i + 3]);
+    } else if (kind == "boxes") {
+      widen(box, rows[i], rows[i + 2]);
+      widen(box, rows[i + 1], rows[i + 3]);
+    } else {
+      widen(box, rows[i], rows[i + 1]);
     }
-    return box[0] <= box[1] ? box : [-1, 1, -1, 1];
   }
 }
 

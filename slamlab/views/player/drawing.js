@@ -1,9 +1,8 @@
 // Drawing (rendering) of layers on a canvas: grid, point cloud, track, covariance ellipses, legend.
 
-const PAPER = "#ffffff", INK = "#333333", GRID = "#e4e4e4", AXIS = "#9a9a9a";
 const FONT = "12px system-ui, sans-serif", LINE = 18; // [px]
 
-function grid(g, camera) {
+function grid(g, camera, theme) {
   const [w, h] = camera.inner();
   const raw = 50 / camera.scale, power = 10 ** Math.floor(Math.log10(raw));
   const step = [1, 2, 5, 10].map((n) => n * power).find((s) => s >= raw);
@@ -11,7 +10,7 @@ function grid(g, camera) {
   g.font = FONT;
   g.lineWidth = 1;
   const line = (at, horizontal) => {
-    g.strokeStyle = Math.abs(at) < step / 2 ? AXIS : GRID;
+    g.strokeStyle = Math.abs(at) < step / 2 ? theme.axis : theme.grid;
     g.beginPath();
     if (horizontal) {
       const y = Math.round(camera.py(at)) + 0.5;
@@ -29,7 +28,7 @@ function grid(g, camera) {
     for (let n = Math.ceil(low / step); n * step <= high; n++) found.push(n * step);
     return found;
   };
-  g.fillStyle = INK;
+  g.fillStyle = theme.ink;
   g.textBaseline = "top";
   g.textAlign = "center";
   for (const x of ticks(camera.wx(MARGIN.left), camera.wx(MARGIN.left + w))) {
@@ -158,7 +157,7 @@ function legend(g, camera, list) {
   return [...entries.values()];
 }
 
-function mark(g, { name, colour, kinds, x, y }) {
+function mark(g, { name, colour, kinds, x, y }, theme) {
   g.strokeStyle = g.fillStyle = colour;
   g.lineWidth = 2;
   g.beginPath();
@@ -173,28 +172,30 @@ function mark(g, { name, colour, kinds, x, y }) {
   if (kinds.has("boxes")) g.rect(x + 5, y - 5, 20, 10);
   g.stroke();
   if (kinds.has("points") || kinds.has("samples")) disc(g, x + 15, y, 3.5);
-  g.fillStyle = INK;
+  g.fillStyle = theme.ink;
   g.textAlign = "left";
   g.textBaseline = "middle";
   g.fillText(name, x + 34, y);
 }
 
-function draw(canvas, camera, layers) {
-  const ratio = window.devicePixelRatio || 1, below = panels(layers);
-  const full = camera.height + PANEL * below.size;
+// aim(camera) points the camera, once it is known how much room the legend leaves
+function draw(canvas, camera, layers, theme, aim) {
+  const ratio = window.devicePixelRatio || 1, shown = withColours(layers.list, theme);
+  const below = panels(shown), full = camera.height + PANEL * below.size;
   const wide = Math.round(camera.width * ratio), high = Math.round(full * ratio);
   if (canvas.width != wide || canvas.height != high) {
     Object.assign(canvas, { width: wide, height: high });
   }
   const g = canvas.getContext("2d");
   g.setTransform(ratio, 0, 0, ratio, 0, 0);
-  g.fillStyle = PAPER;
+  g.fillStyle = theme.paper;
   g.fillRect(0, 0, camera.width, full);
-  const entries = legend(g, camera, layers.list);
-  grid(g, camera);
+  const entries = legend(g, camera, withColours(layers.named ?? layers.list, theme));
+  aim(camera);
+  grid(g, camera, theme);
   const [w, h] = camera.inner();
   const many = ({ kind, rows }) => kind == "points" && rows.length > 2 * FEW_POINTS;
-  const clouds = layers.list.filter(many);
+  const clouds = shown.filter(many);
   g.save();
   g.beginPath();
   g.rect(MARGIN.left, camera.top, w, h);
@@ -208,18 +209,21 @@ function draw(canvas, camera, layers) {
     sheet.getContext("2d").putImageData(image, 0, 0);
     g.drawImage(sheet, 0, 0, camera.width, full);
   };
-  for (const layer of layers.list) {
+  for (const layer of shown) {
     if (!many(layer)) DRAW[layer.kind]?.(g, camera, layer, layers.header.radius);
     else if (!painted) paint(); // all clouds at once, where the first one stands
   }
   g.restore();
-  g.strokeStyle = AXIS;
+  g.strokeStyle = theme.axis;
   g.lineWidth = 1;
   g.strokeRect(MARGIN.left + 0.5, camera.top + 0.5, w - 1, h - 1);
-  for (const entry of entries) mark(g, entry);
+  for (const entry of entries) mark(g, entry, theme);
   let top = camera.height + 4;
   for (const [title, curves] of below) {
-    panel(g, camera, title, curves, top);
+    panel(g, camera, title, curves, top, theme);
     top += PANEL;
   }
 }
+
+const withColours = (list, { paper }) =>
+  list.map((layer) => ({ ...layer, colour: legible(layer.colour, paper) }));

@@ -1,0 +1,98 @@
+"""``slamlab run --film`` and ``slamlab film`` as a user meets them."""
+
+import webbrowser
+
+import numpy as np
+import pytest
+
+from slamlab.cli import main
+from slamlab.films import load
+from tests.films.scenes import record, scenes
+
+
+@pytest.fixture(autouse=True)
+def opened(monkeypatch):
+    """The pages that the browser was asked to open."""
+    pages = []
+    monkeypatch.setattr(webbrowser, "open", lambda address: pages.append(address) or True)
+    return pages
+
+
+def test_a_run_is_filmed_a_frame_a_reading_with_truth_and_naive_track_beside(tmp_path, capsys):
+    path = tmp_path / "run.film"
+    words = ["run", "sim:situation-1", "--estimator", "walls", "--film", str(path)]
+    assert main(words) == 0
+    assert f"slamlab film {path} plays it" in capsys.readouterr().out
+    film = load(path)
+    assert film.header["title"] == "walls on sim:situation-1"
+    assert len(film) == 288
+    tracks = {layer.name: layer for layer in list(film)[99][1] if layer.kind == "poses"}
+    assert [len(tracks[name].rows) for name in ("truth", "naive", "corrected")] == [100] * 3
+    assert list(film)[99][0].startswith("step 100 of 288 · t = ")
+    assert np.allclose(tracks["truth"].rows, tracks["corrected"].rows, atol=0.1)
+    assert path.stat().st_size <= 100_000
+
+
+def test_a_film_of_clouds_of_points_is_small_as_well(tmp_path):
+    path = tmp_path / "run.film"
+    assert main(["run", "sim:situation-1", "--estimator", "icp", "--film", str(path)]) == 0
+    assert path.stat().st_size <= 800_000
+    naive = [layer.kind for layer in list(load(path))[-1][1] if layer.name == "naive"]
+    assert sorted(naive) == ["points", "poses"], "the estimator has a naive map of its own"
+
+
+def test_an_estimator_that_is_odometry_has_no_track_beside(tmp_path):
+    path = tmp_path / "run.film"
+    assert main(["run", "sim:polygon", "--estimator", "odometry", "--film", str(path)]) == 0
+    names = [(layer.kind, layer.name) for layer in list(load(path))[-1][1]]
+    assert len(names) == len(set(names))
+
+
+def test_a_page_is_written_beside_the_film_and_opened(tmp_path, opened, capsys):
+    film = record(tmp_path / "run.film", scenes(3))
+    assert main(["film", str(film)]) == 0
+    page = tmp_path / "run.film.html"
+    assert page.read_text("utf-8").startswith("<!doctype html>")
+    assert opened == [page.as_uri()]
+    assert "3 frames" in capsys.readouterr().out
+    # made anew it replaces itself
+    assert main(["film", str(film), "--no-open"]) == 0
+    assert len(opened) == 1
+
+
+def test_out_says_where_the_page_goes_and_no_other_file_is_overwritten(tmp_path, opened, capsys):
+    film, other = record(tmp_path / "run.film", scenes(3)), tmp_path / "thesis.html"
+    assert main(["film", str(film), "--out", str(tmp_path / "page.html")]) == 0
+    assert opened == [(tmp_path / "page.html").as_uri()]
+    other.write_text("<html>my thesis")
+    assert main(["film", str(film), "--out", str(other)]) == 2
+    assert other.read_text() == "<html>my thesis"
+    assert "no film's page" in capsys.readouterr().err
+    assert main(["film", str(film), "--out", str(tmp_path / "nowhere" / "x")]) == 2
+    assert "cannot be written" in capsys.readouterr().err
+
+
+def test_where_there_is_no_browser_the_page_is_there_all_the_same(tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(webbrowser, "open", lambda address: False)
+    assert main(["film", str(record(tmp_path / "run.film", scenes(3)))]) == 0
+    assert "no browser was found" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("content", [b"", b"a text", b"\x1f\x8b\x08 cut off"])
+def test_what_is_no_film_is_refused_in_one_line(tmp_path, content, capsys, opened):
+    path = tmp_path / "some"
+    path.write_bytes(content)
+    assert main(["film", str(path)]) == 2
+    said = capsys.readouterr().err
+    assert said.startswith("slamlab film: ") and said.count("\n") == 1
+    assert "is no film" in said
+    assert opened == [] and not (tmp_path / "some.html").exists()
+
+
+def test_a_film_that_cannot_be_written_is_said_before_the_run(tmp_path, capsys):
+    diary = tmp_path / "diary"
+    diary.write_text("dear")
+    for path, says in ((diary, "name a new file"), (tmp_path / "no" / "f", "cannot be written")):
+        assert main(["run", "sim:polygon", "--film", str(path)]) == 2
+        assert says in capsys.readouterr().err
+    assert diary.read_text() == "dear"
