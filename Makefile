@@ -13,7 +13,7 @@ FAULTS = $(ENV)/figure_faults.txt
 # one worker a core of a small machine; the cells of a notebook must stay on one worker
 PYTEST = $(RUN) pytest -n 2 --dist loadfile
 
-.PHONY: lab test test-all soak env clients lint format notebooks student lecturer bench lock clean
+.PHONY: lab test test-all soak env clients lint format notebooks site student lecturer bench lock clean
 
 lab:  ## Set up and open the course; LAB_ARGS="--no-browser --port 9999" go to JupyterLab
 	@$(PYTHON) lab.py $(LAB_ARGS)
@@ -49,6 +49,9 @@ format: env
 
 notebooks: env  ## Derive notebooks/, exercises/ and solutions/ from course/
 	$(RUN) course.build
+
+site: env  ## Build the course's site into site/; needs Node.js for the formulas
+	$(RUN) course.site
 
 student: env  ## Pack what students get into slam-course.zip: no solutions
 	$(RUN) course.pack

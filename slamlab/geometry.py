@@ -31,6 +31,8 @@ def wrap(angle):
 def compose(a, b):
     """Pose composition a ⊕ b: pose b, given in the frame of pose a, in a's own reference frame.
 
+    Equation (01.1).
+
     Parameters
     ----------
     a, b : (..., 3) [m, m, rad]
@@ -83,7 +85,9 @@ def between(a, b):
 
 
 def transform(pose, points):
-    """Transform points (a point cloud) from the pose's frame to its reference: p = R(theta) q + t.
+    """Transform points (a point cloud) from the pose's frame to its reference frame.
+
+    p = (x, y) + Rot(theta) p_r. Equation (01.3).
 
     Parameters
     ----------

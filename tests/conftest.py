@@ -1,6 +1,14 @@
 """Hypothesis without deadlines and without chance: a test's verdict hangs on the code alone."""
 
+import signal
+
 from hypothesis import settings
 
 settings.register_profile("slamlab", deadline=None, derandomize=True, max_examples=60)
 settings.load_profile("slamlab")
+
+# what is started in the background, or by nohup, ignores these; so would programs under test
+for name in ("SIGINT", "SIGHUP"):
+    number = getattr(signal, name, None)
+    if number and signal.getsignal(number) is signal.SIG_IGN:
+        signal.signal(number, signal.SIG_DFL if name == "SIGHUP" else signal.default_int_handler)

@@ -11,7 +11,14 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from course.source import ROOT
-from slamlab.derivation import blockwise, derive, differentiate, partials, symmetric
+from slamlab.derivation import (
+    blockwise,
+    derive,
+    differentiate,
+    expectation,
+    partials,
+    symmetric,
+)
 from slamlab.derivation.changes import change, parts
 from slamlab.derivation.marked_latex import COLOUR, marked_latex
 from slamlab.models import symbolic
@@ -354,3 +361,27 @@ def test_what_is_shown_is_the_same_in_every_process():
     }
     assert len(told) == 1
     assert told == {f"{shown()._repr_mimebundle_()}\n"}
+
+
+# expected values
+
+
+def test_an_expected_value_pairs_errors_and_drops_unrelated_ones():
+    n, m = sp.symbols("n m", integer=True, positive=True)
+    error, noise = sp.MatrixSymbol("e", n, 1), sp.MatrixSymbol("w", m, 1)
+    P, R = symmetric("P", n), symmetric("R", m)
+    H, K = sp.MatrixSymbol("H", m, n), sp.MatrixSymbol("K", n, m)
+    E = expectation({error * error.T: P, noise * noise.T: R})
+    seen = H * error + noise
+    assert E(seen * seen.T) == H * P * H.T + R
+    assert E(error * seen.T) == P * H.T
+    after = sp.expand(error - K * seen)
+    joseph = (sp.Identity(n) - K * H) * P * (sp.Identity(n) - K * H).T + K * R * K.T
+    assert sp.expand(E(after * after.T) - joseph).doit().is_ZeroMatrix
+    assert E(error * noise.T).is_ZeroMatrix
+
+
+def test_an_expected_value_of_one_error_alone_is_refused():
+    error, P = sp.MatrixSymbol("e", 2, 1), sp.MatrixSymbol("P", 2, 2)
+    with pytest.raises(ValueError, match="two random columns"):
+        expectation({error * error.T: P})(P * error)

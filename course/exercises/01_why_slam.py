@@ -2,20 +2,20 @@
 # # Exercise 01 · Why SLAM
 #
 # **You will be able to** chain the steps that wheels report to a track, say how one pose looks from
-# another, and foretell how far a robot goes astray that only counts its steps. You will then derive
-# this for a drive of any shape, and mend the track of a robot that came home now and then.
+# another, and predict how far a robot goes astray that only counts its steps. Then you will do this
+# for a drive of any shape, and mend the track of a robot that came home now and then.
 #
 # **60 minutes. Before:** lesson [01 · Why SLAM](../notebooks/01_why_slam.ipynb).
 #
-# Replace each `raise NotImplementedError(...)` by your code, run the cell, then run the check below
-# it, as often as you like. A check tries random inputs and inputs at the edges, says which law is
-# broken, shows the smallest case that breaks it, and names the mistake where it knows it. Cells
-# marked `@attempt` draw. They say "not attempted yet" until your functions are there, for every
+# Replace each `raise NotImplementedError(...)` by your code, run the cell, and then run the check
+# below it, as often as you like. A check tries random inputs and inputs at the edges. It says which
+# law is broken, shows the smallest case that breaks it, and names the mistake if it knows it. Cells
+# marked `@attempt` draw. They say "not attempted yet" until your functions are there, because every
 # picture below is made by **your** functions.
 #
-# Lengths are in metres and angles in radians. A pose is `[x, y, θ]`, an array of three numbers whose
-# heading θ is counter-clockwise from +x and lies between −π and π. No function may change its
-# arguments: whoever called it still needs them.
+# Lengths are in metres and angles in radians. A pose is `[x, y, θ]`, an array of three numbers. Its
+# heading $\theta$ is counter-clockwise from +x and lies between $-\pi$ and $\pi$. No function may
+# change its arguments: whoever called it still needs them.
 
 # %%
 from itertools import pairwise
@@ -30,15 +30,16 @@ from slamlab.simulation import RPLIDAR_A2
 # %% [markdown]
 # ## 1 · One step
 #
-# After each step the odometry reports what the robot did **as seen from where it was before**:
+# After each step the odometry reports what the robot did, **as seen from where it was before**:
 # `[forward, left, turn]`, in metres, metres and radians. A robot at `[2, 1, π/2]` looks along +y, so
 # after a step `[0.5, 0, 0]` it stands at `[2, 1.5, π/2]`.
 #
-# Return the new pose. Two things to think of: the step was measured in the frame of the *old* pose,
-# and the new heading has to lie between −π and π again.
+# Return the new pose: this is $\mathrm{pose} \oplus \mathrm{step}$ of (01.1), written out. Mind two
+# things. The step was measured in the frame of the *old* pose, and the new heading has to lie between
+# $-\pi$ and $\pi$ again.
 #
 # A step may be of any length, forward or back, to the left or to the right, and it may be no step at
-# all. Its turn lies between −π and π.
+# all. Its turn lies between $-\pi$ and $\pi$.
 
 
 # %% name="next-pose"
@@ -71,7 +72,7 @@ check("01-next-pose")
 # Dead reckoning chains such steps: each begins where the one before ended. Here it is, ready to use,
 # with your `next_pose` inside. `tour` gives the steps of one lap round a corridor, half a metre each,
 # with a quarter turn at each of the four corners. With `corner_error` the odometry reports every
-# quarter turn a little too large, as a robot with a worn tyre does.
+# quarter turn a little too large, as that of a robot with a worn tyre does.
 
 
 # %% name="tour"
@@ -96,8 +97,8 @@ START = np.zeros(3)
 WALLS = Segments("walls", worlds.corridor().outline())
 
 # %% [markdown]
-# **Predict first.** With 3° too much at each corner, how far from its start will the robot believe to
-# be after the lap of 42 m? Write a number down.
+# **Predict first.** The odometry reports 3° too much at each corner. After the lap of 42 m, how far
+# from its start does the robot believe to be? Write a number down.
 
 
 # %% name="lap"
@@ -112,13 +113,13 @@ def _():
 
 
 # %% [markdown]
-# The true lap closes. The odometry's lap runs through the walls: after four corners it is 12° off,
-# and it does not come back to where it began.
+# The true lap closes. The lap of the odometry runs through the walls: after four corners its heading
+# is wrong by 12°, and it does not come back to where it began.
 #
 # The scans are taken where the robot *is*, but the map is drawn where the robot *believes* to be.
-# `place` puts a scan's points into the world, as the lesson did. **Before you run it:** what will the
-# outer wall look like at the start, where the lap ends? Then move the slider: which error is small
-# enough for you to call the map good?
+# `place` puts the points of a scan into the world, as the lesson did by (01.3). **Before you run
+# it:** what will the outer wall look like at the start, where the lap ends? Then move the slider. How
+# small must the error be for you to call the map good?
 
 
 # %% name="map"
@@ -151,19 +152,19 @@ def _():
 
 
 # %% [markdown]
-# Same scans, same robot. On the left they agree; on the right every wall that was seen twice stands
-# twice, and the corridor does not close. Nothing is wrong with the lidar: **a map is as good as the
-# poses it is drawn from**.
+# The scans and the robot are the same. On the left they agree. On the right, every wall that was seen
+# twice stands twice, and the corridor does not close. Nothing is wrong with the lidar: **a map is only
+# as good as the poses it is drawn from**.
 
 # %% [markdown]
 # ## 2 · The gap
 #
-# How well does the lap close? Ask from the start: where, seen from there, is the end? Return pose b
-# as seen from pose a: how far ahead of a, how far to the left of a, and how much a would have to turn
-# to look where b looks. It is the way back of `next_pose`.
+# How well does the lap close? Ask from its start: where is the end, seen from there? Return pose $b$
+# as seen from pose $a$: how far ahead of $a$ it lies, how far to the left of $a$, and how much $a$
+# would have to turn to look where $b$ looks. This undoes `next_pose`.
 #
 # The two poses may be anywhere, also in one place, and they may look anywhere. The turn has to lie
-# between −π and π.
+# between $-\pi$ and $\pi$.
 
 
 # %% name="seen-from"
@@ -198,19 +199,20 @@ def _():
 
 
 # %% [markdown]
-# Three degrees, which no eye sees, open a gap of 1.4 m, and the gap grows with the error. Was your
-# number near?
+# Three degrees are hardly visible, and they open a gap of 1.4 m. The gap grows with the error. Was
+# your number near?
 
 # %% [markdown]
 # ## 3 · How errors grow
 #
-# A constant error is bad luck; chance alone is bad enough. The robot drives **straight**: `n` steps
-# of `d` metres, and **after** each step its heading is off by a little more, each time by an
-# independent random angle with mean 0 and standard deviation `sigma`. How far sideways of the line
-# will it be at the end? Return the standard deviation in metres, for small angles (sin e ≈ e).
+# Let all errors now be due to chance. The robot drives **straight**: $n$ steps of $d$ metres, and
+# **after** each step its heading errs a little more, each time by an independent random angle with
+# mean 0 and standard deviation $\sigma$, `sigma` in the code. How far sideways of the line will it be
+# at the end? Return the standard deviation in metres, for small angles ($\sin e \approx e$).
 #
-# Number the errors: the first one bends n − 1 steps, the second n − 2, …, the last none. How far
-# sideways does one error lead, and how do the variances of independent errors add?
+# Which of the steps does the first error bend, which the second, and which the last? How far sideways
+# does one error lead, and how do the variances of independent errors add? The answer has to be exact
+# for few steps as well: $n^3/3$ is not good enough.
 #
 # There may be no step at all or a thousand of them, and `d` or `sigma` may be 0.
 
@@ -234,7 +236,7 @@ def drift(n, d, sigma):
 check("01-drift")
 
 # %% [markdown]
-# Does it happen? Let 300 robots drive 60 steps of half a metre, each with its own errors of 1° a
+# Does this happen? Let 300 robots drive 60 steps of half a metre, each with its own errors of 1° a
 # step, and lay your formula over them.
 
 
@@ -259,8 +261,9 @@ def _():
 
 
 # %% [markdown]
-# Nearly all tracks stay between your two curves: about 285 of 300 end there. The fan opens faster
-# than the way grows: twice the way, nearly three times the drift.
+# Most tracks stay between your two curves: 289 of the 300 robots end there, where 95 % would be 285.
+# The fan opens faster than the way grows: after twice the way the drift is nearly three times as
+# large.
 
 # %% [markdown]
 # ## 4 · Any drive
@@ -273,21 +276,21 @@ def _():
 # - after each step, also after the last one, all that follows is turned by an independent random
 #   angle with mean 0 and standard deviation `heading_error`, in radians.
 #
-# `poses` is the track as it was meant, the start first. By how much will the end err in x, and by how
-# much in y? Return both standard deviations, for small errors: sin e ≈ e, cos e ≈ 1, and products of
-# two errors count nothing.
+# `poses` is the track as it was meant, with the start first. How far off will the end be in $x$, and
+# how far in $y$? Return both standard deviations, for small errors: $\sin e \approx e$,
+# $\cos e \approx 1$, and products of two errors count nothing.
 #
 # For the straight drive you asked what *one* error does to the end, and then added up the variances.
-# Do the same here. An error of heading at pose k turns the whole rest of the track about that pose, as
-# if it were cut from one piece of cardboard: which way does the end go, and how far? A robot may also
-# move sideways, so look at where its poses lie and not at where it looks.
+# Do the same here. An error of heading at pose $k$ turns the whole rest of the track about that pose,
+# as if it were cut from cardboard. Which way does the end go, and how far? A robot may also move
+# sideways, so look at where its poses lie and not at where it looks.
 #
-# **Predict first.** In a lap that ends where it began, an error of heading is made once, at one of the
-# poses. Where along the lap does it do the greatest harm to the end: at its beginning, in the middle,
-# or shortly before the end? And where does it do none?
+# **Predict first.** Take a lap that ends where it began, and let a single error of heading be made at
+# one of its poses. Where along the lap does it do most harm to the end: at the beginning, in the
+# middle, or shortly before the end? And where does it do none?
 #
-# A track has one pose or more. Poses may lie in one place, for a robot may turn on the spot, and the
-# errors may be 0.
+# A track has one pose or more. Poses may lie in one place, because a robot may turn on the spot, and
+# the errors may be 0.
 
 
 # %% name="miss"
@@ -314,8 +317,8 @@ def miss(poses, length_error, heading_error):
 check("01-miss")
 
 # %% [markdown]
-# Let 400 robots drive the lap, with 2 % and 1° a step, and lay a frame over where they end: twice your
-# standard deviations to all four sides of the start.
+# Let 400 robots drive the lap, with 2 % and 1° a step, and lay a frame over where they end. It reaches
+# twice your standard deviations to all four sides of the start.
 
 
 # %% name="ends"
@@ -337,11 +340,12 @@ def _():
 
 
 # %% [markdown]
-# Some thirty of the 400 robots leave the frame: not quite one in twenty at its sides, and as many at
-# its top and its bottom. The cloud lies aslant, which two numbers cannot say; a covariance can, from lesson 03 on.
+# Of the 400 robots 18 leave the frame at its left or right side, and 11 at its top or bottom. Two
+# standard deviations should lose 18 each time, give or take four, so your formula fits. The cloud
+# lies aslant, which two numbers cannot say. A covariance can, from lesson 03 on.
 #
-# And where did you expect the greatest harm? Here is what a single error of 1° does to the
-# end, made at each pose of the lap.
+# And where did you expect the greatest harm? Here is what a single error of 1° does to the end, made
+# at each pose of the lap.
 
 
 # %% name="harm"
@@ -359,44 +363,45 @@ def _():
 
 
 # %% [markdown]
-# What counts is the straight line from the error to the end, not the way that was driven between
+# What counts is the straight line from the error to the end, and not the way that was driven between
 # them. An error at the far side of the building is the worst. One that is made at the start turns the
-# whole lap, and the end of a lap about its own beginning stays where it is: **a lap that closes proves
-# little about its headings at the start, and much about those half way round**.
+# whole lap about its beginning, and the end of the lap lies just there, so it stays where it is: **a
+# lap that closes proves little about its headings at the start, and much about those half way
+# round**.
 
 # %% [markdown]
 # ## 5 · Make it better: home again
 #
-# No better wheel changes any of this, it only delays it. Something must notice that the robot **has
+# Better wheels change none of this, they only delay it. Something must notice that the robot **has
 # been here before**. The simplest such thing is a dock: it holds the robot in one place, and it
-# clicks. So whenever the robot is docked, its pose is known exactly: it is the pose at the start.
+# clicks. Whenever the robot is docked, its pose is known exactly: it is the pose at the start.
 #
 # A robot drives laps of a house, to the left or to the right, and each lap ends in the dock. After the
 # last one it may drive on. Its wheels err in three ways:
 #
-# - a worn tyre makes it report **every turn too large by one factor, or too small**, by 1 % to 18 %.
-#   The factor is the same for the whole drive, but each robot has its own, and nobody knows it;
+# - a worn tyre makes it report **every turn too large, or every turn too small, by one factor** of 1 %
+#   to 18 %. The factor is the same for the whole drive, but each robot has its own, and nobody knows
+#   it;
 # - besides, each turn errs at random, with a standard deviation of 0.01 rad (0.6°);
 # - the length of each step errs at random, with a standard deviation of 1.5 %.
 #
-# Return the best track of the whole drive that you can. Any method goes. A few questions that may lead
-# on:
+# Return the best track of the whole drive that you can. Any method goes. These questions may lead on:
 #
 # - Where is the robot whenever it is docked? Is it enough to begin anew from there?
-# - The lap that the wheels tell does not close. By how much does it miss its start in place, and by
+# - The lap that the wheels report does not close. By how much does it miss its start in place, and by
 #   how much in heading? Which of the steps in between are to blame, and how would you share out both?
-# - In a lap, by how much does a robot turn altogether? And by how much did this one say it did?
-# - What have the laps of one drive in common, and what does this say about the way after the last lap,
-#   which no dock corrects?
+# - By how much does a robot turn altogether in a lap? And by how much did this one say it did?
+# - What do the laps of one drive have in common, and what does this say about the way after the last
+#   lap, which no dock corrects?
 #
-# Only places are scored: how far all poses of all tracks are off (rms). Sixteen robots drive one
-# route. The first step of the ladder asks for less than 2.2 m, the second for less than 0.7 m and the
-# third for less than 0.19 m. Dead reckoning is off by about 4 m.
+# Only places are scored: how far all poses of all tracks are off (the root of the mean square, rms).
+# Sixteen robots drive one route. The first step of the ladder asks for less than 2.2 m, the second for
+# less than 0.7 m and the third for less than 0.19 m. Dead reckoning is off by about 4 m.
 #
-# There is one lap at least. Each lap is a round trip to the left or to the right on steps of about half
-# a metre, and all its turns together, the one in the dock included, are one full turn. A house has four
-# corners, no corner need be right and no wall quite straight. The robot does not slip sideways. Drives
-# may have any number of laps, and perhaps nothing follows the last one.
+# There is at least one lap. Each lap is a round trip to the left or to the right in steps of about half
+# a metre, and all its turns together, including the one in the dock, are one full turn. A house has
+# four corners, but no corner need be right and no wall quite straight. The robot does not slip
+# sideways. There may be any number of laps, and perhaps nothing follows the last one.
 
 
 # %% name="home"
@@ -476,9 +481,9 @@ def _():
 
 
 # %% [markdown]
-# One click of a dock, which says nothing about wheels, has told you how worn a tyre is, and it has put
+# The click of a dock says nothing about wheels. Yet it has told you how worn a tyre is, and it has put
 # right hundreds of poses in the past. A robot has no dock in every room, but it sees **walls**, and it
-# can notice that it has seen them before. That is SLAM, and the rest of the course.
+# can notice that it has seen them before. This is SLAM, and the rest of the course.
 #
 # **Next:** lesson [02 · Sensors and worlds](../notebooks/02_sensors_and_worlds.ipynb). Save the
 # notebook first. The cell below then says what the grader will say about it; the grader draws other

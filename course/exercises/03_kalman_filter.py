@@ -1,34 +1,36 @@
 # %% [markdown]
 # # Exercise 03 · The Kalman filter
 #
-# **You will be able to** derive the best gain, write the filter that it makes, find F, Q and H of a
-# system that nobody has modelled for you, and repair a filter whose measurements are not what was
-# promised.
+# **You will be able to** turn the best gain into code, write the filter around it, find $F$, $Q$
+# and $H$ of a system that nobody has modelled for you, and repair a filter whose measurements are
+# not what was promised.
 #
 # **60 minutes. Before:** lesson [03 · The Kalman filter](../notebooks/03_kalman_filter.ipynb).
 #
 # Replace each `raise NotImplementedError(...)` by your code, run the cell, then run the check below
-# it, as often as you like. A check draws random inputs, tells you which law is broken, and what the
-# mistake is where it knows it. It never looks at your formulas: it moves samples and solves least
-# squares problems. When you are stuck, `hint("03-gain")` asks a question that leads on.
+# it, as often as you like. A check draws random inputs and tells you which law is broken; where it
+# recognises a mistake, it tells you that, too. It never looks at your formulas: it moves samples
+# and solves least squares problems. When you are stuck, `hint("03-gain")` asks a question that
+# leads on.
 #
 # A belief is a state `x` (n,) and the covariance `P` (n, n) of its error. In tasks 1 to 3 all sizes
-# are general: there may be one state or many, and one measured number or more of them than there are
-# states. P, Q and R are symmetric and positive definite. A function may not change its arguments:
-# whoever called it still needs them.
+# are general: there may be one state or many, and one measured number, a few, or even more than
+# there are states. $P$, $Q$ and $R$ are symmetric and positive definite. A function may not change
+# its arguments, for whoever called it still needs them.
 
 # %%
 import numpy as np
 
 from slamlab import views
 from slamlab.checks import attempt, check
-from slamlab.layers import Ellipses
+from slamlab.layers import Ellipses, Points
 
 # %% [markdown]
-# Two pieces of the filter are ready, for they follow from the lesson's recipe in two lines each.
-# The **prediction**: a step moves the truth to $F x + q$, and q has the covariance Q. The
-# **innovation**: a measurement is $z = H x + r$ of the true x, and r has the covariance R; v is what
-# is new in z, and S is the covariance of v.
+# Two pieces of the filter are ready, for each follows from the lesson's recipe in a line. The
+# **prediction** is (03.8): a step moves the truth to $F x + q$, and $q$ has the covariance $Q$. The
+# **innovation** is (03.10) and (03.11): a measurement is $z = H x + \varepsilon$ of the true $x$,
+# and $\varepsilon$ has the covariance $R$; $v$ is what is new in $z$, and $S$ is the covariance of
+# $v$.
 
 
 # %% name="ready"
@@ -43,8 +45,8 @@ def innovation(x, P, z, H, R):
 
 
 # %% [markdown]
-# In the pictures a cart rolls along a corridor. Its state is position [m] and speed [m/s], a step
-# takes half a second, and a range finder with σ = 0.3 m sees its position.
+# The cart in the pictures is the lesson's. Its state is position [m] and speed [m/s], a step takes
+# half a second, and a range finder with $\sigma = 0.3$ m sees its position.
 
 # %% name="cart"
 CART = {
@@ -58,15 +60,15 @@ START = {"x": np.array([2.0, 0.5]), "P": np.diag([0.4, 0.3]) ** 2}
 # %% [markdown]
 # ## 1 · The gain
 #
-# The estimate is corrected by $K v$. A small K ignores what was measured, a large one copies its
-# noise. The best K leaves the least mean square error, summed over all states; since every other gain
-# adds a square to it, that one is best for each of the states, too.
+# The estimate is corrected by $K v$. A small $K$ ignores what was measured, a large one copies its
+# noise. The best $K$ leaves the least mean square error, summed over all states; and since every
+# other gain adds a square to what is left, the same $K$ is best for each state by itself.
 #
-# **Predict first.** The belief says that who is farther is also faster. The range comes out longer
-# than expected. Should the *speed* be corrected? And what if P is diagonal?
+# **Predict first.** According to the belief, a cart that is farther is also faster. The range comes
+# out longer than expected. Should the *speed* be corrected? And what if $P$ is diagonal?
 #
-# **Your task.** The best K, (n, m). H may be any matrix; a sensor may even see nothing of the state,
-# and then H is zero.
+# **Your task.** Return the best $K$, (n, m). $H$ may be any matrix. A sensor may even see nothing
+# of the state, and then $H$ is zero.
 
 
 # %% name="gain"
@@ -85,7 +87,8 @@ def gain(P, H, R):
 check("03-gain")
 
 # %% [markdown]
-# Your gain, made smaller and larger, on 20 000 carts. Where must the lowest point be?
+# Here 20 000 carts are corrected with shares of your gain, from none of it to twice of it. Where
+# must the lowest point be?
 
 
 # %% name="too-much-or-too-little"
@@ -100,20 +103,20 @@ def _():
         np.mean(np.sum((errors - innovations @ (share * gain(P, H, R)).T) ** 2, axis=1))
         for share in shares
     ]
-    fig, _ = views.curves(
-        shares, {"20 000 carts": left}, "share of your gain", "mean square error left"
-    )
-    views.show(fig, alt="A curve over the share of your gain, lowest where the share is one.")
+    fig, ax = views.chart("share of your gain [1]", "mean square error left", size=(8, 3.6))
+    ax.plot(shares, left, color=views.COLOURS["corrected"])
+    lowest = shares[np.argmin(left)]
+    views.show(fig, alt=f"A curve over the share of your gain, lowest at {lowest:.1f}.")
 
 
 # %% [markdown]
 # ## 2 · The update
 #
-# **Predict first.** Does P after the update depend on what was measured?
+# **Predict first.** Does $P$ after the update depend on what was measured?
 #
-# **Your task.** The belief after a measurement, x (n,) and P (n, n). Use your `gain` and the ready
-# `innovation`, or write it anew. For P take the form you like: with the best gain all of the lesson's
-# forms are equal. Every measurement is to be taken in, however far off it is.
+# **Your task.** Return the belief after a measurement, `x` (n,) and `P` (n, n). Use your `gain` and
+# the ready `innovation`, or write everything anew. For $P$ take whichever form you like: with the
+# best gain all forms of the lesson are equal. Take in every measurement, however far off it is.
 
 
 # %% name="update"
@@ -134,8 +137,9 @@ def update(x, P, z, H, R):
 check("03-update")
 
 # %% [markdown]
-# The cart's belief after two seconds, before and after it measures a range of 4.0 m. Only the
-# position is measured. **Before you run it:** what happens to the ellipse's height?
+# The picture shows the cart's belief after two seconds, and what your update makes of it when a
+# range of 4.0 m is measured. Only the position is measured. **Before you run it:** what happens to
+# the height of the ellipse?
 
 
 # %% name="before-and-after"
@@ -144,31 +148,36 @@ def _():
     x, P = np.array([3.0, 0.5]), np.array([[0.5, 0.2], [0.2, 0.15]])
     after, P_after = update(x, P, np.array([4.0]), CART["H"], CART["R"])
     rng = np.random.default_rng(5)
-    fig, ax = views.cloud(rng.multivariate_normal(x, P, 500), {"before": P})
-    views.draw(ax, Ellipses("after", [after], [P_after]), color=views.COLOURS["naive"])
-    ax.axvline(4.0, color=views.COLOURS["truth"], linestyle=":", label="measured")
+    fig, ax = views.axes(size=(8, 4.2))
+    views.draw(
+        ax, Points("carts", rng.multivariate_normal(x, P, 500)), color=views.COLOURS["sample"]
+    )
+    views.draw(ax, Ellipses("before", [x], [P]), color=views.COLOURS["predicted"])
+    views.draw(ax, Ellipses("after", [after], [P_after]), color=views.COLOURS["corrected"])
+    ax.axvline(4.0, color=views.COLOURS["scan"], linestyle=":", label="measured")
     ax.set(xlabel="position [m]", ylabel="speed [m/s]")
     views.legend(ax, loc="lower right")
     views.show(fig, alt="A wide leaning ellipse before, a small one near the measured line after.")
 
 
 # %% [markdown]
-# The ellipse has moved towards the measured line *and* upwards: the cart is farther than it
-# believed, so it is probably faster, too.
+# With a right update, the ellipse has moved towards the measured line *and* upwards: the cart is
+# farther than it believed, so it is probably faster, too.
 
 # %% [markdown]
 # ## 3 · The whole filter
 #
-# **Predict first.** The cart rolls for an hour and measures its position every half second. Does its
-# P shrink to zero?
+# **Predict first.** The cart rolls for an hour and measures its position every half second. Does
+# its $P$ shrink to zero?
 #
-# **Your task.** Run the filter, with the ready `predict` and your `update`, which the check asks for
-# first. The start is the belief *before* the first step; each row of `zs` is measured after one more
-# step, and there is at least one row. Return all beliefs, one after each measurement; the start is
-# left out.
+# **Your task.** Run the filter over a whole drive, with the ready `predict` and with your `update`,
+# which the check asks for first. The start is the belief *before* the first step. Each row of `zs`
+# is measured after one more step, and there is at least one row. Return all beliefs, one after each
+# measurement, without the start.
 #
-# The check takes all measurements up to each step *at once*, as the patient one does at the end of
-# the lesson. Your filter has to know as much at each step, although it looks at each of them once.
+# The check takes all measurements up to each step *at once*, like the patient one in the lesson's
+# section *Deeper: was anything lost on the way?* Your filter has to know as much at each step,
+# although it looks at each measurement only once.
 
 
 # %% name="kalman-filter"
@@ -194,7 +203,7 @@ def kalman_filter(x, P, zs, F, Q, H, R):
 check("03-filter")
 
 # %% [markdown]
-# Your filter on a drive of 20 s: what it believes of the speed, which is never measured.
+# On a drive of 20 s, this is what your filter believes of the speed, which is never measured.
 
 
 # %% name="drive"
@@ -208,35 +217,39 @@ def _():
         zs.append(CART["H"] @ truth + rng.normal(0, 0.3, 1))
     xs, Ps = kalman_filter(START["x"], START["P"], np.array(zs), **CART)
     seconds, two_sigma = 0.5 * np.arange(1, 41), 2 * np.sqrt(Ps[:, 1, 1])
-    shown = {"your speed": xs[:, 1], "true speed": np.array(states)[:, 1]}
-    fig, ax = views.curves(seconds, shown, "time [s]", "speed [m/s]")
+    fig, ax = views.curves(
+        seconds, {"your speed": xs[:, 1]}, "time [s]", "speed [m/s]", size=(8, 3.6)
+    )
+    ax.plot(seconds, np.array(states)[:, 1], color=views.COLOURS["truth"], label="true speed")
     blue = views.COLOURS["corrected"]
     ax.fill_between(seconds, xs[:, 1] - two_sigma, xs[:, 1] + two_sigma, color=blue, alpha=0.2)
-    views.show(fig, alt="Your speed with its band of two σ, and the true speed inside it.")
+    views.legend(ax)
+    views.show(fig, alt="Your speed with its band of two σ, and the true speed beside it.")
 
 
 # %% [markdown]
 # ## 4 · A system that is no cart
 #
-# The filter does not know what its states are. Here they are two voltages: that of a capacitor,
+# A filter does not know what its states are. Here they are two voltages, that of a capacitor,
 # $V_C$, and that of the source that charges it through a resistor, $V_S$. The state is
-# $x = (V_C, V_S)$ in volts. What happens in a step of dt seconds is this:
+# $x = (V_C, V_S)$ in volts. In a step of $dt$ seconds two things happen:
 #
-# 1. The source wanders. At the *beginning* of the step it jumps by an unknown voltage w, whose mean
+# 1. The source wanders. At the *beginning* of the step it jumps by an unknown voltage $j$, whose mean
 #    is zero and whose variance is $\sigma^2\,dt$. Afterwards it keeps its voltage to the end of the
 #    step.
 # 2. The capacitor follows the source. Of the difference between the two voltages, the share
-#    $e^{-dt/\tau}$ is left at the end of the step, with $\tau$ = ohms · farads.
+#    $e^{-dt/\tau}$ is left at the end of the step; $\tau$ is the product of resistance and capacitance,
+#    ohms · farads.
 #
-# Then two meters are read, each with a noise of its own: a voltmeter shows $V_C$, and an ammeter the
-# current through the resistor, in amperes, which is positive while the capacitor is charged.
+# Then two meters are read, each with a noise of its own. A voltmeter shows $V_C$. An ammeter shows
+# the current through the resistor, in amperes, which is positive while the capacitor is charged.
 #
-# **Predict first.** One jump w makes both voltages wrong. Are the errors that a step adds to them
+# **Predict first.** One jump $j$ makes both voltages wrong. Are the errors that a step adds to them
 # related? If you know that the source is higher than believed, what do you know of the capacitor?
 #
-# **Your task.** Derive F, Q and H, each (2, 2), in the lesson's way: write the error, multiply it by
-# its transpose, take the expected value. Resistance and capacitance are positive; a step may be
-# short or long or take no time at all, and sigma may be zero.
+# **Your task.** Derive $F$, $Q$ and $H$, each (2, 2), by the lesson's recipe: write the error,
+# multiply it by its transpose, take the expected value. Resistance and capacitance are positive. A
+# step may be short or long or take no time at all, and `sigma` may be zero.
 
 
 # %% name="capacitor"
@@ -250,7 +263,7 @@ def capacitor(dt, ohms, farads, sigma):
     ### BEGIN SOLUTION
     left = np.exp(-dt / (ohms * farads))
     F = np.array([[left, 1 - left], [0, 1]])
-    jump = np.array([1 - left, 1])  # what one volt of w makes of both voltages
+    jump = np.array([1 - left, 1])  # what one volt of j makes of both voltages
     Q = sigma**2 * dt * np.outer(jump, jump)
     H = np.array([[1, 0], [-1 / ohms, 1 / ohms]])
     return F, Q, H
@@ -261,9 +274,9 @@ def capacitor(dt, ohms, farads, sigma):
 check("03-capacitor")
 
 # %% [markdown]
-# Your matrices in your filter. Nobody measures the source, and both meters are bad: the voltmeter has
-# σ = 0.3 V, the ammeter σ = 0.3 A. **Before you run it:** the capacitor lags behind the source. Will
-# the estimate of the source lag, too?
+# Now your filter runs with your matrices. Nobody measures the source, and both meters are bad: the
+# voltmeter has $\sigma = 0.3$ V, the ammeter $\sigma = 0.3$ A. **Before you run it:** the capacitor
+# lags behind the source. Will the estimate of the source lag, too?
 
 
 # %% name="source"
@@ -280,30 +293,32 @@ def _():
     xs, Ps = kalman_filter(np.array([0.0, 5.0]), np.eye(2), np.array(zs), F, Q, H, R)
     seconds, two_sigma = dt * np.arange(1, steps + 1), 2 * np.sqrt(Ps[:, 1, 1])
     true_volts, true_source = np.array(states).T
-    shown = {"your source": xs[:, 1], "true source": true_source, "true capacitor": true_volts}
-    fig, ax = views.curves(seconds, shown, "time [s]", "voltage [V]")
+    shown = {"your source": xs[:, 1]}
+    fig, ax = views.curves(seconds, shown, "time [s]", "voltage [V]", size=(8, 3.6))
+    black = views.COLOURS["truth"]
+    ax.plot(seconds, true_source, color=black, label="true source")
+    ax.plot(seconds, true_volts, ":", color=black, label="true capacitor")
     blue = views.COLOURS["corrected"]
     ax.fill_between(seconds, xs[:, 1] - two_sigma, xs[:, 1] + two_sigma, color=blue, alpha=0.2)
-    views.show(
-        fig, alt="The estimated source follows the true one; the capacitor lags behind both."
-    )
+    views.legend(ax)
+    views.show(fig, alt="Your source, the true source, and the capacitor, which lags behind it.")
 
 
 # %% [markdown]
-# The estimate does not lag: the filter knows from F *why* the capacitor is behind, and from the
-# current by how much.
+# With right matrices the estimate does not lag. From $F$ the filter knows *why* the capacitor is
+# behind, and from the current by how much.
 
 # %% [markdown]
 # ## 5 · Make it better: ghosts
 #
-# The cart again, before a wall. People walk through its corridor. One reading in four is a *ghost*:
-# it has nothing to do with the cart, and says anything between 0 m and 10 m, each as likely as the
-# other. Three in four are measurements as before, with the covariance R. No reading tells which it
-# is. Besides, the cart has sensors of its own, which tell in each step what was added to its state:
-# the truth becomes $F x + u + q$.
+# The cart again faces a wall, and people walk through its corridor. One reading in four is a
+# *ghost*: it has nothing to do with the cart, and says anything between 0 m and 10 m, each as
+# likely as the other. The other three are measurements as before, with the covariance $R$. No
+# reading tells which of the two it is. The cart also has sensors of its own, which tell in each
+# step what was added to its state: the truth becomes $F x + u + q$.
 #
-# **Predict first.** What does one ghost that is 4 m off do to the lesson's filter? What does it do to
-# the *P* of that filter?
+# **Predict first.** What does one ghost that is 4 m off do to the lesson's filter? What does it do
+# to the $P$ of that filter?
 
 # %% name="ghosts"
 GHOSTS = 0.25  # the share of ghosts among the readings
@@ -325,15 +340,17 @@ def ghost_drive(rng, steps=50):
 
 
 # %% [markdown]
-# **Your task.** A filter that lives with ghosts. Any method goes, and there are many: refuse what
-# does not fit, trust it less, weigh the two cases by how likely they are, follow both, look again at
-# what you refused. `zs` has one number in each row. `GHOSTS` and `REACH` hold in all drives.
+# **Your task.** Write a filter that lives with ghosts. The noise is no bell here, so the lesson's
+# promises that need one are off, and another rule may do better. Any method goes, and there are
+# many: refuse what does not fit, trust it less, weigh the two cases by how likely they are, follow
+# both, look again at what you refused. `zs` has one number in each row. `GHOSTS` and `REACH` hold
+# in all drives.
 #
-# The check lets your filter follow 40 drives of 50 steps and looks at three things: how far off it is
-# on a typical drive, compared with the lesson's filter; how far off it is compared with a filter that
-# is *told* which readings are ghosts; and whether its P is honest, which is the hardest of the
-# three. The first steps of a drive do not count, and neither does the worst tenth of the drives for
-# its P.
+# The check lets your filter follow 40 drives of 50 steps and looks at three things: how far off it
+# is on a typical drive, compared with the lesson's filter; how far off it is compared with a filter
+# that is *told* which readings are ghosts; and whether its $P$ is honest, which is the hardest of
+# the three. The first steps of a drive do not count, and neither does the worst tenth of the drives
+# for its $P$.
 
 
 # %% name="wary-filter"
@@ -368,8 +385,8 @@ def wary_filter(x, P, us, zs, F, Q, H, R):
 check("03-ghosts")
 
 # %% [markdown]
-# One drive: what was read, what you believe, and where the cart was. **Before you run it:** where
-# should the band be widest?
+# This is one drive: what was read, what you believe, and where the cart was. **Before you run it:**
+# where should the band be widest?
 
 
 # %% name="among-ghosts"
@@ -378,23 +395,24 @@ def _():
     way, told = ghost_drive(np.random.default_rng(8))
     xs, Ps = wary_filter(*told)
     seconds, two_sigma = 0.5 * np.arange(1, 51), 2 * np.sqrt(Ps[:, 0, 0])
-    shown = {"your position": xs[:, 0], "true position": way[:, 0]}
-    fig, ax = views.curves(seconds, shown, "time [s]", "position [m]", size=(7, 3.4))
+    shown = {"your position": xs[:, 0]}
+    fig, ax = views.curves(seconds, shown, "time [s]", "position [m]", size=(8, 3.8))
+    ax.plot(seconds, way[:, 0], color=views.COLOURS["truth"], label="true position")
     blue = views.COLOURS["corrected"]
     ax.fill_between(seconds, xs[:, 0] - two_sigma, xs[:, 0] + two_sigma, color=blue, alpha=0.2)
     ax.plot(seconds, told[3], ".", color=views.COLOURS["scan"], label="read")
     ax.set_ylim(-0.5, 13)
     views.legend(ax, loc="upper center", ncols=3)
-    views.show(fig, alt="Your position follows the true one; ghosts lie scattered around.")
+    views.show(fig, alt="Your position, the true one, and readings: ghosts lie scattered around.")
 
 
 # %% [markdown]
-# **See:** the line should pass by the dots that lie far off, and the band should widen where readings
+# **See:** your line should pass by the dots that lie far off. The band should widen where readings
 # had to be left out, or may have been either.
 #
 # ## Done?
 #
-# Save the notebook. The cell below then says what the grader will say about it;
-# the grader draws other inputs. **Next:** lesson
-# [04 · Models and Jacobians](../notebooks/04_models_and_jacobians.ipynb): F and H of a robot that
-# turns.
+# Save the notebook. The cell below then says what the grader will say about it; the grader draws
+# other inputs. **Next:** lesson
+# [04 · Models and Jacobians](../notebooks/04_models_and_jacobians.ipynb) finds the matrices of a
+# robot that turns.

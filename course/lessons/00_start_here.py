@@ -1,22 +1,21 @@
-# %% [markdown] slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=1
 # # 00 · Start here
 #
 # **Afterwards you will be able to** run a lesson, predict before you run, move its sliders, check
-# an exercise, read every symbol and unit of the course, and get help.
+# an exercise, read the symbols and units of the first lessons, and get help.
 #
-# 15 min. You need nothing before; a little Python and some school trigonometry help.
+# **20 minutes.** You need nothing before; a little Python and some school trigonometry help.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* run the set-up check before the class comes in. With *View → Presentation
-# Mode* the letters grow. The one thing to get across here is the habit of predicting: let everybody
-# write a number down before the first scan is run.
+# *For the lecturer:* let everybody run the set-up check before the class begins. The one thing to
+# get across here is the habit of predicting: nobody runs a cell before a number is written down.
 
-# %% [markdown] slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=2
 # ## Is everything there?
 #
-# Click into the next cell and press **Shift+Enter**: the cell runs and the next one is selected. It
-# looks at Python and at every package the course rests on, and says what to do where one is not
-# right.
+# Click into the next cell and press **Shift+Enter**: the cell runs, and the next one is selected.
+# It looks at Python and at every package that the course needs, and says what to do where something
+# is missing.
 
 # %% name="setup-check"
 from slamlab.checks import setup_check
@@ -24,29 +23,27 @@ from slamlab.checks import setup_check
 setup_check.report()
 
 # %% [markdown]
-# A tick on every line: go on. If instead you see `ModuleNotFoundError: No module named 'slamlab'`,
-# the notebook runs on another Python than the course's: close it, run `make lab` in the project's
-# folder (Windows: `python lab.py`), and open it in the JupyterLab that comes up.
+# If there is a tick on every line, go on. If you see `No module named 'slamlab'`, this notebook runs
+# on another Python than that of the course. Close it, run `make lab` in the folder of the project
+# (on Windows `python lab.py`), and open it in the JupyterLab that comes up.
 
-# %% [markdown] slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=6
 # ## How a lesson works
 #
-# Each section goes the same way: a **question**, your **prediction**, a cell to **run**, an
-# **explanation**. The prediction is the part that teaches: write it down before you run, even if it
-# is a guess. A cell that is run without a prediction is a film.
+# Each section takes the same steps: a **question**, your **prediction**, a cell to **run**, an
+# **explanation**. It is the prediction that teaches. Make one before you run, even if it is a
+# guess: without it, you only watch.
 #
-# Try it. A lidar turns once in a room and measures 400 distances, 0.9° apart. It is a good one, but
-# now and then a beam gets lost on something black or shiny.
-#
-# The next cell asks for your prediction. Run it, type a number, press *answer*: you are told why it
-# is right or what you may have thought of. Then run the cell after it and see.
+# Try it. A lidar stands in a room, turns once, and measures 400 distances, one every 0.9°. It is a
+# good lidar, but now and then a beam is lost on something black or shiny. Run the next cell, type a
+# number, and press *answer*.
 
 # %% name="ask-beams"
 from slamlab.checks import ask
 
 ask(
     "00-beams",
-    "**Predict:** how many of the 400 beams come back?",
+    "**How many of the 400 beams come back?**",
     right=398,
     tolerance=1.5,
     unit="beams",
@@ -57,7 +54,7 @@ ask(
     },
 )
 
-# %% name="first-scan" tags=["nbval-check-output"]
+# %% slideshow={"slide_type": "fragment"} name="first-scan" answers="00-beams" tags=["nbval-check-output"]
 import numpy as np
 
 from slamlab import views, worlds
@@ -70,60 +67,60 @@ room, pose = worlds.room(), np.array([1.0, 0.0, 0.5])
 scan = RPLIDAR_A2.scan(room, pose, rng)
 print(f"{scan.valid.sum()} of {len(scan.ranges)} beams came back")
 
-# %% [markdown]
-# Of the surfaces in front of it a real lidar of this kind misses fewer than one in a hundred: that
-# was measured (lesson 02), and the simulated one does the same. Everything random in the course
-# comes from a generator `rng` with a written-down seed, so you get the number printed here. Change
-# the 7 and you get another one.
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# This lidar is simulated, with the losses of a real one. All chance in the course comes from a
+# generator `rng` whose seed is written down, so you get the number that is printed here. With
+# another seed than 7 you may get another number.
 #
-# A prediction may also be a choice. The picture that answers this one is folded until you have
-# chosen, or ask to see it: a click on the dots below its cell opens it, too.
+# The next question has choices. The cell below it, which answers it, is folded: it opens when you
+# have chosen, or when you click on its dots.
 
-# %% name="ask-missing"
+# %% slideshow={"slide_type": "subslide"} name="ask-missing"
 ask(
     "00-missing",
-    "**Predict:** the lidar sees in every direction. Which parts of the room will be missing from "
-    "the picture?",
+    "The lidar sees in every direction. **Which parts of the room will be missing from the picture?**",
     {
-        "what is far away": "walls twelve metres off come back as well as those at one metre.",
+        "what is far away": "in a room, walls far away come back as well as near ones.",
         "what stands behind something": "a beam ends where it first meets a surface.",
         "nothing: it turns all round": "it turns all round, but it does not see through a table.",
     },
     right="what stands behind something",
 )
 
-# %% name="first-picture" answers="00-missing"
-fig, ax = views.axes("One turn of the lidar in a room")
+# %% slideshow={"slide_type": "fragment"} name="first-picture" answers="00-missing"
+fig, ax = views.axes("One turn of the lidar in a room", size=(8, 5.4))
 views.draw(ax, Segments("walls", room.outline()), lw=0.8)
 views.draw(ax, Points("scan", transform(pose, scan.points())))
 views.draw(ax, Poses("robot", pose))
 views.legend(ax, loc="upper right")
 views.show(fig, alt="Walls of a room in grey; a scan's points lie on those that face the lidar.")
 
-# %% [markdown]
+# %% [markdown] slideshow={"slide_type": "fragment"}
 # The points lie on what faces the lidar. Behind the table in the middle, the cupboards and the
-# pillars there is nothing: **a scan is never the room, it is what one place sees of it**. That is
+# pillars there is nothing: **a scan is never the room, it is what one place sees of it**. This is
 # why a robot has to drive, and why it has to know where it was.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Sliders
 #
 # Many figures have sliders. Drag one, or click on it and use the arrow keys; the figure is drawn
-# when you let go. In a notebook that was not run you see the figure without its sliders: run the
-# cell. **Predict:** where must the lidar stand to see the cupboard at the left wall?
+# anew when you let go. (Where you see a figure without its sliders, run its cell.)
+#
+# Before you drag: where must the lidar stand to see the cupboard at the left wall?
 
 
 # %% name="first-slider"
 def look(x, y):
     """The room and what a lidar at x, y sees of it."""
     seen = RPLIDAR_A2.scan(room, [x, y, 0.0], np.random.default_rng(7))
-    fig, ax = views.axes(f"Seen from ({x:.1f} m, {y:.1f} m)")
+    fig, ax = views.axes(f"Seen from ({x:.1f} m, {y:.1f} m)", size=(8, 5.4))
     views.draw(ax, Segments("walls", room.outline()), lw=0.8)
     views.draw(ax, Points("scan", transform([x, y, 0.0], seen.points())))
     views.draw(ax, Poses("robot", np.array([x, y, 0.0])))
     return fig
 
 
+# %% name="first-slider-picture"
 views.explore(
     look,
     alt="From the right of the room the table hides the left of it; sliders move the lidar.",
@@ -133,61 +130,71 @@ views.explore(
 
 # %% [markdown]
 # From here the table in the middle hides the left of the room: not one point lies on the cupboard.
-# Move the lidar past the table, to the left or to the top, and the cupboard's front appears.
+# Move the lidar past the table, to the left or to the top, and the front of the cupboard appears.
 #
-# When a notebook gets muddled, because cells ran out of order, choose *Kernel → Restart Kernel and
-# Run All Cells*. Nothing can be broken: `slamlab reset lesson-00` in a terminal (*File → New →
-# Terminal*) brings this lesson back as it was handed out, `slamlab reset 04` exercise 04, and
-# `slamlab reset 04-camera` one of its tasks. What you had written is kept in a file beside it.
+# If a notebook gets muddled because its cells ran out of order, choose *Kernel → Restart Kernel and
+# Run All Cells*. And should you want it back as it was handed out, type `slamlab reset lesson-00`
+# in a terminal (*File → New → Terminal*). What you had written is kept in a file beside it.
 
-# %% [markdown] slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=3
 # ## How an exercise works
 #
-# At the end of each lesson you find its exercise. You fill in functions; below each stands a cell
-# such as `check("01-next-pose")`. It tries your function on random inputs, and on inputs at the edge
-# of what the text promises, and judges it by **laws**: a robot must move as far as its step is long,
-# a derivative must be what finite differences say. So any right solution passes, however it is
-# written.
+# Every lesson from 01 on has an exercise. You write functions; below each of them stands a cell such
+# as `check("01-next-pose")`. It tries your function on random inputs, and on inputs at the edges of
+# what the text promises, and judges it by **laws**: a robot moves as far as its step is long. So
+# every right solution passes, however it is written.
 #
-# Where a law is broken you see the smallest input that breaks it, with what your function returned
-# and what the law wants. Where a classic mistake is recognised, you are told which one: degrees for
-# radians, a turn the wrong way, a transposed matrix. `hint("01-next-pose")` in a cell of your own asks
-# a question that leads on; called again, it shows a step on the way. One law holds everywhere: a
-# function leaves the arrays it is given as they are.
-#
-# Check, and ask for hints, as often as you like; nobody counts. Your points are those of a fresh run on other random inputs; nothing
-# else is hidden. `slamlab check NOTEBOOK` in a terminal does the same for a whole notebook.
+# Where a law is broken, you see the smallest input that breaks it, what your function returned, and
+# what the law wants. If the mistake is a classic one, you are told which.
 
-# %% [markdown] slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# ### Checks, hints, points
+#
+# - `hint("01-next-pose")`, in a cell of your own, asks a question that leads on. Call it again, and
+#   it shows a step on the way.
+# - Check and ask for hints as often as you like: nobody counts. Your points come from a fresh run on
+#   other random inputs, and nothing else is hidden.
+# - One law holds everywhere: a function leaves the arrays that it is given as they are.
+# - In a terminal, `slamlab check NOTEBOOK` checks a whole notebook, and `slamlab reset 01` brings
+#   exercise 01 back as it was.
+
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=4
 # ## Conventions
 #
 # | | here | not |
 # | --- | --- | --- |
 # | lengths | metres | millimetres, centimetres |
-# | angles | radians, wrapped to (−π, π] | degrees (only in text and on axes) |
-# | time | seconds | |
+# | angles | radians, from −π to π | degrees (only in text and on axes) |
 # | turning | counter-clockwise is positive | clockwise, as many devices count |
-# | robot's frame | x ahead, y to the left | y ahead, as in the eMIR's documents |
+# | robot's frame | x ahead, y to the left | y ahead |
 # | points | one a row, `(n, 2)` | one a column |
-# | matrices | act on columns: `p' = R p`; rows of points take `points @ R.T` | |
-# | uncertainty | covariances, in units squared | standard deviations, unless it says so |
 #
 # Devices and files speak their own units. They are converted once, where they enter.
 
-# %% name="frames"
+# %% slideshow={"slide_type": "subslide"} name="frames"
 views.show(
     views.frames(pose=np.array([2.5, 1.0, np.radians(25)]), landmark=np.array([5.0, 4.5])),
     alt="World and robot frames; heading θ from the world's x axis, bearing β from the robot's.",
 )
 
 # %% [markdown]
-# The heading θ is measured from the world's x axis to the robot's, the bearing β from the robot's x
-# axis to the landmark, both counter-clockwise. The landmark stands at angle θ + β as seen in the
-# world.
-#
-# **Predict:** the robot turns on the spot by +90°. What becomes of θ, of β, of r?
+# The **heading** $\theta$ leads from the world's x axis to the robot's. The **bearing** $\beta$
+# leads from the robot's x axis to the landmark. Both are counter-clockwise, so in the world the
+# landmark stands in the direction $\theta + \beta$.
 
-# %% name="turn-on-the-spot" tags=["nbval-check-output"]
+# %% slideshow={"slide_type": "subslide"} name="ask-turn"
+ask(
+    "00-turn",
+    "The robot turns on the spot by +90°. **What becomes of the bearing $\\beta$ of the landmark?**",
+    {
+        "it grows by 90°": "the heading grows; the landmark stays, and the robot turns past it.",
+        "it shrinks by 90°": "θ + β, the direction in the world, stays what it was.",
+        "it stays": "it would stay if the landmark turned along with the robot.",
+    },
+    right="it shrinks by 90°",
+)
+
+# %% slideshow={"slide_type": "fragment"} name="turn-on-the-spot" answers="00-turn" tags=["nbval-check-output"]
 from slamlab import models
 
 landmark = np.array([5.0, 4.5])
@@ -195,92 +202,47 @@ for theta in (25, 115):
     r, beta = models.h(np.array([2.5, 1.0, np.radians(theta)]), landmark)
     print(f"θ = {theta:3d}°   r = {r:.2f} m   β = {np.degrees(beta):6.1f}°")
 
-# %% [markdown]
-# The bearing loses what the heading gains, the range does not care. A robot that misjudges its
-# heading therefore misjudges the direction of **everything** it sees. Remember that in lesson 01.
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# The bearing loses what the heading gains, and the range $r$ does not change. A robot that misjudges
+# its heading therefore misjudges the direction of **everything** that it sees. Lesson 01 begins with
+# this.
 
-# %% [markdown] slideshow={"slide_type": "slide"} name="notation"
-# ## Notation
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=1 name="first-notation"
+# ## The symbols of the first lessons
 #
-# Names in the code are the symbols of the text. A row without a function is an argument of those
-# with one. This table is tested: each function exists and returns that shape.
+# Names in the code are the symbols of the text, and a letter means the same in all lessons.
 #
-# | Symbol | In the code | Shape | Unit | What it is |
-# | --- | --- | --- | --- | --- |
-# | x | `x` | (3,) | m, m, rad | pose of the robot: x, y, θ |
-# | u | `u` | (2,) | m, rad | control: distance d and turn Δθ; steered robot: speed V [m/s], angle γ [rad] |
-# | p | `p` | (2,) | m | a landmark's position |
-# | z | `z` | (2,) | m, rad | one observation: range r and bearing β |
-# | a, b | `a`, `b` | (3,) | m, m, rad | any two poses |
-# | l | `line` | (2,) | m, rad | a wall's line: its distance ρ from the origin, the direction α of its normal |
-# | f | `models.f_odometry(x, u)` | (3,) | m, m, rad | motion: the pose after driving d and turning Δθ |
-# | f | `models.f_steered(x, u, B, T)` | (3,) | m, m, rad | motion of a steered robot with wheel base B in time T |
-# | h | `models.h(x, p)` | (2,) | m, rad | observation: range and bearing of a landmark |
-# | g | `models.g(x, z)` | (2,) | m | the landmark that was observed: the inverse of h |
-# | A | `jacobians.A_odometry(x, u)` | (3, 3) | | ∂f/∂x |
-# | A | `jacobians.A_steered(x, u, B, T)` | (3, 3) | | ∂f/∂x of the steered robot |
-# | W | `jacobians.W_odometry(x, u)` | (3, 2) | | ∂f/∂u |
-# | W | `jacobians.W_steered(x, u, B, T)` | (3, 2) | | ∂f/∂u of the steered robot |
-# | H | `jacobians.H_robot(x, p)` | (2, 3) | | ∂h/∂x, the robot's part of H |
-# | H | `jacobians.H_landmark(x, p)` | (2, 2) | | ∂h/∂p, the landmark's part of H |
-# | J_xr | `jacobians.J_xr(x, z)` | (2, 3) | | ∂g/∂x: a new landmark moves with the robot |
-# | J_z | `jacobians.J_z(x, z)` | (2, 2) | | ∂g/∂z: a new landmark moves with its observation |
-# | h | `models.h_line(x, line)` | (2,) | m, rad | distance and direction of a wall's line, seen from a pose |
-# | g | `models.g_line(x, z)` | (2,) | m, rad | the line that was seen: the inverse of h |
-# | H | `jacobians.H_robot_line(x, line)` | (2, 3) | | ∂h/∂x of a line |
-# | H | `jacobians.H_line(x, line)` | (2, 2) | | ∂h/∂l of a line |
-# | J_xr | `jacobians.J_xr_line(x, z)` | (2, 3) | | ∂g/∂x of a line |
-# | J_z | `jacobians.J_z_line(x, z)` | (2, 2) | | ∂g/∂z of a line |
-# | C | `noise.C_odometry(u, distance_error, turn_error)` | (2, 2) | m², rad² | covariance of the control |
-# | C | `noise.C_wheels(u, slip, base)` | (2, 2) | m², rad² | the same of two wheels that slip at random |
-# | Q | `noise.Q(W, C)` | (3, 3) | m², rad² | covariance a motion adds to the pose: W C Wᵀ |
-# | R | `noise.R(r, range_error, bearing_sigma)` | (2, 2) | m², rad² | covariance of one observation |
-# | | `geometry.wrap(angle)` | () | rad | the same angle in (−π, π] |
-# | a ⊕ b | `geometry.compose(a, b)` | (3,) | m, m, rad | pose b, given in a's frame, in the frame a is given in |
-# | ⊖ a | `geometry.inverse(a)` | (3,) | m, m, rad | the pose that undoes a |
-# | ⊖ a ⊕ b | `geometry.between(a, b)` | (3,) | m, m, rad | pose b as seen from pose a |
-# | T | `geometry.matrix(a)` | (3, 3) | | homogeneous matrix of a pose |
-# | | `geometry.from_matrix(T)` | (3,) | m, m, rad | the pose of a homogeneous matrix |
-# | | `geometry.transform(a, points)` | (n, 2) | m | points (n, 2) of a's frame in the frame a is given in |
+# | Symbol | In the code | What it is |
+# | --- | --- | --- |
+# | $x$ | `x` | pose of the robot: $x$, $y$, $\theta$ |
+# | $a$, $b$ | `a`, `b` | any two poses |
+# | $a \oplus b$ | `geometry.compose(a, b)` | pose $b$, given in the frame of $a$, in the frame $a$ is given in |
+# | $\ominus a \oplus b$ | `geometry.between(a, b)` | pose $b$ as seen from pose $a$ |
+# | $\mathrm{Rot}(\theta)$ | | the matrix that rotates a vector by $\theta$ |
+# | $r$, $\beta$ | `r`, `beta` | range and bearing of what is seen |
+# | $\sigma$ | | a standard deviation; $\sigma^2$ is the variance |
 #
-# A filter holds a belief `b` of n numbers and takes in m measured ones (lesson 03 derives it); its
-# update returns a new belief and a `step` that says what it was made of:
-#
-# | Symbol | In the code | Shape | What it is |
-# | --- | --- | --- | --- |
-# | x | `b.x` | (n,) | the mean: what is believed |
-# | P | `b.P` | (n, n) | its covariance: how wrong that may be |
-# | F, Q | `linear.predict(b, F, Q)` | (n, n) | time passes: x becomes F x, and noise of covariance Q is added |
-# | H, R | `linear.update(b, z, H, R)` | (m, n), (m, m) | a measurement z of H x, with noise of covariance R |
-# | v | `step.innovation` | (m,) | measured minus predicted: z − H x |
-# | S | `step.S` | (m, m) | covariance of v: H P Hᵀ + R |
-# | K | `step.K` | (n, m) | the gain: P Hᵀ S⁻¹; x grows by K v |
-# | | `step.nis` | () | vᵀ S⁻¹ v: m on average while the filter is consistent |
-#
-# A graph of poses (lesson 15) holds edges z between poses i and j; its letters are those of its books,
-# so H and b mean something else there:
-#
-# | Symbol | In the code | Shape | What it is |
-# | --- | --- | --- | --- |
-# | e | `edges.error(x_i, x_j, z)` | (3,) | how far pose j is from where pose i and z say it is |
-# | A | `jacobians.J_i(x_i, x_j, z)` | (3, 3) | ∂e/∂x_i |
-# | B | `jacobians.J_j(x_i, x_j, z)` | (3, 3) | ∂e/∂x_j |
-#
-# Put the cursor behind a name in any cell and press **Shift+Tab** to read what it does.
+# Later lessons explain their symbols where they use them. All of them stand in the
+# [appendix](#Appendix:-notation). With the cursor behind a name in a cell, **Shift+Tab** shows what
+# it does.
 
-# %% [markdown] slideshow={"slide_type": "slide"} name="map-of-lessons"
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=2 name="map-of-lessons"
 # ## Map of the lessons
 #
 # | | lesson | what it shows | lesson | exercise |
 # | --- | --- | --- | --- | --- |
-# | 00 | [Start here](00_start_here.ipynb) | how all this works | 15 min | |
-# | 01 | [Why SLAM](01_why_slam.ipynb) | a robot that believes its wheels draws a map that does not close | 40 min | 60 min |
+# | 00 | [Start here](00_start_here.ipynb) | how all this works | 20 min | |
+# | 01 | [Why SLAM](01_why_slam.ipynb) | a robot that believes its wheels draws a map that does not close | 45 min | 60 min |
 # | 02 | [Sensors and worlds](02_sensors_and_worlds.ipynb) | how a lidar, an infrared and an ultrasonic scanner see a room, and how a real one errs | 60 min | 60 min |
-# | 03 | [The Kalman filter](03_kalman_filter.ipynb) | predict, measure, correct: the gain derived, the filter's word about its own error tested | 75 min | 60 min |
+# | 03 | [The Kalman filter](03_kalman_filter.ipynb) | predict, measure, correct: the gain derived, the filter's word about its own error tested | 60 min | 60 min |
 # | 04 | [Models and Jacobians](04_models_and_jacobians.ipynb) | how a robot moves and measures, and how errors pass through: derived, not believed | 90 min | 60 min |
 # | 05 | [Two easy halves](05_two_easy_halves.ipynb) | a known map locates the robot, known poses draw the map; both in turn is not SLAM | 50 min | 60 min |
 # | 06 | [EKF-SLAM: the MAK filter](06_ekf_slam.ipynb) | robot and map in one filter, every block of its covariance built before your eyes | 80 min | 60 min |
 # | 07 | [Correlations](07_correlations.ipynb) | why what robot and landmarks share cannot be dropped, what it costs, and ways out | 100 min | 60 min |
+
+# %% [markdown] slideshow={"slide_type": "subslide"} name="map-of-lessons-2"
+# | | lesson | what it shows | lesson | exercise |
+# | --- | --- | --- | --- | --- |
 # | 08 | [Landmarks from scans](08_landmarks_from_scans.ipynb) | table legs, walls and corners found in a scan, and which of them were seen before | 75 min | 60 min |
 # | 09 | [SLAM with walls](09_slam_with_walls.ipynb) | a whole thesis system, driven live through two buildings; its flaws measured and mended | 90 min | 60 min |
 # | 10 | [Boxes](10_boxes.ipynb) | a filter that promises bounds, not likelihoods, and what one broken promise does | 90 min | 60 min |
@@ -295,36 +257,142 @@ for theta in (25, 115):
 # %% [markdown] slideshow={"slide_type": "skip"} tags=["lecturer"]
 # ## If you give the lecture
 #
-# Every lesson is also a set of slides, with live cells and sliders; derivations open one line per
-# key press, and speaker's notes stand in cells of their own. `python lab.py --lecture` adds the
-# slideshow to JupyterLab; [docs/lecturing.md](../docs/lecturing.md) says which keys to press and
-# how to see your notes. *View → Appearance → Presentation Mode* makes everything larger without it.
+# Every lesson is also its slides, with live cells and sliders: press **Lecture** in the toolbar.
+# Derivations open one line at a key press, and the speaker's notes stand in cells of their own.
+# [docs/lecturing.md](../docs/lecturing.md) has the keys, and how to rehearse.
 
-# %% [markdown]
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=1
 # ## How far you are
 #
 # What you answer and check is kept in the file `progress.json` beside the folders of the notebooks,
 # and nowhere else: nothing leaves your computer. The head of each notebook shows its own tasks and
-# questions; the next cell, and `slamlab progress` in a terminal, show all of them.
+# questions. The next cell shows all of them, and so does `slamlab progress` in a terminal.
 
 # %% name="progress"
 from slamlab import coursework
 
 coursework.show_progress()
 
-# %% [markdown]
-# ## Where help is
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# ### Where help is
 #
-# - **A function:** Shift+Tab behind its name, or `help(name)`. Every one says its equation, the shape and
-#   the unit of each argument.
-# - **A check that fails:** read its first ✗ line, which says what law broke, then the case below it:
-#   try your function on that input by hand. `hint("…")` with the task's name leads on.
-# - **A cell that fails:** the last line of the message says what went wrong; *Kernel → Restart Kernel
-#   and Run All Cells* mends what came from cells run out of order.
-# - **Everything else:** the `README.md` of the project, and who gave you the course.
+# - **A function:** Shift+Tab behind its name, or `help(name)`, shows its equation, and the shape and
+#   unit of each argument.
+# - **A check that fails:** read its first ✗ line, which says what law is broken, then the case below
+#   it, and try your function on that input by hand.
+# - **A cell that fails:** the last line of the message says what went wrong.
+# - **Everything else:** the `README.md` of the project, and whoever gave you the course.
 #
 # **What comes next:** [01 · Why SLAM](01_why_slam.ipynb). A robot drives round a corridor and comes
 # home, but its map does not.
+
+# %% [markdown] slideshow={"slide_type": "skip"} name="letters"
+# ## Appendix: notation
+#
+# **A letter has one meaning** in all lessons, exercises and docstrings. Capital letters are
+# matrices, unless it says otherwise. A roman subscript $\mathrm{r}$ is the robot: of a covariance
+# $P$, the block of the robot's pose is $P_{\mathrm{rr}}$. A hat, as in $\hat{x}$, marks an estimate.
+#
+# | Letter | What it means |
+# | --- | --- |
+# | $x$ | the state: the robot's pose $x$, $y$, $\theta$, and with it, from lesson 06 on, the map; $y$ and $\theta$ are nothing else |
+# | $a$, $b$ | any two poses |
+# | $u$ | control: distance $d$ and turn $\Delta\theta$; of a steered robot the speed $V$ and the angle $\gamma$ |
+# | $s$ | way that a wheel rolls |
+# | $B$ | distance between wheels, or axles [m] |
+# | $T$ | time of a step [s]; with a pose as its subscript, $T_a$, the pose's homogeneous matrix |
+# | $\mathrm{Rot}$ | $\mathrm{Rot}(\theta)$ rotates by the angle $\theta$ |
+# | $p$ | a point or landmark in the world; $p_{\mathrm{r}}$ in the frame of the robot |
+# | $l$ | a wall's line: its distance $\rho$ from the origin, the direction $\alpha$ of its normal |
+# | $z$ | a measurement: of a landmark, range $r$ and bearing $\beta$ |
+# | $r$ | range, and nothing else |
+# | $f$ | model of the motion: the next pose |
+# | $h$ | model of the observation: what is measured |
+# | $g$ | the inverse of $h$: where the landmark is that was measured |
+# | $A$ | Jacobian of the motion with respect to the pose; $A_k$ leads from step $k-1$ to $k$, and products are $A_k \cdots A_1$ |
+# | $W$ | Jacobian of the motion with respect to the control |
+# | $H$ | Jacobian of the observation |
+# | $J$ | any other Jacobian, named by its subscript: $J_{\mathrm{r}}$ of $g$ with respect to the robot, $J_z$ with respect to the measurement |
+# | $F$ | matrix of a linear motion |
+# | $P$ | covariance of what is believed, and nothing else |
+# | $C$ | covariance of the noise of the control |
+# | $q$ | process noise, of covariance $Q$ |
+# | $Q$ | covariance of the process noise: $W C W^\top$ |
+# | $\varepsilon$ | noise of a sensor, of covariance $R$ |
+# | $R$ | covariance of the noise of a sensor |
+# | $v$ | innovation: measured minus predicted |
+# | $S$ | covariance of the innovation: $H P H^\top + R$ |
+# | $K$ | gain: $P H^\top S^{-1}$ |
+# | $\Lambda$ | information: the inverse of a covariance |
+# | $\sigma$ | standard deviation |
+# | $w$ | weight, of a sample for instance |
+# | $e$ | error: of a step, or of an edge between two poses |
+
+# %% [markdown] slideshow={"slide_type": "skip"} name="notation"
+# ### In the code
+#
+# Names in the code are those letters. A row without a function is an argument of those with one.
+# Units are metres and radians, and their squares in covariances.
+#
+# | Symbol | In the code | Shape | Unit | What it is |
+# | --- | --- | --- | --- | --- |
+# | $x$ | `x` | (3,) | m, m, rad | pose of the robot: $x$, $y$, $\theta$ |
+# | $u$ | `u` | (2,) | m, rad | control: distance and turn; of a steered robot speed [m/s] and angle |
+# | $p$ | `p` | (2,) | m | a landmark's position |
+# | $z$ | `z` | (2,) | m, rad | one observation: range and bearing |
+# | $a$, $b$ | `a`, `b` | (3,) | m, m, rad | any two poses |
+# | $l$ | `line` | (2,) | m, rad | a wall's line |
+# | $f$ | `models.f_odometry(x, u)` | (3,) | m, m, rad | the pose after driving a distance and turning |
+# | $f$ | `models.f_steered(x, u, B, T)` | (3,) | m, m, rad | the pose of a steered robot with wheel base $B$ after time $T$ |
+# | $h$ | `models.h(x, p)` | (2,) | m, rad | range and bearing of a landmark |
+# | $g$ | `models.g(x, z)` | (2,) | m | the landmark that was observed |
+# | $A$ | `jacobians.A_odometry(x, u)` | (3, 3) | | $\partial f/\partial x$ |
+# | $A$ | `jacobians.A_steered(x, u, B, T)` | (3, 3) | | the same of the steered robot |
+# | $W$ | `jacobians.W_odometry(x, u)` | (3, 2) | | $\partial f/\partial u$ |
+# | $W$ | `jacobians.W_steered(x, u, B, T)` | (3, 2) | | the same of the steered robot |
+# | $H$ | `jacobians.H_robot(x, p)` | (2, 3) | | $\partial h/\partial x$, the robot's part of $H$ |
+# | $H$ | `jacobians.H_landmark(x, p)` | (2, 2) | | $\partial h/\partial p$, the landmark's part of $H$ |
+# | $J_{\mathrm{r}}$ | `jacobians.J_xr(x, z)` | (2, 3) | | $\partial g/\partial x$: a new landmark moves with the robot |
+# | $J_z$ | `jacobians.J_z(x, z)` | (2, 2) | | $\partial g/\partial z$: a new landmark moves with its observation |
+# | $h$ | `models.h_line(x, line)` | (2,) | m, rad | distance and direction of a wall's line, seen from a pose |
+# | $g$ | `models.g_line(x, z)` | (2,) | m, rad | the line that was seen |
+# | $H$ | `jacobians.H_robot_line(x, line)` | (2, 3) | | $\partial h/\partial x$ of a line |
+# | $H$ | `jacobians.H_line(x, line)` | (2, 2) | | $\partial h/\partial l$ of a line |
+# | $J_{\mathrm{r}}$ | `jacobians.J_xr_line(x, z)` | (2, 3) | | $\partial g/\partial x$ of a line |
+# | $J_z$ | `jacobians.J_z_line(x, z)` | (2, 2) | | $\partial g/\partial z$ of a line |
+# | $C$ | `noise.C_odometry(u, distance_error, turn_error)` | (2, 2) | m², rad² | covariance of the control |
+# | $C$ | `noise.C_wheels(u, slip, base)` | (2, 2) | m², rad² | the same of two wheels that slip at random |
+# | $Q$ | `noise.Q(W, C)` | (3, 3) | m², rad² | what the control's noise adds to the pose's covariance |
+# | $R$ | `noise.R(r, range_error, bearing_sigma)` | (2, 2) | m², rad² | covariance of one observation |
+# | | `geometry.wrap(angle)` | () | rad | the same angle between −π and π |
+# | $a \oplus b$ | `geometry.compose(a, b)` | (3,) | m, m, rad | pose $b$, given in the frame of $a$, in the frame $a$ is given in |
+# | $\ominus a$ | `geometry.inverse(a)` | (3,) | m, m, rad | the pose that undoes $a$ |
+# | $\ominus a \oplus b$ | `geometry.between(a, b)` | (3,) | m, m, rad | pose $b$ as seen from pose $a$ |
+# | $T_a$ | `geometry.matrix(a)` | (3, 3) | | homogeneous matrix of a pose |
+# | | `geometry.from_matrix(T)` | (3,) | m, m, rad | the pose of a homogeneous matrix |
+# | | `geometry.transform(a, points)` | (n, 2) | m | points (n, 2) of the frame of $a$ in the frame $a$ is given in |
+#
+# A filter holds a belief of $n$ numbers, `b` in the code, and takes in $m$ measured ones. Its update
+# returns a new belief and a `step` that says what it was made of:
+#
+# | Symbol | In the code | Shape | What it is |
+# | --- | --- | --- | --- |
+# | $x$ | `b.x` | (n,) | the mean: what is believed |
+# | $P$ | `b.P` | (n, n) | its covariance: how wrong that may be |
+# | $F$, $Q$ | `linear.predict(b, F, Q)` | (n, n) | time passes: $x$ becomes $F x$, and noise of covariance $Q$ is added |
+# | $H$, $R$ | `linear.update(b, z, H, R)` | (m, n), (m, m) | a measurement $z$ of $H x$, with noise of covariance $R$ |
+# | $v$ | `step.innovation` | (m,) | measured minus predicted: $z - H x$ |
+# | $S$ | `step.S` | (m, m) | covariance of $v$ |
+# | $K$ | `step.K` | (n, m) | the gain; $x$ grows by $K v$ |
+# | | `step.nis` | () | $v^\top S^{-1} v$: $m$ on average if $S$ is just right, less if the filter is too modest, more if it is too sure |
+#
+# A graph of poses (lesson 15) holds edges: an edge $z$ says where pose $j$ is, seen from pose $i$.
+#
+# | Symbol | In the code | Shape | What it is |
+# | --- | --- | --- | --- |
+# | $e$ | `edges.error(x_i, x_j, z)` | (3,) | how far pose $j$ is from where pose $i$ and $z$ say it is |
+# | $J_i$ | `jacobians.J_i(x_i, x_j, z)` | (3, 3) | $\partial e/\partial x_i$ |
+# | $J_j$ | `jacobians.J_j(x_i, x_j, z)` | (3, 3) | $\partial e/\partial x_j$ |
 
 # %% [markdown] slideshow={"slide_type": "skip"}
 # ## Appendix: the field's words

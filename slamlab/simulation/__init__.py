@@ -5,6 +5,7 @@ Read in this order:
 - ``range_scanners``: Scanner and its presets: lidar, infrared, ultrasonic cone
 - ``differential_drive``: Simulator, the true pose, encoders and odometry
 - ``wall_follower``: the MAK thesis' controller
+- ``cart``: a cart in a corridor, the linear system of lesson 03
 
 Simulated drives as sources of readings are in :mod:`slamlab.sources`.
 """

@@ -59,6 +59,8 @@ class DifferentialDrive:
 def arc(left, right, base):
     """Odometry increment of a differential drive (forward kinematics): a circular arc, exact.
 
+    Equation (01.2).
+
     d = (l+r)/2,  Δθ = (r−l)/base,  chord d·sin(Δθ/2)/(Δθ/2) at bearing Δθ/2
 
     Parameters

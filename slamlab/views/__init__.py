@@ -17,7 +17,7 @@ Read in this order:
 from slamlab.views import box_drawing as boxes
 from slamlab.views.colours import COLOURS, SERIES
 from slamlab.views.comparison import against_band, cloud, curves
-from slamlab.views.figures import axes, band, chart, panels
+from slamlab.views.figures import axes, band, chart, panels, two_sigma
 from slamlab.views.frame_sketches import frames
 from slamlab.views.heatmap import cells
 from slamlab.views.interval_plot import shares
@@ -60,5 +60,6 @@ __all__ = [
     "shares",
     "show",
     "side_by_side",
+    "two_sigma",
     "wheel",
 ]

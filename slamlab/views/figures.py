@@ -109,3 +109,20 @@ def band(ax, low, high, label=None):
     edge = {"edgecolor": COLOURS["limit"], "linestyle": "dashdot", "linewidth": 0.8}
     # the shade may be faint, for the edges are not
     return ax.axhspan(low, high, facecolor=f"{COLOURS['guide']}66", label=label, zorder=0, **edge)
+
+
+def two_sigma(ax, x, y, sigma, label, color=COLOURS["corrected"]):
+    """Draw an estimate over time, and the band of ±2σ round it that a filter believes in.
+
+    Parameters
+    ----------
+    ax : Axes
+    x, y : (n,)
+    sigma : (n,) standard deviations
+    label : str, for the legend
+    color : what matplotlib takes for one
+    """
+    ax.fill_between(
+        x, y - 2 * sigma, y + 2 * sigma, color=color, alpha=0.2, label=f"±2σ of {label}"
+    )
+    ax.plot(x, y, color=color, linewidth=2, label=label)

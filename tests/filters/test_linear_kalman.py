@@ -6,7 +6,7 @@ from filterpy.kalman import KalmanFilter
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from slamlab.filters.linear_kalman import belief, predict, update
+from slamlab.filters.linear_kalman import belief, filter_runs, predict, update
 from tests.filters.textbook import random_covariance
 
 
@@ -106,3 +106,28 @@ def test_bad_input_is_named_and_changes_nothing(call, says):
     with pytest.raises(ValueError, match=says):
         call(b)
     assert np.array_equal(b.x, [1, 2]) and np.array_equal(b.P, np.eye(2))
+
+
+def test_many_runs_at_once_are_each_filtered_step_by_step():
+    rng = np.random.default_rng(3)
+    b, zs = belief(rng.normal(size=3), random_covariance(rng, 3)), rng.normal(size=(4, 6, 2))
+    F, G, H = (rng.normal(size=shape) for shape in ((3, 3), (3, 2), (2, 3)))
+    Q, R, us = random_covariance(rng, 3), random_covariance(rng, 2), rng.normal(size=(6, 2))
+    zs[:, 2:4] = np.nan
+    found = filter_runs(b, zs, F, Q, H, R, G, us)
+    for run in range(4):
+        now = b
+        for k in range(6):
+            now = predict(now, F, Q, G, us[k])
+            assert np.allclose(found.innovations[run, k], zs[run, k] - H @ now.x, equal_nan=True)
+            assert np.allclose(found.S[k], H @ now.P @ H.T + R)
+            if k not in (2, 3):
+                now, _ = update(now, zs[run, k], H, R)
+            assert np.allclose(found.x[run, k], now.x) and np.allclose(found.P[k], now.P)
+
+
+def test_runs_that_measure_at_different_steps_are_refused():
+    zs = np.zeros((2, 3, 1))
+    zs[0, 1] = np.nan
+    with pytest.raises(ValueError, match="same steps"):
+        filter_runs(belief([0.0], [[1.0]]), zs, *(np.eye(1) for _ in range(4)))

@@ -265,6 +265,7 @@ def test_nothing_a_submission_started_outlives_it(tmp_path):
     cell = (
         "import os, time\nif os.fork() == 0:\n"
         f"    while True:\n        open({str(mark)!r}, 'w').close(); time.sleep(0.02)\n"
+        f"while not os.path.exists({str(mark)!r}):\n    time.sleep(0.02)\n"
     )
     with WorkerPool() as unbounded:
         result = judged(cell, fake.SOLUTION, by=unbounded)["verdicts"]

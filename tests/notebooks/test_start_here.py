@@ -1,4 +1,4 @@
-"""Lesson 00 keeps its word: the notation is that of the code, the map is that of the course."""
+"""Lesson 00 keeps its word: a letter has one meaning, that of the code; the map is the course's."""
 
 import importlib
 import inspect
@@ -91,6 +91,43 @@ def test_a_symbol_of_the_graph_is_a_function_that_returns_its_shape():
         assert np.shape(function(*rng.uniform(0.5, 1.5, (3, 3)))) == shape(size)
 
 
+def letters(symbol):
+    """The letters of a symbol such as "$\\ominus a \\oplus b$", its subscripts left out."""
+    bare = re.sub(r"_(\{.*?\}|.)(?=[\s$^]|$)|\\[o]?(minus|plus)", "", symbol)
+    return re.findall(r"Rot|\\[a-zA-Z]+|[A-Za-z]", bare.replace(r"\mathrm", ""))
+
+
+def test_a_letter_has_one_meaning():
+    listed = [letter for symbol, _ in table("letters") for letter in letters(symbol)]
+    assert len(set(listed)) == len(listed) > 25
+    assert r"\nu" not in listed  # no eye tells it from v
+    meanings = [meaning for _, meaning in table("letters")]
+    assert len(set(meanings)) == len(meanings)
+
+
+def test_the_symbols_of_functions_are_letters_of_the_table():
+    known = {letter for symbol, _ in table("letters") for letter in letters(symbol)}
+    for rows in tables("notation"):
+        assert {letter for symbol, *_ in rows for letter in letters(symbol)} <= known
+
+
+def test_the_first_notation_is_part_of_the_whole():
+    whole = {code: (symbol, meaning) for symbol, code, _, _, meaning in table("notation")}
+    for symbol, code, meaning in table("first-notation"):
+        if "(" in code:
+            assert whole[code] == (symbol, meaning)
+
+
+def test_the_nis_is_m_if_s_is_just_right_and_less_if_the_filter_is_too_modest():
+    rng, H, R = np.random.default_rng(4), np.eye(2, 3), np.diag([0.5, 2.0])
+    P = np.diag([1.0, 2.0, 3.0])
+    for share, wanted in ((1.0, 2.0), (4.0, 0.5)):  # the covariances told, as a share of the true
+        belief = linear_kalman.belief(np.zeros(3), share * P)
+        draws = rng.multivariate_normal(np.zeros(2), H @ P @ H.T + R, 4000)
+        nis = [linear_kalman.update(belief, z, H, share * R)[1].nis for z in draws]
+        assert np.mean(nis) == pytest.approx(wanted, rel=0.1)
+
+
 @pytest.mark.parametrize("room", MODULES)
 def test_every_function_of_the_models_stands_in_the_notation(room):
     public = {
@@ -113,6 +150,7 @@ def test_the_map_holds_every_lesson_with_its_title_and_its_minutes():
     stated = {
         re.search(r"\((\w+)\.ipynb\)", title)[1]: (number, title, lesson, exercise)
         for number, title, _, lesson, exercise in table("map-of-lessons")
+        + table("map-of-lessons-2")
     }
     assert set(stated) == {path.stem for path in LESSONS.glob("*.py")}
     for stem, (number, title, lesson, exercise) in stated.items():

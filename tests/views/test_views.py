@@ -354,3 +354,13 @@ def test_curves_against_a_band_stand_on_a_logarithmic_axis_with_the_band_in_the_
     assert [text.get_text() for text in ax.get_legend().get_texts()] == ["a", "95 % band"]
     (shade,) = ax.patches
     assert np.allclose([shade.get_y(), shade.get_y() + shade.get_height()], [2.4, 3.7])
+
+
+def test_the_band_of_an_estimate_reaches_two_sigma_to_either_side():
+    _, ax = views.chart("x [m]", "y [m]")
+    x, y, sigma = np.arange(3.0), np.array([1.0, 2.0, 4.0]), np.array([0.1, 0.2, 0.3])
+    views.two_sigma(ax, x, y, sigma, "filter")
+    corners = ax.collections[0].get_paths()[0].vertices
+    for k in range(3):
+        heights = corners[corners[:, 0] == x[k], 1]
+        assert np.allclose([heights.min(), heights.max()], y[k] + 2 * sigma[k] * np.array([-1, 1]))

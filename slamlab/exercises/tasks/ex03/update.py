@@ -48,7 +48,7 @@ UPDATE = Task(
             2,
             "P is the covariance of that estimate's error",
             lambda i: {"P": least_squares(i)[1]},
-            asks="Write the new error, x̃ − K (H x̃ + r), and multiply it by its transpose: which "
+            asks="Write the new error, x̃ − K (H x̃ + ε), and multiply it by its transpose: which "
             "terms are left when you take the expected value, and does your P hold all of them?",
         ),
     ),

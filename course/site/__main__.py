@@ -1,0 +1,28 @@
+"""Command ``python -m course.site``: build the site, then look through what was built."""
+
+import argparse
+import sys
+from pathlib import Path
+
+from course.site import building, looking
+from course.source import ROOT
+
+
+def main(argv=None):
+    """Run the command line; returns its exit code."""
+    parser = argparse.ArgumentParser(prog="python -m course.site", description=__doc__)
+    parser.add_argument("--out", type=Path, default=ROOT / "site", help="where to (site/)")
+    options = parser.parse_args(argv)
+    try:
+        building.build(options.out)
+    except building.SiteError as error:
+        print(error, file=sys.stderr)
+        return 1
+    problems = looking.problems(options.out)
+    print(*problems, sep="\n", end="\n" if problems else "", file=sys.stderr)
+    print(f"{options.out}: {looking.size(options.out) / 1e6:.1f} MB, begin with index.html")
+    return 1 if problems else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

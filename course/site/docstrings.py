@@ -1,0 +1,29 @@
+"""Extension of Sphinx: docstrings are plain text; |l| and a*b in them are no markup."""
+
+import re
+
+import numpy as np
+
+_LITERAL = re.compile(r"(``.+?``|:\w+:`[^`]+`)")
+
+
+def setup(app):
+    """Register with Sphinx."""
+    app.setup_extension("sphinx.ext.autodoc")
+    # before numpydoc, which makes sections of the lines
+    app.connect("autodoc-process-docstring", _plain, priority=100)
+    app.connect("autodoc-skip-member", _skipped)
+    return {"parallel_read_safe": True, "version": "1"}
+
+
+def _plain(app, what, name, obj, options, lines):
+    lines[:] = ["".join(map(_escaped, _LITERAL.split(line))) for line in lines]
+
+
+def _skipped(app, what, name, obj, skip, options):
+    """NumPy's own functions, as defaults of ours, have no signature."""
+    return True if isinstance(obj, np.ufunc) else None
+
+
+def _escaped(text):
+    return text if _LITERAL.fullmatch(text) else re.sub(r"([|*])", r"\\\1", text)

@@ -1,0 +1,92 @@
+"""Extension of Sphinx: formulas are set by KaTeX while the site is built, all in one go.
+
+A page then needs no JavaScript for them; MathML goes along, for screen readers.
+"""
+
+import hashlib
+import json
+import subprocess
+from pathlib import Path
+
+from docutils import nodes
+from sphinx.errors import ExtensionError
+from sphinx.util import logging
+
+HERE = Path(__file__).parent
+_logger = logging.getLogger(__name__)
+
+
+def setup(app):
+    """Register with Sphinx."""
+    app.add_config_value("katex_modules", None, "", types=str)
+    app.add_html_math_renderer("katex", (_visit_inline, None), (_visit_block, None))
+    app.connect("env-updated", _typeset_all)
+    return {"parallel_read_safe": True, "version": "1"}
+
+
+def _typeset_all(app, env):
+    """Set every formula of every page that is not known from before."""
+    known = _read(app)
+    wanted = {}
+    for name in env.found_docs:
+        for node in env.get_doctree(name).findall(_is_formula):
+            formula = (node.astext(), isinstance(node, nodes.math_block))
+            wanted.setdefault(_key(*formula), (formula, (name, node.line)))
+    missing = {key: found for key, found in wanted.items() if key not in known}
+    if missing:
+        results = _typeset([formula for formula, _ in missing.values()], app.config.katex_modules)
+        for (key, (formula, place)), made in zip(missing.items(), results, strict=True):
+            if "error" in made:
+                _logger.warning("formula %s: %s", formula[0], made["error"], location=place)
+            else:
+                known[key] = made["html"]
+        _file(app).write_text(json.dumps(known), encoding="utf-8")
+    app.env.katex_html = known
+    return []
+
+
+def _is_formula(node):
+    return isinstance(node, nodes.math | nodes.math_block)
+
+
+def _typeset(formulas, modules):
+    """HTML or error of formulas, each (LaTeX, whether displayed); one process for all."""
+    command = ["node", str(HERE / "typeset.mjs"), modules]
+    done = subprocess.run(
+        command, input=json.dumps(formulas), capture_output=True, text=True, encoding="utf-8"
+    )
+    if done.returncode:
+        raise ExtensionError(f"KaTeX failed:\n{done.stderr[-2000:]}")
+    return json.loads(done.stdout)
+
+
+def _key(latex, displayed):
+    return hashlib.sha256(f"{int(displayed)}{latex}".encode()).hexdigest()
+
+
+def _file(app):
+    return Path(app.doctreedir) / "formulas.json"
+
+
+def _read(app):
+    try:
+        return json.loads(_file(app).read_text(encoding="utf-8"))
+    except (FileNotFoundError, ValueError):
+        return {}
+
+
+def _html(visitor, node):
+    key = _key(node.astext(), isinstance(node, nodes.math_block))
+    return visitor.builder.env.katex_html.get(key, visitor.encode(node.astext()))
+
+
+def _visit_inline(visitor, node):
+    visitor.body.append(_html(visitor, node))
+    raise nodes.SkipNode
+
+
+def _visit_block(visitor, node):
+    visitor.body.append('<div class="formula" role="group" aria-label="Formula">')
+    visitor.body.append(_html(visitor, node))
+    visitor.body.append("</div>\n")
+    raise nodes.SkipNode

@@ -1,0 +1,87 @@
+"""A notebook as the site shows it: no lecturer's notes, questions to unfold, links to pages."""
+
+import copy
+import re
+
+from course.site.questions import asks, question
+
+NOTE = "notes"
+PLACEHOLDER = re.compile(r"Run this cell [^.]*\.")  # words in place of a widget
+_LINK = re.compile(r"\]\((?:\.\./)?(?:(notebooks|exercises)/)?((?:ex)?\d\d_\w+)\.ipynb(#[\w-]+)?\)")
+_LESSON = re.compile(r"(?<!\[)\b([Ll]essons?) (\d\d)\b(?![^\[]*\])(?! ?[:·])")
+_GUIDE = re.compile(r"\]\(\.\./docs/(\w+)\.md")
+_H1 = re.compile(r"^# (?=\S)", re.MULTILINE)
+
+
+def page(notebook, files):
+    """The notebook that the site shows in place of one.
+
+    Parameters
+    ----------
+    notebook : NotebookNode, left as it is
+    files : dict, number of a lesson to the name of its notebook without suffix
+
+    Returns
+    -------
+    NotebookNode
+    """
+    shown = copy.deepcopy(notebook)
+    shown.metadata.pop("slamlab", None)
+    shown.cells = [cell for cell in shown.cells if not _is_for_lecturers(cell)]
+    for k, cell in enumerate(shown.cells):
+        if cell.cell_type == "markdown":
+            cell.source = _linked(cell.source if k == 0 else _demoted(cell.source), files)
+        elif found := question(cell.source):
+            shown.cells[k] = found.as_cell(cell.id)
+        else:
+            _tidy(cell)
+            if asks(cell.source):  # the code tells the answer
+                cell.metadata.tags.append("remove-input")
+    return shown
+
+
+def _is_for_lecturers(cell):
+    metadata = cell.metadata
+    is_note = metadata.get("slideshow", {}).get("slide_type") == NOTE
+    return is_note or "lecturer" in metadata.get("tags", [])
+
+
+def _demoted(text):
+    """A page has one heading of the first level: its title."""
+    return _H1.sub("## ", text)
+
+
+def _linked(text, files):
+    """Links to notebooks lead to pages; a lesson named by its number is a link."""
+
+    def to_page(found):
+        kind, name, part = found.groups()
+        kind = kind or ("exercises" if name.startswith("ex") else "notebooks")
+        return f"](../{kind}/{name}.ipynb{part or ''})"
+
+    def to_lesson(found):
+        word, number = found.groups()
+        name = files.get(number)
+        return f"[{word} {number}](../notebooks/{name}.ipynb)" if name else found[0]
+
+    lines = [
+        line if line.startswith(("#", "    ")) else _LESSON.sub(to_lesson, line)
+        for line in _GUIDE.sub(r"](../guides/\1.md", _LINK.sub(to_page, text)).split("\n")
+    ]
+    return "\n".join(lines)
+
+
+def _tidy(cell):
+    """Fold what answers a question; drop the words that stand in a widget's place."""
+    tags = cell.metadata.setdefault("tags", [])
+    if "answers" in cell.metadata.get("slamlab", {}):
+        tags.append("hide-cell")
+    cell.outputs = [output for output in cell.outputs if not _is_placeholder(output)]
+
+
+def _is_placeholder(output):
+    data = output.get("data", {})
+    empty = not any(text for text in data.values())
+    words = data.get("text/plain", "")
+    alone = "data" in output and set(data) == {"text/plain"}
+    return ("data" in output and empty) or bool(alone and PLACEHOLDER.fullmatch(words))

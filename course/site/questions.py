@@ -1,0 +1,95 @@
+"""Questions of a lesson on its page: each choice unfolds to what is to be said of it."""
+
+import ast
+import html
+from dataclasses import dataclass
+
+import nbformat
+
+
+@dataclass(frozen=True)
+class Question:
+    """What a cell that calls :func:`slamlab.checks.ask` asks.
+
+    Parameters
+    ----------
+    text : str, Markdown
+    choices : dict, text of a choice (or a number with its unit) to what is said of it, Markdown
+    right : str, the one that is right
+    """
+
+    text: str
+    choices: dict
+    right: str
+
+    def as_cell(self, id):
+        """The question as a Markdown cell, without JavaScript: a fold a choice."""
+        folds = [_fold(choice, said, choice == self.right) for choice, said in self.choices.items()]
+        return nbformat.v4.new_markdown_cell("\n\n".join([self.text, *folds]), id=id)
+
+
+def question(code):
+    """The question that a cell of code asks, or None; what is computed there cannot be told here.
+
+    Parameters
+    ----------
+    code : str
+
+    Returns
+    -------
+    Question
+    """
+    call = _call(code)
+    if call is None:
+        return None
+    try:
+        return _read(call)
+    except ValueError:  # no literal
+        return None
+
+
+def asks(code):
+    """Whether a cell of code asks a question.
+
+    Parameters
+    ----------
+    code : str
+
+    Returns
+    -------
+    bool
+    """
+    return _call(code) is not None
+
+
+def _read(call):
+    names = ("id", "text", "choices")
+    told = dict(zip(names, map(ast.literal_eval, call.args), strict=False))
+    told |= {each.arg: ast.literal_eval(each.value) for each in call.keywords}
+    right = told["right"]
+    if "choices" in told:
+        return Question(told["text"], told["choices"], right)
+    unit = f" {told['unit']}" if told.get("unit") else ""
+    found = {f"{right:g}{unit}": told.get("reason", "")}
+    wrong = {f"{value:g}{unit}": why for value, why in told.get("wrong", {}).items()}
+    ordered = sorted((found | wrong).items(), key=lambda each: float(each[0].split()[0]))
+    return Question(told["text"], dict(ordered), f"{right:g}{unit}")
+
+
+def _call(code):
+    """The call of ``ask`` at the top level of some code, or None."""
+    try:
+        body = ast.parse(code).body
+    except SyntaxError:
+        return None
+    calls = [each.value for each in body if isinstance(each, ast.Expr)]
+    named = [each for each in calls if isinstance(each, ast.Call)]
+    asked = [each for each in named if isinstance(each.func, ast.Name) and each.func.id == "ask"]
+    return asked[0] if asked else None
+
+
+def _fold(choice, said, is_right):
+    verdict = "✓ Right" if is_right else "✗ Not so"
+    words = f"**{verdict}:** {said}" if said else f"**{verdict}.**"
+    summary = html.escape(choice)
+    return f'<details class="choice"><summary>{summary}</summary>\n\n{words}\n\n</details>'

@@ -1,0 +1,89 @@
+"""The site as it is built, opened as files: on a desktop, on a phone, in the dark, searched."""
+
+import shutil
+
+import pytest
+from axe_playwright_python.sync_playwright import Axe
+
+from course.site import building, looking
+
+pytestmark = pytest.mark.slow
+SCREENS = {"desktop": (1280, "light"), "dark": (1280, "dark"), "phone": (390, "light")}
+PAGES = (
+    "index",
+    "notebooks/04_models_and_jacobians",
+    "exercises/ex04_models_and_jacobians",
+    "guides/architecture",
+)
+LOADED = "document.fonts.ready.then(() => document.readyState == 'complete')"
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory):
+    """The whole site, built from nothing."""
+    if not shutil.which("npm"):
+        pytest.skip("no npm here: KaTeX, which sets the formulas, cannot be fetched")
+    folder = tmp_path_factory.mktemp("site")
+    try:
+        building.katex_modules(folder / "work")
+    except building.SiteError as reason:
+        pytest.skip(str(reason))
+    building.build(folder / "out", folder / "work")
+    return folder / "out"
+
+
+@pytest.fixture(params=SCREENS)
+def look(request, browser, site):
+    """Open a page on a screen; what it says of errors, and what it asks of others, is kept."""
+    wide, scheme = SCREENS[request.param]
+    context = browser.new_context(viewport={"width": wide, "height": 800}, color_scheme=scheme)
+    page, wrong = context.new_page(), []
+    page.on("console", lambda said: wrong.append(said.text) if said.type == "error" else None)
+    page.on("pageerror", lambda error: wrong.append(str(error)))
+    page.on(
+        "request", lambda asked: asked.url.startswith(("file:", "data:")) or wrong.append(asked.url)
+    )
+
+    def open_page(name):
+        page.goto((site / name).as_uri())
+        page.wait_for_function(LOADED)
+        return page
+
+    yield open_page
+    context.close()
+    assert wrong == []
+
+
+def test_nothing_is_wrong_with_any_page(site):
+    assert looking.problems(site) == []
+
+
+@pytest.mark.parametrize("name", PAGES)
+def test_a_page_is_sound_fits_and_can_be_read_by_all(look, name):
+    page = look(f"{name}.html")
+    assert page.evaluate("document.documentElement.scrollWidth <= window.innerWidth")
+    # the spans of a formula are hidden from screen readers, which get its MathML
+    formulas = {"exclude": [[".katex-html"]]}
+    options = {"resultTypes": ["violations"], "preload": False}
+    found = Axe().run(page, context=formulas, options=options)
+    serious = [
+        f"{broken['id']}: {node['html'][:150]}"
+        for broken in found.response["violations"]
+        if broken["impact"] in ("serious", "critical")
+        for node in broken["nodes"]
+    ]
+    assert serious == []
+
+
+@pytest.mark.parametrize("words", ["Jacobian", "ψ"])
+def test_the_search_finds(look, words):
+    page = look(f"search.html?q={words}")
+    page.locator("#search-results li").first.wait_for()
+
+
+def test_a_page_that_was_read_is_ticked(look):
+    page = look("notebooks/01_why_slam.html")
+    page.get_by_role("button", name="Mark as read").click()
+    page.reload()
+    assert page.get_by_role("button", name="Read ✓").get_attribute("aria-pressed") == "true"
+    assert page.locator(".sidebar-tree a.slamlab-was-read").count() == 1

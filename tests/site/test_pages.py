@@ -1,0 +1,114 @@
+"""What the site makes of a notebook, a question, a formula; what it finds wrong with itself."""
+
+import nbformat
+import pytest
+
+from course.site import looking
+from course.site.pages_of_notebooks import page
+from course.site.questions import question
+from course.site.symbols import plain_forms
+
+FILES = {"04": "04_models_and_jacobians"}
+
+
+def text(source, **metadata):
+    return nbformat.v4.new_markdown_cell(source, metadata=metadata)
+
+
+def code(source, *outputs, **metadata):
+    shown = [nbformat.v4.new_output("display_data", data=data) for data in outputs]
+    return nbformat.v4.new_code_cell(source, outputs=shown, metadata=metadata)
+
+
+def shown(*cells):
+    return page(nbformat.v4.new_notebook(cells=[text("# 05 · Title"), *cells]), FILES).cells[1:]
+
+
+def test_lecturers_notes_are_no_part_of_a_page():
+    notes = [
+        text("Ask.", slideshow={"slide_type": "notes"}),
+        text("If you give the lecture", tags=["lecturer"]),
+    ]
+    assert shown(*notes) == []
+
+
+def test_a_page_has_one_heading_of_the_first_level():
+    assert shown(text("# Part two\n\n## A section"))[0].source == "## Part two\n\n## A section"
+
+
+@pytest.mark.parametrize(
+    "before, after",
+    [
+        ("[a](04_models_and_jacobians.ipynb)", "[a](../notebooks/04_models_and_jacobians.ipynb)"),
+        ("[a](../exercises/ex04_m.ipynb#part)", "[a](../exercises/ex04_m.ipynb#part)"),
+        ("[a](../docs/lecturing.md)", "[a](../guides/lecturing.md)"),
+        ("See lesson 04.", "See [lesson 04](../notebooks/04_models_and_jacobians.ipynb)."),
+        ("See lesson 77.", "See lesson 77."),
+        ("[lesson 04](x.ipynb)", "[lesson 04](x.ipynb)"),
+    ],
+)
+def test_links_lead_to_pages(before, after):
+    assert shown(text(before))[0].source == after
+
+
+def test_a_question_unfolds_choice_by_choice_and_its_code_is_not_shown():
+    asked = 'ask("05-a", "Why?", {"A < B": "no, *since*.", "C": "yes."}, right="C")'
+    (cell,) = shown(code(asked))
+    assert cell.cell_type == "markdown" and "ask(" not in cell.source
+    assert cell.source.count("<details") == 2 and "A &lt; B" in cell.source
+    assert "**✓ Right:** yes." in cell.source and "**✗ Not so:** no, *since*." in cell.source
+
+
+def test_a_number_that_is_asked_for_stands_among_those_one_may_have():
+    asked = 'ask("05-n", "How many?", right=-2, unit="m", reason="so", wrong={10: "no", -7: "no"})'
+    assert list(question(asked).choices) == ["-7 m", "-2 m", "10 m"]
+    assert question(asked).right == "-2 m"
+
+
+def test_a_question_that_is_computed_shows_no_code_that_tells_the_answer():
+    (cell,) = shown(code('ask("05-n", "How many?", right=len(run))'))
+    assert question(cell.source) is None and "remove-input" in cell.metadata.tags
+
+
+def test_what_answers_a_question_is_folded_and_words_for_widgets_are_dropped():
+    controls, picture = {"text/plain": "Run this cell for its controls."}, {"text/html": "<img>"}
+    answering, other = shown(
+        code("draw()", controls, picture, slamlab={"answers": "05-a"}), code("1", picture)
+    )
+    assert "hide-cell" in answering.metadata.tags and "hide-cell" not in other.metadata.tags
+    assert [output.data for output in answering.outputs] == [picture]
+
+
+@pytest.mark.parametrize(
+    "latex, plain",
+    [
+        (r"\psi", {"ψ"}),
+        (r"P_{\mathrm{ri}} = \Lambda", {"P_ri", "Λ"}),
+        (r"\hat{x}_{k}", {"x"}),
+        (r"P_{r,i}", {"P_ri"}),
+        (r"\varepsilon + \lambda", {"ε", "λ"}),
+    ],
+)
+def test_symbols_are_found_by_their_plain_form(latex, plain):
+    assert plain <= plain_forms(latex)
+
+
+def test_looking_finds_what_is_wrong_with_a_site(tmp_path):
+    (tmp_path / "a.html").write_text(
+        '<p id="here"><a href="b.html#there">b</a><a href="b.html#gone">b</a><a href="c.html">c</a>'
+        '<a href="../out.html">o</a><a href="https://doi.org/1">d</a><img src="p.png">'
+        '<script src="//cdn.example/x.js"></script>For the lecturer'
+    )
+    (tmp_path / "b.html").write_text('<p id="there"><a href="a.html#here">a</a>')
+    (tmp_path / "p.png").touch()
+    found = looking.problems(tmp_path)
+    wanted = [
+        "says 'For",
+        "another machine",
+        "#gone",
+        "link c.html",
+        "../out.html",
+        "without a text",
+    ]
+    assert len(found) == len(wanted)
+    assert all(any(words in each for each in found) for words in wanted)
