@@ -2,20 +2,21 @@
 # # Exercise 05 · Two easy halves
 #
 # **You will be able to** find a robot in a map that is known, and draw a map from poses that are
-# known: all that an EKF needs, written by you. Then a sensor that the lesson has not met, and a robot
-# that is lost and lied to.
+# known, with an EKF that you have written yourself. Then you meet a sensor that the lesson has not
+# met, and a robot that is lost and lied to.
 #
 # **60 minutes. Before:** lesson [05 · Two easy halves](../notebooks/05_two_easy_halves.ipynb).
 #
 # Replace each `raise NotImplementedError(...)` by your code, run the cell, then run the check below
 # it, as often as you like. A check tries random inputs and others that are as special as the text
-# allows; where a law is broken it shows a small input that breaks it, and `hint("05-locate")` in a cell
-# of your own leads on.
+# allows. Where a law is broken it shows a small input that breaks it, and `hint("05-locate")` in a
+# cell of your own leads on.
 #
-# Metres and radians. A pose is `[x, y, θ]`, a drive `u = [d, Δθ]`, a sight `z = [r, β]`. Angles count
-# modulo 2π. A belief is a mean and a covariance; functions return both: `return x, P`. All covariances
-# you are given are positive definite, and need not be diagonal. No function may change the arrays it
-# is given: whoever called it still needs them.
+# All lengths are in metres, all angles in radians. A pose is `[x, y, θ]`, a drive `u = [d, Δθ]`, a
+# sight `z = [r, β]`. Angles count modulo $2\pi$. A belief is a mean and a covariance, and functions
+# return both: `return x, P`. All covariances that you are given are positive definite, and they need
+# not be diagonal. No function may change the arrays it is given, because whoever called it still needs
+# them.
 
 # %%
 import numpy as np
@@ -33,15 +34,17 @@ from slamlab.models import f_odometry, g, h
 #
 # | model | its Jacobians |
 # | --- | --- |
-# | `f_odometry(x, u)`: drive d, then turn by Δθ | `A_odometry(x, u)`, `W_odometry(x, u)` |
-# | `h(x, p)`: range and bearing of landmark p | `H_robot(x, p)`, `H_landmark(x, p)` |
-# | `g(x, z)`: the landmark seen at z | `J_z(x, z)` |
+# | `f_odometry(x, u)`: drive $d$, then turn by $\Delta\theta$ | `A_odometry(x, u)`, `W_odometry(x, u)` |
+# | `h(x, p)`: range and bearing of landmark $p$ | `H_robot(x, p)`, `H_landmark(x, p)` |
+# | `g(x, z)`: the landmark seen at $z$ | `J_z(x, z)` |
 #
-# and `wrap(angle)`, which brings an angle into (−π, π]. `h` takes one pose or a stack of them, `(k, 3)`.
+# There is also `wrap(angle)`, which brings an angle into $(-\pi, \pi]$. `h` takes one pose or a stack of
+# them, `(k, 3)`.
 #
-# And the drive, which needs no more than that. The wheels err: d and Δθ have the covariance C (2, 2).
+# The drive, too, is written already. The wheels err: $d$ and $\Delta\theta$ have the covariance $C$, a
+# $2 \times 2$ matrix. Hence
 #
-# $$x \leftarrow f(x, u), \qquad P \leftarrow A P A^{\mathsf T} + W C W^{\mathsf T}$$
+# $$\hat x \leftarrow f(\hat x, u), \qquad P \leftarrow A P A^{\mathsf T} + W C W^{\mathsf T}.$$
 
 
 # %%
@@ -54,18 +57,18 @@ def predict(x, P, u, C):
 # %% [markdown]
 # ## 1 · Locate: one landmark that is known
 #
-# The landmark at p was seen at z, and its place is known exactly. The innovation v is what was
-# measured minus what was to be expected, and H says how that changes with the pose. Then, as in
-# lesson 03,
+# The landmark at $p$ was seen at $z$, and its place is known exactly. The innovation $v$ is what was
+# measured minus what was to be expected, and $H$ says how the expected sight changes with the pose. Then
+# (05.5) holds:
 #
-# $$S = H P H^{\mathsf T} + R, \quad K = P H^{\mathsf T} S^{-1}, \quad x \leftarrow x + K v, \quad P
-# \leftarrow P - K S K^{\mathsf T}$$
+# $$S = H P H^{\mathsf T} + R, \quad K = P H^{\mathsf T} S^{-1}, \quad \hat x \leftarrow \hat x + K v, \quad P
+# \leftarrow P - K S K^{\mathsf T}.$$
 #
-# **Predict first.** The landmark is right behind the robot. It is expected at 179° and seen at
-# −179°. What is v?
+# **Predict first.** The landmark is right behind the robot. It is expected at 179° and seen at −179°.
+# What is $v$?
 #
-# **Your task.** The belief after the sight. The landmark may be anywhere but under the robot, near or
-# far, and the sight may contradict the belief. The range is a length, and is not wrapped.
+# **Your task.** Return the belief after the sight. The landmark may be anywhere but under the robot,
+# near or far, and the sight may contradict the belief. The range is a length, and is not wrapped.
 
 
 # %%
@@ -89,10 +92,10 @@ def locate(x, P, z, p, R):
 check("05-locate")
 
 # %% [markdown]
-# The check knows no formula for K: it solves the least squares problem that K solves, and compares.
+# The check knows no formula for $K$. It solves the least squares problem that $K$ solves, and compares.
 #
-# What one landmark tells, and what it does not. **Before you run it:** the landmark is 3 m to the
-# east. In which direction will the robot still be unsure?
+# The next cell shows what one landmark tells, and what it does not. **Before you run it:** the landmark is
+# 3 m to the east. In which direction will the robot still be unsure?
 
 
 # %%
@@ -107,18 +110,20 @@ def _():
 
 
 # %% [markdown]
-# The distance to the landmark is known now, x. Across the line of sight, y, much less: moving round
-# the landmark while turning towards it changes nothing that the robot sees.
+# The robot now knows $x$, its distance to the landmark. It knows $y$, across the line of sight, much less
+# well: if it moves round the landmark and turns so as to keep it at the same bearing, nothing that it
+# sees changes.
 #
 # ## 2 · Localise: a whole run
 #
-# Drive, look, drive, look. After drive k (from 0) the robot saw landmark `ids[k]` at `zs[k]`, or
-# nothing: then `ids[k]` is −1 and `zs[k]` means nothing. `landmarks[id]` is where it stands.
+# A run repeats two steps: drive, look, drive, look. After drive $k$ (counted from 0) the robot saw landmark
+# `ids[k]` at `zs[k]`, or it saw nothing: then `ids[k]` is −1 and `zs[k]` means nothing. `landmarks[id]` is
+# where a landmark stands.
 #
-# **Predict first.** How many beliefs are there after n steps? Is the start one of them?
+# **Predict first.** How many beliefs are there after $n$ steps? Is the start one of them?
 #
-# **Your task.** The belief after every step, with `predict` and your `locate`. There is at least one
-# step and one landmark; perhaps nothing is ever seen. The robot may stand or drive backwards.
+# **Your task.** Return the belief after every step, computed with `predict` and your `locate`. There is at
+# least one step and one landmark; perhaps nothing is ever seen. The robot may stand or drive backwards.
 
 
 # %%
@@ -145,7 +150,7 @@ def localise(x, P, drives, ids, zs, landmarks, C, R):
 check("05-localise")
 
 # %% [markdown]
-# A lap to try it on: the truth, and what the robot is told of it.
+# Here is a lap to try it on: the truth, and what the robot is told of it.
 
 
 # %% name="lap"
@@ -194,14 +199,15 @@ def _():
 
 
 # %% [markdown]
-# On the left they grow, and nothing makes them small again. On the right they grow where no
+# On the left the ellipses grow and stay large, since nothing is seen. On the right they grow where no
 # landmark is near, and shrink where one is seen.
 #
 # ## 3 · The whole map
 #
-# The other half. Now the poses are known exactly, and each landmark's place is a belief with a
-# covariance (2, 2) of its own. What a sight does to one of them is ready below, in the form that
-# adds up *information*, the inverse of a covariance. The robot's P does not come in: it is zero.
+# Now the other half: the poses are known exactly, and each landmark's place is a belief with a covariance
+# of its own, a $2 \times 2$ matrix. What a sight does to one landmark is ready below, in the form that adds
+# up *information*, the inverse of a covariance, as in (05.6). The covariance of the robot does not come in,
+# because it is zero.
 
 
 # %%
@@ -215,17 +221,17 @@ def update_landmark(p, P, x, z, R):
 
 
 # %% [markdown]
-# From the pose `xs[k]`, landmark `ids[k]` was seen at `zs[k]`. An id is any whole number from 0 on. A
-# new landmark is placed where it is seen, with what the sight's noise means there:
+# From the pose `xs[k]`, landmark `ids[k]` was seen at `zs[k]`. An id is any whole number from 0 on. A new
+# landmark is placed where it is seen, with what the sensor's noise means there, as in (05.8):
 #
-# $$p = g(x, z), \qquad P = J_z R J_z^{\mathsf T}$$
+# $$\hat p = g(x, z), \qquad P = J_z R J_z^{\mathsf T}.$$
 #
 # One that is in the map already is corrected by `update_landmark`.
 #
 # **Predict first.** Does a sight of landmark 7 change anything for landmark 12?
 #
-# **Your task.** A dict: id to the pair `(p, P)`, of the landmarks seen and no others. Perhaps nothing
-# was seen (`n = 0`). The check's sensor is a surveyor's, good to a third of a millimetre.
+# **Your task.** Return a dict from each id to its pair `(p, P)`, of the landmarks seen and no others. Perhaps
+# nothing was seen (`n = 0`). The check's sensor is a surveyor's, good to a third of a millimetre.
 
 
 # %%
@@ -251,8 +257,8 @@ def build_map(xs, ids, zs, R):
 check("05-map")
 
 # %% [markdown]
-# The map of the lap, from the true poses, and from those that the wheels alone tell. **Before you
-# run it:** will the ellipses on the right be larger?
+# The next cell draws the map of the lap twice, from the true poses and from those that the wheels alone tell.
+# **Before you run it:** will the ellipses on the right be larger?
 
 
 # %%
@@ -266,39 +272,42 @@ def _():
     for title, poses in {"true poses": true, "the wheels' poses": np.array(wheels[1:])}.items():
         p, P = zip(*build_map(poses[seen], ids[seen], zs[seen], R).values(), strict=True)
         maps[title] = [
-            layers.Poses("corrected", poses),
+            layers.Poses("truth" if poses is true else "naive", poses),
             layers.Ellipses("landmark", p, P),
-            layers.Points("truth", landmarks),
+            layers.Points("true landmark", landmarks),
         ]
     fig, both = views.side_by_side(maps, size=(9, 4.5))
     for ax in both:
-        ax.lines[-1].set(marker="x", markersize=5, markeredgewidth=1)
+        ax.lines[-1].set(marker="x", markersize=7, markeredgewidth=1.5)
+        ax.lines[-1].set(color=views.COLOURS["truth"], label="true landmark")
+    views.legend_below(fig)
     views.show(fig, alt="Left ellipses round the true landmarks; right as small, and beside them.")
 
 
 # %% [markdown]
-# They are as small, and they miss. A filter believes what it is told, and here it was told that the
-# poses are exact.
+# They are as small, and they miss the landmarks. A filter believes what it is told, and here it was told
+# that the poses are exact.
 #
 # ## 4 · Beacons that tell only how far they are
 #
-# A radio in the robot asks beacons on the walls how far they are. It hears no bearing, and its antenna
-# is not where the pose is: it is at `a = [forward, left]` of it, fixed to the robot, so that it swings
-# round when the robot turns. Beacon i stands at `beacons[i]`, known exactly, and was measured at
+# A radio in the robot asks beacons on the walls how far away they are. It hears no bearing, and its antenna
+# does not stand where the pose is. It is fixed to the robot at `a = [forward, left]` of the pose, so that it
+# swings round when the robot turns. Beacon $i$ stands at $b_i$, which is `beacons[i]` and known exactly, and
+# was measured at
 #
-# $$r_i = |\text{antenna} - b_i| + \text{noise}$$
+# $$r_i = |\text{antenna} - b_i| + \varepsilon_i.$$
 #
-# with the standard deviation `sigma`, the same for all and independent of each other. The lesson has
-# coded another sensor; its derivation covers this one. What changes is h, and with it H: one row a
-# beacon, (m, 3).
+# All $\varepsilon_i$ have the standard deviation `sigma` and are independent of each other. The lesson's sensor was
+# another one, but its derivation covers this one, too. What changes is $h$, and with it $H$, which has one row
+# a beacon: `(m, 3)`.
 #
-# **Predict first.** Can a robot learn its *heading* from one range? From two? What if the antenna
-# stands right on the axle, a = 0? Does the heading change even then?
+# **Predict first.** Can a robot learn its *heading* from one range? From two? And what if the antenna stands
+# right on the axle, `a = 0`: can one sight change the heading even then?
 #
-# **Your task.** The belief after the m ranges, which are heard all at once: H is taken at the pose
-# you are given, for all of them. `m` may be 0, then nothing was learned, or larger than 3, and a
-# beacon may be heard twice. The robot may stand right over a beacon; the antenna may come within
-# centimetres of one, never to the very point. Ranges may contradict each other and the belief.
+# **Your task.** Return the belief after the $m$ ranges, which are heard all at once: take $H$ for all of them
+# at the pose you are given. `m` may be 0, and then nothing was learned; it may be larger than 3, and a beacon
+# may be heard twice. The robot may stand right over a beacon; the antenna may come within centimetres of
+# one, but never to the very point. Ranges may contradict each other and the belief.
 
 
 # %%
@@ -326,8 +335,8 @@ def locate_by_ranges(x, P, rs, beacons, a, sigma):
 check("05-ranges")
 
 # %% [markdown]
-# A robot in a hall that is 12 m long hears one beacon, then two, then three. **Before you run
-# it:** which shape has what is left of its doubt after one range?
+# A robot in a hall of 12 m hears one beacon, then two, then three. **Before you run the cell:** which shape
+# has the ellipse after one range?
 
 
 # %% name="beacons"
@@ -349,26 +358,26 @@ def _():
 
 
 # %% [markdown]
-# One range cuts the large ellipse to a strip across the line to the beacon. A second beacon, not quite
-# opposite, shortens the strip, and a third from below leaves a spot. The heading profits only
-# through the arm, a third of a metre long, and hardly at all.
+# One range cuts the large ellipse to a strip across the line to the beacon. A second beacon, which is not quite
+# opposite, shortens the strip, and a third from below leaves a spot. The heading gains only through the
+# arm, which is a third of a metre long, and therefore gains hardly anything.
 #
 # ## 5 · Make it better: lost, and lied to
 #
-# Somebody switches the robot on near a known place, with `P` as always, but turned *any way at all*:
-# `x[2]` tells nothing, and the deviation of θ in `P` is 1.8 rad. What is worse, three sights in ten are
-# false: range and bearing of something else under the landmark's id, anywhere around the robot. Of the
-# first four sights, every second one is.
+# Somebody switches the robot on near a known place, with a covariance `P` as always, but turned *any way at
+# all*: `x[2]` tells nothing, and the standard deviation of $\theta$ in `P` is 1.8 rad. What is worse, three
+# sights in ten are false: they are range and bearing of something else, anywhere around the robot, under the
+# landmark's id. Of the first four sights, every second one is false.
 #
 # **Predict first.** What does `localise` do with a heading that is wrong by 120°? What does it do with a
-# sight that cannot be true, and how would it notice while its own heading is in doubt? If you were given
-# the heading, how would you tell after ten steps that it was wrong?
+# sight that cannot be true, and how could it notice while its own heading is in doubt? Suppose you were given
+# a heading: how would you tell after ten steps that it was wrong?
 #
-# **Your task.** Beliefs after every step, called as `localise` is, as good as you can make them; they
-# may use the whole run, from its start to its end. The check drives thirty robots through forty steps
-# and looks at the last ten: how far off they are, and whether P knows how far (NEES, 3 on average).
-# Other runs have at least 25 steps. Points come in four steps; `localise` reaches the lowest at most.
-# The thirty runs must be done in ten seconds.
+# **Your task.** Return beliefs after every step, as good as you can make them. The function is called as
+# `localise` is, and it may use the whole run, from its start to its end. The check drives thirty robots
+# through forty steps and looks at the last ten: how far off they are, and whether $P$ knows how far (NEES,
+# 3 on average). Other runs have at least 25 steps. Points come in four steps; `localise` reaches the
+# lowest at most. The thirty runs must be done in ten seconds.
 
 
 # %%
@@ -406,8 +415,8 @@ def find_yourself(x, P, drives, ids, zs, landmarks, C, R):
 check("05-lost")
 
 # %% [markdown]
-# To try your method, here is such a run, whose truth is known. **Before you run it:** on the left is
-# your `localise`. Where will it be led?
+# To try your method, here is such a run, whose truth is known. **Before you run it:** the picture on the left
+# is by your `localise`. Where will it be led?
 
 
 # %% name="lost"
@@ -449,6 +458,6 @@ def _():
 # %% [markdown]
 # ## Done?
 #
-# Save the notebook. The cell below then says what the grader will say about it;
-# the grader draws other inputs. **Next:** [lesson 06](../notebooks/06_ekf_slam.ipynb), where neither
-# the pose nor the map is known.
+# Save the notebook. The cell below then says what the grader will say about it; the grader draws other
+# inputs. **Next:** [lesson 06](../notebooks/06_ekf_slam.ipynb), where neither the pose nor the map is
+# known.

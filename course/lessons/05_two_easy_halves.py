@@ -1,865 +1,846 @@
-# %% [markdown] slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=1
 # # 05 · Two easy halves
 #
-# **You will be able to** find a robot in a map that is known (EKF localisation), build a map from
-# poses that are known (one little filter a landmark), say why each is easy, and show by a number
-# that doing both in turn is not SLAM.
+# **You will be able to** find a robot in a map that is known, draw a map from poses that are known,
+# say which blocks of the covariance make each of the two easy, and show with numbers why doing them
+# in turn is not SLAM.
 #
-# **50 minutes. Before:** lesson 03 (predict, update, COIN, NEES) and lesson 04 (h, g, A, W, H,
-# J_z).
+# **50 minutes. Before:** lesson [03](03_kalman_filter.ipynb) (predict, update, NEES) and lesson
+# [04](04_models_and_jacobians.ipynb) (the models $f$, $h$, $g$ and their Jacobians).
 #
-# Sources: MAK thesis, sections 4.1 and 4.2.
-#
-# *Key:* an update is easy when only one of the two, pose or landmark, is unknown.
+# *Key:* a sight is easy to use as long as only one of the two, pose or landmark, is unknown.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* Two halves of 20 minutes and a finale of 10. If time is short, keep "An
-# update, block by block" and the finale: lesson 06 stands on these. The rest is what students can
-# redo in the exercise.
+# *For the lecturer:* There are two halves of some 20 minutes each and a finale. If time is short, keep
+# "What an innovation depends on" and the finale, for lesson 06 stands on these; the exercise repeats
+# the rest. Good questions for a poll of the class: the first, the one on one landmark, and the last.
 
 # %% slideshow={"slide_type": "skip"}
-import filterpy.kalman
+from dataclasses import replace
+
 import numpy as np
 import sympy as sp
 
 from slamlab import models, views
-from slamlab.models import jacobians
-from slamlab.evaluation import band, nees
-from slamlab.filters import (
-    linear_kalman,
-    ekf_localisation,
-    known_pose_mapping,
-)
-from slamlab.geometry import compose, wrap
+from slamlab.checks import ask
+from slamlab.derivation import blockwise, derive, symmetric
+from slamlab.evaluation import band
+from slamlab.filters import MAK, Belief, KnownPoseMap, ekf_localisation
 from slamlab.layers import Ellipses, Points, Poses
+from slamlab.models import jacobians
 from slamlab.sources.landmark_runs import LandmarkRun, Loop
+from slamlab.studies import agreeing_poses, halves_in_turn, two_halves
 
-# %% [markdown] slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=3
 # ## A lap, and two things nobody knows
 #
-# A robot drives one lap, counts its wheels' turns, and sees eight landmarks that it can tell apart,
-# each only from near by. Where is it? And where are they?
+# A robot drives once round a circle. It counts the turns of its wheels, and it sees every landmark
+# within 2 m; it can tell the landmarks apart. Everything in this lesson is simulated, so that the
+# truth is known to us, though not to the robot.
+#
+# Where is the robot? And where are the landmarks?
 
 # %% slideshow={"slide_type": "fragment"}
-LAP = Loop(landmarks=8, steps=84, range_max=2.0, v_sigma=0.03, omega_sigma=0.03)
-run = LandmarkRun(LAP, np.random.default_rng(8))
-by_odometry = [np.zeros(3)]
-for reading in list(run)[1:]:
-    by_odometry.append(compose(by_odometry[-1], reading.odometry))
+LAP = Loop(landmarks=8, v=0.6, steps=42, range_max=2.0, v_sigma=0.03, omega_sigma=0.015)
+
+
+def drive(seed, loop=LAP):
+    return LandmarkRun(loop, np.random.default_rng(seed))
+
+
+run = drive(74)
+wheels = two_halves.by_wheels(run)
 
 # %% slideshow={"slide_type": "fragment"}
-fig, ax = views.axes("One lap, counted by the wheels", size=(4.4, 4))
+fig, ax = views.axes("One lap, counted by the wheels", size=(8, 5.5))
 views.draw(ax, Poses("truth", run.truth.poses))
-views.draw(ax, Poses("naive", by_odometry), label="odometry alone")
-views.draw(ax, Points("landmark", run.landmarks), label="landmarks", markersize=9)
+views.draw(ax, Poses("naive", wheels), label="by the wheels alone")
+views.draw(ax, Points("landmark", run.landmarks), label="landmarks")
 views.legend(ax, loc="center")
-views.show(fig, "The true lap closes; odometry's lap ends more than two metres off.")
+gap = np.hypot(*(wheels - run.truth.poses)[-1, :2])
+views.show(fig, f"The true lap closes; the wheels' lap ends {gap:.1f} m beside it.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** the wheels lose the robot within one lap. Only the landmarks can help. But who says where
-# *they* are?
+# The true lap closes. By the wheels alone it ends {= gap:.1f =} m from where the robot really is, since
+# each small error of a turn bends the whole way after it.
 #
-# **Predict:** which is easier: to find the robot when the map is known, or to draw the map when the
-# robot's way is known? And why is it not enough to be able to do both?
+# The landmarks can help. But a sight $z$, a range and a bearing, only says where the landmark is *as
+# seen from the robot*. It ties two unknown things together.
 
-# %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* Collect answers on the board and come back to them at the end. A common one
-# to the last question is "first the one, then the other, and so on". That is the finale.
-
-# %% [markdown] slideshow={"slide_type": "slide"}
-# ## An update, block by block
-#
-# Put robot r, the landmark i that is seen, and another one j into one state. **Question.** Which
-# parts of P does an update need? Lesson 03's two formulas, with blocks for letters:
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# ### When does a sight correct the pose?
 
 # %% slideshow={"slide_type": "fragment"}
-size = {"r": 3, "i": 2, "j": 2}
-P_ = {(a, b): sp.MatrixSymbol(f"P_{a}{b}", size[a], size[b]) for a in "rij" for b in "rij"}
-H_r, H_p, R_ = (
-    sp.MatrixSymbol("H_r", 2, 3),
-    sp.MatrixSymbol("H_p", 2, 2),
-    sp.MatrixSymbol("R", 2, 2),
+ask(
+    "05-unknown",
+    "The innovation is what was seen minus what was expected. When does it depend on nothing but "
+    "the error of the **pose** and the sensor's noise?",
+    {
+        "always: the robot is what measures": "what the robot expects to see depends on where it "
+        "believes the landmark to be; an error there enters the innovation just the same.",
+        "when the landmark's place is known exactly": "then only the pose can be wrong in what the "
+        "robot expects to see.",
+        "when the sensor has no noise": "that removes the noise, but an error of the landmark's "
+        "place is still in what the robot expects.",
+    },
+    right="when the landmark's place is known exactly",
 )
-H = sp.BlockMatrix([[H_r, H_p, sp.ZeroMatrix(2, 2)]])
-P = sp.BlockMatrix([[P_[a, b] for b in "rij"] for a in "rij"])
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# H has a block for the robot and one for the landmark that is seen; the other landmark has no part
-# in the measurement. S, the innovation's covariance:
+# The next section turns this into a formula with five terms. In each of the two easy halves, three of
+# the five vanish.
+
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=6
+# ## What an innovation depends on
+#
+# The robot believes that its pose is $\hat x$ and that landmark $i$ stands at $\hat p_i$. It sees
+# $z = h(x, p_i) + \varepsilon$, where $\varepsilon$ has the covariance $R$. With the errors
+# $\tilde x = x - \hat x$ and $\tilde p_i = p_i - \hat p_i$, the innovation is to first order
+#
+# $$v = z - h(\hat x, \hat p_i) \approx H_{\mathrm r}\,\tilde x + H_{\mathrm p}\,\tilde p_i +
+# \varepsilon. \tag{05.1}$$
+#
+# The Jacobians $H_{\mathrm r}$ (robot) and $H_{\mathrm p}$ (landmark) are those of lesson 04. So three
+# errors meet in one innovation.
+
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# How large an innovation may we expect? Put both errors into one column. Its covariance has four
+# blocks: $P_{\mathrm{rr}}$ of the robot, $P_{ii}$ of the landmark, and $P_{\mathrm ri}$ with its transpose,
+# which says how the two errors go together.
+
+# %% slideshow={"slide_type": "fragment"}
+P_rr, P_ii, R_ = symmetric("P_rr", 3), symmetric("P_ii", 2), symmetric("R", 2)
+P_ri = sp.MatrixSymbol("P_ri", 3, 2)
+H_r, H_p = sp.MatrixSymbol("H_r", 2, 3), sp.MatrixSymbol("H_p", 2, 2)
+H = sp.BlockMatrix([[H_r, H_p]])
+P = sp.BlockMatrix([[P_rr, P_ri], [P_ri.T, P_ii]])
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-S = sp.expand(sp.block_collapse(H * P * H.T)) + R_
-S
+S_steps = (
+    derive("S", H * P * H.T + R_, "the covariance of v: H P Hᵀ + R, as in lesson 03")
+    .step("multiply block by block", blockwise)
+    .step("and multiply out", sp.expand)
+)
+S_steps
+
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# In words, the innovation is as uncertain as the robot, the landmark, their common error and the sensor
+# make it:
+#
+# $$S = H_{\mathrm r} P_{\mathrm{rr}} H_{\mathrm r}^{\mathsf T} + H_{\mathrm r} P_{\mathrm ri}
+# H_{\mathrm p}^{\mathsf T} + H_{\mathrm p} P_{\mathrm ri}^{\mathsf T} H_{\mathrm r}^{\mathsf T} +
+# H_{\mathrm p} P_{ii} H_{\mathrm p}^{\mathsf T} + R. \tag{05.2}$$
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# And P Hᵀ, of which the gain is K = P Hᵀ S⁻¹. A row each for the robot, i and j:
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-PHt = sp.block_collapse(P * H.T)
-PHt
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# Everything correlates with everything. Now let the machine forget: **what is known exactly has no
-# covariance, not even with others.**
+# What is known exactly has no error, and hence no covariance with anything. So we set blocks of $P$ to
+# zero and let the machine see what is left of (05.2).
 
 
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-def known(expression, names):
-    """The expression when the parts of the state named are known exactly."""
-    zeros = {P_[a, b]: sp.ZeroMatrix(size[a], size[b]) for a, b in P_ if a in names or b in names}
-    return sp.block_collapse(expression.subs(zeros).doit())
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="05-unknown"
+def left_of(expression, *known):
+    zeros = {block: sp.ZeroMatrix(*block.shape) for block in known}
+    return sp.expand(expression.subs(zeros).doit())
 
 
-print("map known:   S =", known(S, "ij"))
-print("robot known: S =", known(S, "r"))
+print("map known:  S =", left_of(S_steps.result, P_ii, P_ri))
+print("pose known: S =", left_of(S_steps.result, P_rr, P_ri))
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# In each half S holds one covariance and R: the innovation depends only on *one* error and the
-# noise. That is lesson 03's COIN, and it is all that makes the halves easy.
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# $$S = H_{\mathrm r} P_{\mathrm{rr}} H_{\mathrm r}^{\mathsf T} + R \;\text{ (map known)}, \qquad
+# S = H_{\mathrm p} P_{ii} H_{\mathrm p}^{\mathsf T} + R \;\text{ (pose known)} \tag{05.3}$$
+#
+# Either way one covariance and $R$ remain, and that is the case for which lesson 03 derived its gain.
+# Nothing else makes the two halves easy. The MAK thesis calls such an innovation *constrained*, COIN for
+# short.
 
-# %% [markdown] slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=3
 # ## First half: where am I, in a known map?
 #
-# The state is the pose, three numbers. The robot predicts by its wheels.
+# The state is the pose, three numbers. **Driving** carries pose and covariance along. The wheels report a
+# motion $o$ in the robot's own frame, and for each such motion lesson 04's $A$ holds:
 #
-# It turns *while* it drives, so a step of length d points half the turn off the old heading. That is
-# not lesson 04's `f_odometry`, which drives along the old heading and then turns (the exercise keeps
-# to it). One more model, f_arc, so one more pair of Jacobians:
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-x, y, theta, d, turn = sp.symbols("x y θ d Δθ")
-half = theta + turn / 2
-f_arc = sp.Matrix([x + d * sp.cos(half), y + d * sp.sin(half), theta + turn])
-f_arc.jacobian([x, y, theta])
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-f_arc.jacobian([d, turn])
-
-# %% [markdown] slideshow={"slide_type": "slide"}
-# ## The filter, in two functions
+# $$\hat x \leftarrow \hat x \oplus o, \qquad P_{\mathrm{rr}} \leftarrow A P_{\mathrm{rr}} A^{\mathsf T} + Q, \qquad
+# A = \begin{bmatrix} 1 & 0 & -\Delta y \\ 0 & 1 & \Delta x \\ 0 & 0 & 1 \end{bmatrix}. \tag{05.4}$$
 #
-# C is the wheels' noise, R the sensor's: variances, in m² and rad².
+# Here $(\Delta x, \Delta y)$ is the displacement in the world, and $Q = W C W^{\mathsf T}$ is what the wheels'
+# noise adds. As $\det A = 1$ and $Q$ comes on top, no drive ever lowers the determinant of
+# $P_{\mathrm{rr}}$.
 
-# %% slideshow={"slide_type": "fragment"}
-C = np.diag([0.03, 0.03]) ** 2
-R = np.diag([0.1, np.radians(2)]) ** 2
-
-
-def predict(x, P, u):
-    """Drive u = (d, Δθ): x ← f_arc(x, u), P ← A P Aᵀ + W C Wᵀ."""
-    d, turn = u
-    c, s = np.cos(x[2] + turn / 2), np.sin(x[2] + turn / 2)
-    A = np.array([[1, 0, -d * s], [0, 1, d * c], [0, 0, 1]])
-    W = np.array([[c, -d / 2 * s], [s, d / 2 * c], [0, 1]])
-    return x + np.array([d * c, d * s, turn]), A @ P @ A.T + W @ C @ W.T
-
-
-# %% slideshow={"slide_type": "fragment"}
-def update(x, P, z, p, R=R):
-    """See the landmark at p, which is known, at z = (r, β)."""
-    v = z - models.h(x, p)
-    v[1] = wrap(v[1])
-    H = jacobians.H_robot(x, p)
-    S = H @ P @ H.T + R
-    K = P @ H.T @ np.linalg.inv(S)
-    return x + K @ v, P - K @ S @ K.T
-
-
-# %% [markdown] slideshow={"slide_type": "slide"}
-# ## COIN, in numbers
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# **Looking** lowers it. With the map known, (05.3) turns lesson 03's update into
 #
-# With p known, v = h(x, p) + r − h(x̂, p) ≈ H x̃ + r: the pose's error x̃ and the noise r, nothing
-# else. **Predict** the deviations of v from S; 2000 robots that stand where the belief allows tell.
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-x_there, p_there, P_there = (
-    np.array([1, 2, 0.4]),
-    np.array([3, 2.5]),
-    np.diag([0.1, 0.1, 0.05]) ** 2,
-)
-rng = np.random.default_rng(5)
-stand = rng.multivariate_normal(x_there, P_there, 2000)
-noise = rng.multivariate_normal([0, 0], R, 2000)
-v = np.array([models.h(x, p_there) for x in stand]) + noise - models.h(x_there, p_there)
-H_there = jacobians.H_robot(x_there, p_there)
-S_there = H_there @ P_there @ H_there.T + R
-print("robots ", v.std(axis=0).round(3), " √S", np.sqrt(np.diag(S_there)).round(3), "[m, rad]")
-
-# %% [markdown] slideshow={"slide_type": "slide"}
-# ## The loop
+# $$S = H_{\mathrm r} P_{\mathrm{rr}} H_{\mathrm r}^{\mathsf T} + R, \quad
+# K = P_{\mathrm{rr}} H_{\mathrm r}^{\mathsf T} S^{-1}, \quad
+# \hat x \leftarrow \hat x + K v, \quad
+# P_{\mathrm{rr}} \leftarrow P_{\mathrm{rr}} - K S K^{\mathsf T}. \tag{05.5}$$
 #
-# That is all of it. What is left is a loop: drive, look, drive, look. At the start the robot knows
-# its pose only roughly, P_START.
+# $H_{\mathrm r}$ is taken at $\hat x$, the best guess there is at that moment, and the bearing in $v$ is
+# wrapped, as lesson 04 insists.
+#
+# A run repeats these two: drive, look, drive, look. A step in which nothing is seen is a drive alone.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* Ask which of the two functions makes the ellipse grow and which makes it
-# shrink. Then ask whether `update` can ever make it grow. It cannot: K S Kᵀ is positive
-# semidefinite.
-
+# *For the lecturer:* Ask which of the two equations can make the ellipse grow. Then ask whether
+# (05.5) ever can. It cannot, since $K S K^{\mathsf T}$ is positive semidefinite. And why do the ellipses
+# without a map shrink on the way home? The error of the heading at the start turns the whole lap about
+# the start.
 
 # %% slideshow={"slide_type": "fragment"}
 P_START = np.diag([0.2, 0.2, 0.1]) ** 2
+START = Belief(np.random.default_rng(5).multivariate_normal(np.zeros(3), P_START), P_START)
+whole_map = dict(enumerate(run.landmarks))
+poses, P_poses = two_halves.locate(run, whole_map, START)
 
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# At the start the robot knows its place to 0.2 m and its heading to 0.1 rad. `locate` is a loop over
+# (05.4) and (05.5), with `slamlab.filters.ekf_localisation`; you will write both in the exercise.
 
-def wheels(reading):
-    """The step d and the turn Δθ that odometry counted."""
-    return np.hypot(*reading.odometry[:2]), reading.odometry[2]
-
-
-def localise(run, landmarks, start, update=update):
-    """The pose and its covariance after every reading of a run."""
-    x, P, history = start, P_START, []
-    for reading in run:
-        x, P = predict(x, P, wheels(reading)) if reading.time else (x, P)
-        for id, z in zip(reading.observations.ids, reading.observations.z, strict=True):
-            x, P = update(x, P, z, landmarks[id])
-        history.append((x, P))
-    poses, covariances = map(np.array, zip(*history, strict=True))
-    return poses, covariances
-
-
-# %% [markdown] slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=4
 # ## The lap again, with a map
-#
-# **Predict:** where on the lap are the ellipses largest? Is the last one larger than the first?
 
 # %% slideshow={"slide_type": "fragment"}
-START = np.random.default_rng(5).multivariate_normal(np.zeros(3), P_START)
-poses, covariances = localise(run, run.landmarks, START)
+ask(
+    "05-largest",
+    "The robot drives the lap with the whole map in its memory. Where on the lap are its ellipses "
+    "largest?",
+    {
+        "at the end, because errors add up": "the wheels' errors do, but each sight of a known "
+        "landmark is a fresh reference, which does not depend on the way driven.",
+        "where it has seen no landmark for a while": "between sights only (05.4) is at work, and "
+        "the ellipse grows; the next sight makes it small again.",
+        "they are equally large everywhere": "that needs a landmark in sight at every step, from "
+        "all of which the pose is seen equally well.",
+    },
+    right="where it has seen no landmark for a while",
+)
 
 
-def eyes_shut(x, P, z, p):
-    return x, P
-
-
-def lap(run, poses, covariances, every=4, name="corrected"):
-    """The layers of a lap: truth, estimate, an ellipse every so many steps."""
+# %% slideshow={"slide_type": "fragment"}
+def lap(run, poses, P, name="corrected", every=3):
     return [
         Poses("truth", run.truth.poses),
         Poses(name, poses),
-        Ellipses("robot", poses[::every, :2], covariances[::every, :2, :2]),
+        Ellipses("robot", poses[::every, :2], P[::every, :2, :2]),
         Points("landmark", run.landmarks),
     ]
 
 
-# %% slideshow={"slide_type": "slide"}
-blind = localise(run, run.landmarks, START, eyes_shut)
+def spread(P):
+    return np.sqrt(P[..., 0, 0] + P[..., 1, 1])
+
+
+# %% slideshow={"slide_type": "subslide"} answers="05-largest"
+blind, P_blind = two_halves.locate(run, {}, START)
 laps = {
-    "eyes shut: predict only": lap(run, *blind, every=12, name="predicted"),
-    "located in a known map": lap(run, poses, covariances),
+    "no map: drive only": lap(run, blind, P_blind, "predicted"),
+    "whole map known": lap(run, poses, P_poses),
 }
-fig, both = views.side_by_side(laps, size=(8, 4))
-for ax in both:
-    ax.lines[-1].set(markersize=8)
-    views.legend(ax, loc="center")
-views.show(fig, "Left, ellipses that grow and stay large; right, small ones on the true lap.")
+fig, _ = views.side_by_side(laps, size=(11, 5.5))
+largest = [spread(P[5:]).max() for P in (P_blind, P_poses)]  # after the start
+views.show(
+    fig, f"Without a map the spread grows to {largest[0]:.2f} m, with one to {largest[1]:.2f}."
+)
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** without eyes the ellipses grow, and nothing makes them small again. With a map they do
-# not: they are as large at the end as in the middle, and larger only where no landmark is near.
+# Without a map the ellipses swell to {= largest[0]:.2f =} m on the far side of the lap. (On the way home
+# they shrink again: an error of the heading at the start turns the whole lap about its start.) With
+# the map the largest after the start measures {= largest[1]:.2f =} m, in a stretch where no landmark is
+# near, and the last one {= spread(P_poses)[-1]:.2f =} m.
 
-# %% [markdown] slideshow={"slide_type": "slide"}
-# ## The robot's covariance breathes
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=3
+# ## How much of a map is needed?
 #
-# Look at one component over time, with the band that should hold it 95 times out of 100.
+# The map may hold only some of the landmarks, and the robot may see less far, or farther.
+# Predict where the ellipses swell before you move a slider.
+
 
 # %% slideshow={"slide_type": "fragment"}
-steps = np.arange(len(run))
-sigma_y = np.sqrt(covariances[:, 1, 1])
-error_y = poses[:, 1] - run.truth.poses[:, 1]
-lines = {"error of y": error_y, "± 2σ": 2 * sigma_y, "": -2 * sigma_y}
-title = "The error and what the filter believes of it"
-fig, ax = views.curves(steps, lines, "step", "[m]", title, size=(5.4, 3.1))
-looking = np.array([len(reading.observations.ids) > 0 for reading in run])
-ax.lines[2].set(color=ax.lines[1].get_color(), linestyle="dashed")
-ax.plot(
-    steps[looking],
-    np.full(looking.sum(), -0.4),
-    "|",
-    color=views.COLOURS["truth"],
-    label="sees a landmark",
+def in_part_of_a_map(landmarks_in_the_map, sight):
+    run = drive(74, replace(LAP, range_max=sight))
+    part = dict(list(whole_map.items())[:landmarks_in_the_map])
+    poses, P = two_halves.locate(run, part, START)
+    fig, ax = views.axes(f"largest spread {spread(P[5:]).max():.2f} m", size=(8, 5.5))
+    for layer in lap(run, poses, P)[:3]:
+        views.draw(ax, layer)
+    marks, grey = Points("landmark", run.landmarks), views.COLOURS["before"]
+    views.draw(ax, marks, color=grey, label="not in the map")
+    views.draw(ax, Points("landmark", np.reshape([*part.values()], (-1, 2))), label="in the map")
+    views.legend(ax, loc="center")
+    return fig
+
+
+# %% slideshow={"slide_type": "fragment"}
+views.explore(
+    in_part_of_a_map,
+    lambda landmarks_in_the_map, sight: (
+        f"With {landmarks_in_the_map} landmarks in the map and a sight of {sight:.1f} m the ellipses "
+        "are small near landmarks of the map and swell elsewhere."
+    ),
+    landmarks_in_the_map=(0, 8, 4),
+    sight=(1.0, 5.0, 2.0),
 )
-ax.set_ylim(-0.45, 0.5)
-views.legend(ax, loc="upper right", ncols=3)
-views.show(fig, "The error of y stays within a band that widens where no landmark is seen.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** where the strip at the bottom has a gap, the band opens; at the next sighting it snaps
-# shut. The robot's own covariance is *not* monotone. Keep that in mind: the map's will be.
-#
-# It also opens from step 8 to 20, where a landmark is in sight all the time, one and the same. Why?
+# With the upper four of the eight landmarks in the map the robot's covariance rises and falls: it grows at
+# the lower right, where nothing known is in sight, and shrinks at the first landmark of the map. Keep in mind
+# that the covariance of a *robot* may grow. A landmark's will turn out never to do so.
 
-# %% [markdown] slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=6
 # ## What one landmark cannot tell
 #
-# A sighting is two numbers, a pose three. **Predict:** a robot that knows its heading to 0.4 rad,
-# and nothing of its place, sees one landmark, at 2 m. Where may it be? Draw the set of poses.
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# In lesson 03 a measurement added 1/R to 1/P. With matrices, what a sighting adds to the information
-# P⁻¹ is HᵀR⁻¹H:
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-P_after = update(x_there, P_there, models.h(x_there, p_there), p_there)[1]
-gained = np.linalg.inv(P_after) - np.linalg.inv(P_there)
-print("P⁻¹ after − P⁻¹ before:", gained.round(1), sep="\n")
-print("is HᵀR⁻¹H:", np.allclose(gained, H_there.T @ np.linalg.inv(R) @ H_there))
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# A direction that H does not feel gains nothing. Which one is it?
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-p_x, p_y = sp.symbols("p_x p_y")
-offset = sp.Matrix([p_x - x, p_y - y])
-z_seen = sp.Matrix([offset.norm(), sp.atan2(offset[1], offset[0]) - theta])
-symbols_real = {s: sp.Symbol(s.name, real=True) for s in (x, y, theta, p_x, p_y)}
-H_seen = z_seen.subs(symbols_real).jacobian([symbols_real[s] for s in (x, y, theta)])
-round_it = sp.Matrix([offset[1], -offset[0], 1]).subs(symbols_real)
-sp.simplify(H_seen * round_it).T
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# The direction (p_y − y, −(p_x − x), 1) is a step *round* the landmark, with a turn that keeps it
-# in view: nothing changes in range or bearing. So a circle of poses remains.
+# A sight is two numbers, and a pose is three.
 
 # %% slideshow={"slide_type": "fragment"}
-vague, P_vague = np.array([0, 0, 0.3]), np.diag([5, 5, 0.4]) ** 2
-two = np.array([[1.7, 1.0], [0.4, -1.6]])
-z_one, z_two = models.h(vague, two)
+ask(
+    "05-circle",
+    "A robot has no idea of its place, and knows its heading only roughly. It sees **one** known "
+    "landmark, 2 m away. Where may it be?",
+    {
+        "at one point: range and bearing fix it": "they would if the heading were known exactly; "
+        "the bearing is measured from the heading.",
+        "on an arc round the landmark": "the range says how far away the landmark is, and the "
+        "bearing only says how the robot is turned towards it.",
+        "in a disc round the landmark": "the range is known to a decimetre, so the inside "
+        "of the disc is ruled out.",
+    },
+    right="on an arc round the landmark",
+)
 
-# poses from which the first landmark is seen at z_one: any heading, and the place that goes with it
-rng = np.random.default_rng(5)
-headings = rng.normal(vague[2], 0.4, 6000)
-looks = rng.multivariate_normal(z_one, R, 6000)
-turned = np.column_stack([np.zeros((6000, 2)), headings])
-one_agrees = np.column_stack([two[0] - models.g(turned, looks), headings])
-
-# of these, those that agree with the second sighting, too
-v = np.array([models.h(pose, two[1]) for pose in one_agrees]) - z_two
-v[:, 1] = wrap(v[:, 1])
-both_agree = one_agrees[np.sum(v**2 / np.diag(R), axis=1) < 6]
-
-
-# %% slideshow={"slide_type": "fragment"}
-beliefs, P = {}, P_vague
-for n, agreeing in ((1, one_agrees[:300]), (2, both_agree[:150])):
-    P = update(vague, P, models.h(vague, two[n - 1]), two[n - 1])[1]
-    beliefs[f"landmarks seen: {n}"] = [
-        Points("poses that agree", agreeing[:, :2]),
-        Ellipses("corrected", [vague[:2]], [P[:2, :2]]),
-        Points("landmark", two[:n]),
-    ]
-fig, both = views.side_by_side(beliefs, size=(7.6, 3.6))
-for ax in both:
-    ax.lines[-1].set(markersize=9)
-    views.legend(ax, loc="upper right")
-views.show(fig, "With one landmark the poses form an arc round it; with two, a small cloud.")
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** with one landmark, the poses that agree lie on an arc round it; the filter's ellipse lies
-# along the arc's tangent, narrow towards the landmark, wide across (and straight: lesson 04). The
-# second landmark has an arc of its own: where the two cross, the robot is.
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-H_one, H_two = jacobians.H_robot(vague, two[0]), jacobians.H_robot(vague, two).reshape(-1, 3)
-print("rank of HᵀR⁻¹H: one landmark", np.linalg.matrix_rank(H_one), " two", end=" ")
-print(np.linalg.matrix_rank(H_two))
-
-# %% [markdown] slideshow={"slide_type": "slide"}
-# ## How far must it see?
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# We can ask the algebra. Lesson 03 showed that information, the inverse of a covariance, adds up. What a
+# sight adds to that of the pose is
 #
-# **Predict** what becomes of the ellipses when the robot sees only 1.5 m far. 3 m? 1 m? Then move the
-# slider.
+# $$P_{\text{after}}^{-1} = P_{\text{before}}^{-1} + H_{\mathrm r}^{\mathsf T} R^{-1} H_{\mathrm r}.
+# \tag{05.6}$$
+#
+# In a direction $n$ with $H_{\mathrm r}\, n = 0$ the second term is zero: there the sight tells nothing. Since
+# $H_{\mathrm r}$ has two rows and three columns, there is such a direction. Here it is:
+
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+x, y, theta, p_x, p_y = sp.symbols("x y theta p_x p_y", real=True)
+seen = sp.Matrix([sp.sqrt((p_x - x) ** 2 + (p_y - y) ** 2), sp.atan2(p_y - y, p_x - x) - theta])
+n = sp.Matrix([p_y - y, x - p_x, 1])
+H_n = derive("H n", seen.jacobian([x, y, theta]) * n, "h by the pose, times n")
+H_n.step("simplify", sp.simplify)
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# $$H_{\mathrm r}\, n = 0 \quad\text{for}\quad n = (p_y - y,\; x - p_x,\; 1)^{\mathsf T} \tag{05.7}$$
+#
+# This $n$ is a step *round* the landmark, together with the turn that keeps the landmark at the same bearing.
+# Nothing that the robot sees would change.
+
+# %% slideshow={"slide_type": "subslide"}
+CORNER, vague = np.array([[1.7, 1.0], [0.4, -1.6], [-1.5, 0.8]]), np.array([0, 0, 0.3])
+
+
+def where_may_it_be(landmarks_seen, heading_sigma):
+    marks, rng = CORNER[:landmarks_seen], np.random.default_rng(5)
+    z, R = models.h(vague, marks), two_halves.R(run)
+    b = Belief(vague, np.diag([5, 5, heading_sigma]) ** 2)
+    b, _ = ekf_localisation.update(b, z, marks, R)
+    agree = agreeing_poses.poses_that_agree(marks, z, vague[2], heading_sigma, R, rng)
+    return marks, b, agree
 
 
 # %% slideshow={"slide_type": "fragment"}
-def with_eyes(metres):
-    far = Loop(landmarks=8, steps=84, range_max=metres, v_sigma=0.03, omega_sigma=0.03)
-    other = LandmarkRun(far, np.random.default_rng(8))
-    poses, covariances = localise(other, other.landmarks, START)
-    fig, ax = views.axes(f"Sees {metres:.1f} m far", size=(4.4, 4))
-    for layer in lap(other, poses, covariances):
-        views.draw(ax, layer)
-    ax.lines[-1].set(markersize=8)
-    return fig
+def draw_where(**values):
+    marks, b, agree = where_may_it_be(**values)
+    layers = [Points("poses that agree", agree[:400, :2])]
+    layers += [Ellipses("corrected", [b.x[:2]], [b.P[:2, :2]]), Points("landmark", marks)]
+    title = f"{agreeing_poses.share_inside(b, agree):.0%} of the poses lie in the ellipse"
+    return views.side_by_side({title: layers}, size=(8, 5.5))[0]
 
 
+# %% slideshow={"slide_type": "fragment"} answers="05-circle"
 views.explore(
-    with_eyes,
-    "The shorter its eyes reach, the larger the ellipses where no landmark is near.",
-    metres=(0.8, 5.0, 1.5),
+    draw_where,
+    lambda landmarks_seen, heading_sigma: (
+        f"Landmarks seen: {landmarks_seen}, heading known to {heading_sigma:.2f} rad: the poses that "
+        "agree form an arc round a single landmark, and a spot once there are two."
+    ),
+    landmarks_seen=(1, 3, 1),
+    heading_sigma=(0.02, 1.5, 0.5),
 )
+held = {s: agreeing_poses.share_inside(*where_may_it_be(1, s)[1:]) for s in (0.1, 1.5)}
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** with 1.5 m of sight the ellipses swell between landmarks, and the estimate leaves the true
-# lap, yet the truth stays inside them. At 3 m they all but vanish. At 1.4 m and below the filter
-# gets lost: the ellipse is as large as the distance to the landmark, H is taken at a place where
-# the robot is not, and the correction goes astray. The small ellipses after that say nothing of it.
-
-# %% [markdown] slideshow={"slide_type": "slide"}
-# ## Is it honest? NEES over 100 runs
+# The poses that agree with one sight lie on an arc round the landmark. The filter's ellipse (95 %) is narrow
+# towards the landmark and long across, as (05.7) says. Show it a second landmark, and a spot remains.
 #
-# One lap proves nothing (lesson 03). 100 laps, each with its own landmarks, noise and start: is the
-# squared error, in units of the covariance, 3 on average?
+# Now go back to one landmark and change what is known of the heading. An arc bends, an ellipse cannot: at
+# 0.1 rad it holds {= 100 * held[0.1]:.0f =} % of the poses, at 1.5 rad {= 100 * held[1.5]:.0f =} %. An EKF that
+# starts with no idea of its heading cannot be trusted. One may rather try several headings and keep the
+# one with which the sights agree.
 
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# Nothing in (05.5) insists on a range and a bearing. Another sensor brings another $h$. Differentiate it, and
+# you have $H_{\mathrm r}$, with one row for each number measured; $R$ is the covariance of that sensor's
+# noise. A beacon that tells only its distance has an $H_{\mathrm r}$ of one row, and so says nothing about
+# *two* directions.
 
-# %% slideshow={"slide_type": "fragment"}
-def nees_of(runs, localiser=localise, off=0.0, loop=LAP):
-    """Mean NEES of the pose over runs, step by step; off: how wrong the map is [m]."""
-    values = []
-    for seed in range(runs):
-        run, rng = LandmarkRun(loop, np.random.default_rng(seed)), np.random.default_rng([seed, 1])
-        start = rng.multivariate_normal(np.zeros(3), P_START)
-        way = rng.uniform(0, 2 * np.pi, loop.landmarks)
-        landmarks = run.landmarks + off * np.column_stack([np.cos(way), np.sin(way)])
-        poses, covariances = localiser(run, landmarks, start)
-        error = poses - run.truth.poses
-        error[:, 2] = wrap(error[:, 2])
-        values.append(nees(error, covariances))
-    return np.mean(values, axis=0)
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=5
+# ## Does the filter know how wrong it is?
+#
+# One lap proves nothing. We drive 40, each with landmarks, noise and a start of its own, and compute
+# NEES at every step: the squared error of the pose in units of its covariance, which is 3 on average when
+# the covariance is right.
 
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-honest, (low, high) = nees_of(100), band(3, 100)
-inside = np.mean((honest > low) & (honest < high))
-print(f"mean {honest.mean():.2f}, in the band {low:.2f} to {high:.2f} at {inside:.0%} of the steps")
+def laps_located(off, count):
+    return two_halves.laps_located(LAP, P_START, off, count)
+
+
+exact, (low, high) = two_halves.mean_nees(laps_located(0, 40)), band(3, 40)
+within = np.mean((exact > low) & (exact < high))
+print(f"mean NEES {exact.mean():.2f}; from {low:.2f} to {high:.2f} at {within:.0%} of the steps")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# The filter is what it claims to be. (Not just 95 % of the steps: those of a run hang together, so
-# the curve wanders slowly.)
+# On these laps nothing speaks against the filter. (Do not expect exactly 95 % of the steps: neighbouring steps of a run
+# share their errors, so the curve wanders slowly.)
 
-# %% [markdown] slideshow={"slide_type": "slide"}
-# ## Break it
-#
-# **Predict** what NEES does (1) when the innovation's bearing is not wrapped, (2) when the "known"
-# map is wrong: every landmark stands 0.3 m off, each in a direction of its own.
-
-
-# %% slideshow={"slide_type": "fragment"}
-def update_unwrapped(x, P, z, p):
-    v = z - models.h(x, p)
-    H = jacobians.H_robot(x, p)
-    S = H @ P @ H.T + R
-    K = P @ H.T @ np.linalg.inv(S)
-    return x + K @ v, P - K @ S @ K.T
-
-
-def unwrapped(run, landmarks, start):
-    return localise(run, landmarks, start, update_unwrapped)
-
-
-# %% slideshow={"slide_type": "fragment"}
-# eyes that reach 3 m see some landmarks right behind the robot
-FAR = Loop(landmarks=8, steps=84, range_max=3.0, v_sigma=0.03, omega_sigma=0.03)
-broken = {
-    "honest": nees_of(100, loop=FAR),
-    "bearing not wrapped": nees_of(100, unwrapped, loop=FAR),
-    "map 0.3 m off": nees_of(100, off=0.3, loop=FAR),
-}
-
-
-def against_band(values, runs, title, begin=0):
-    """NEES over the steps on a logarithmic scale, with the 95 % band."""
-    steps = begin + np.arange(len(next(iter(values.values()))))
-    fig, ax = views.curves(steps, values, "step", "mean NEES [1]", title, size=(5.4, 3.2))
-    views.band(ax, *band(3, runs), "95 % band")
-    ax.set(yscale="log", ylim=(2, 15 * max(map(np.max, values.values()))))
-    views.legend(ax, loc="upper right", ncols=2)
-    return fig
-
-
-views.show(
-    against_band(broken, 100, "100 laps, broken in two ways"),
-    "NEES of the honest filter stays in the band; the two broken ones lie far above it.",
+# %% slideshow={"slide_type": "subslide"}
+ask(
+    "05-wrong-map",
+    "Now the map is wrong: each landmark stands 0.3 m from where the map says, each in a direction "
+    "of its own. The sensor's range errs by 0.1 m. What does NEES do?",
+    {
+        "it stays near 3: errors average out": "noise is drawn anew at each sight and averages "
+        "out; a wrong landmark errs the same way every time.",
+        "it rises at first, then returns to 3": "it would, if the filter could doubt its map; "
+        "it was told that the map is exact.",
+        "it rises far above 3 and stays there": "each sight makes the filter surer of a place that "
+        "is off by a few decimetres.",
+    },
+    right="it rises far above 3 and stays there",
 )
 
+
+# %% slideshow={"slide_type": "fragment"}
+def wrong_map(landmarks_off_by):
+    wrong = two_halves.mean_nees(laps_located(landmarks_off_by, 20))
+    name = f"map off by {landmarks_off_by:.2f} m"
+    values = {"exact map": exact, name: wrong}
+    title, steps = f"{name}: mean NEES {wrong.mean():.1f}", np.arange(len(run))
+    return views.against_band(steps, values, (low, high), "step", "mean NEES [1]", title)[0]
+
+
+# %% slideshow={"slide_type": "fragment"} answers="05-wrong-map"
+views.explore(
+    wrong_map,
+    lambda landmarks_off_by: (
+        f"NEES with an exact map stays in its band; with landmarks off by {landmarks_off_by:.2f} m it "
+        "lies above it, the farther the worse."
+    ),
+    landmarks_off_by=(0.0, 0.5, 0.3),
+)
+off = {metres: two_halves.mean_nees(laps_located(metres, 20)).mean() for metres in (0.05, 0.3)}
+
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** the scale is logarithmic. An unwrapped bearing strikes only when a landmark is right
-# behind the robot, and then throws it far off. A map that is 0.3 m wrong makes NEES thirty times
-# too large, and it never gets better: the filter trusts the map completely, since P_ii = 0 says so.
+# The scale is logarithmic. With landmarks off by 0.3 m, NEES is {= off[0.3]:.0f =} on average instead of 3,
+# and it does not recover: $P_{ii} = 0$ tells the filter that no landmark can be wrong. Even 0.05 m,
+# half of what the sensor errs by, makes it {= off[0.05]:.1f =}.
 #
-# **Nobody has an exact map.** So landmarks need a covariance, too: the other half.
+# **Nobody has an exact map.** So landmarks need covariances, too, and that is the other half.
+
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# A robot cannot compute NEES, for it does not know the truth. It can do something else: hold each
+# innovation $v$ against its covariance $S$. In (05.5) both are at hand. A $v$ that is far larger than $S$
+# allows says that something is wrong: the pose, the map, or the sight itself.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* Someone will say "make R larger". It helps, up to a point: a wrong landmark
-# errs the same way at every sighting, while R stands for noise that is drawn anew. Thirty sightings
-# average noise away; they do not average a wrong map away.
+# *For the lecturer:* Someone will propose a larger $R$. It helps up to a point. But $R$ stands for noise that
+# is drawn anew at each sight: thirty sights average it away, and they do not average a wrong map away.
 
-# %% [markdown] slideshow={"slide_type": "slide"}
-# ## The tools of the trade agree
-#
-# filterpy's extended Kalman filter and `slamlab.filters.ekf_localisation`, step for step:
-
-
-# %% slideshow={"slide_type": "fragment"}
-def difference(z, z_predicted):
-    """filterpy asks how measurements are subtracted: with the bearing wrapped."""
-    v = z - z_predicted
-    return np.array([v[0], wrap(v[1])])
-
-
-def update_by_filterpy(x, P, z, p):
-    peer = filterpy.kalman.ExtendedKalmanFilter(dim_x=3, dim_z=2)
-    peer.x, peer.P, peer.R = x, P, R
-    peer.update(z, jacobians.H_robot, models.h, args=(p,), hx_args=(p,), residual=difference)
-    return peer.x, peer.P
-
-
-def update_by_slamlab(x, P, z, p):
-    after, _ = ekf_localisation.update(linear_kalman.Belief(x, P), [z], [p], R)
-    return after.x, after.P
-
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-for name, peer in (("filterpy", update_by_filterpy), ("slamlab", update_by_slamlab)):
-    its_poses, its_covariances = localise(run, run.landmarks, START, peer)
-    off = its_poses - poses
-    off[:, 2] = wrap(off[:, 2])
-    apart = max(np.abs(off).max(), np.abs(its_covariances - covariances).max())
-    print(f"{name:9} differs by less than 1e-12: {apart < 1e-12}")
-
-# %% [markdown] slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=4
 # ## Second half: where are they, if I know where I am?
 #
-# Now the poses are known exactly (say, by a camera on the ceiling). The state is the map.
+# Now the poses are known exactly, say from a camera under the ceiling, and the map is the state. A landmark
+# that is seen for the first time is placed where it was seen. The pose has no error, so the only doubt is the
+# sensor's, carried over by lesson 04's $J_z$:
 #
-# **Question.** N landmarks are 2N numbers. Is it one filter with a 2N × 2N covariance? Ask the
-# blocks from above what an update of i does to j, when the robot is known:
+# $$\hat p_i = g(x, z), \qquad P_{ii} = J_z R J_z^{\mathsf T}. \tag{05.8}$$
+#
+# At every later sight (05.5) corrects it, with $H_{\mathrm p}$ and $P_{ii}$ for $H_{\mathrm r}$ and
+# $P_{\mathrm{rr}}$. There is nothing to predict, for landmarks do not move.
 
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-known(PHt, "r")
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# $N$ landmarks are $2N$ numbers. Do we need one filter with a covariance of $2N \times 2N$?
+
+# %% slideshow={"slide_type": "fragment"}
+ask(
+    "05-cross",
+    "The poses are known. The robot has seen landmarks 1 and 2, which stand close to each other. "
+    "Now it sees landmark 1 again. What happens to the estimate of landmark 2?",
+    {
+        "it gets a little better": "it would if the two erred together; each was placed from an "
+        "exact pose by a sight with noise of its own.",
+        "nothing": "their errors have nothing in common, so news of one is no news of the other.",
+        "it gets worse: its information is diluted": "a measurement never takes information away.",
+    },
+    right="nothing",
+)
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# Row j is P_ji H_pᵀ. While P_ji = 0, seeing i tells nothing of j; and P_ij after the update is P_ij
-# − K_i S K_jᵀ, zero again. When is it zero at the start? A new landmark is made from the pose and
-# its measurement: the pose has no error, and each measurement has its own. **So the cross blocks
-# are zero for ever: N little filters of size 2.**
+# The gain is $K = P H^{\mathsf T} S^{-1}$, so the rows of $P H^{\mathsf T}$ say who learns from a sight of $i$: the
+# robot, landmark $i$ itself, and any other landmark $j$.
 
-# %% [markdown] slideshow={"slide_type": "slide"}
-# ## A little filter
+# %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"] answers="05-cross"
+P_jr, P_ji = sp.MatrixSymbol("P_jr", 2, 3), sp.MatrixSymbol("P_ji", 2, 2)
+columns = sp.BlockMatrix([[P_rr, P_ri], [P_ri.T, P_ii], [P_jr, P_ji]])
+gain_steps = derive("P Hᵀ", columns * H.T, "rows: the robot, i, j").step("by blocks", blockwise)
+gain_steps
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# With the pose known, $P_{j\mathrm r} = 0$, and row $j$ is $P_{ji} H_{\mathrm p}^{\mathsf T}$. What the update does to
+# the cross block is therefore
 #
-# First sight places the landmark: p = g(x, z), P = J_z R J_zᵀ. After that, updates, as above, with
-# H_landmark for H_robot. There is no predict: landmarks do not move.
+# $$P_{ji} \leftarrow P_{ji} - P_{ji} H_{\mathrm p}^{\mathsf T} S^{-1} H_{\mathrm p} P_{ii}. \tag{05.9}$$
+#
+# Once it is zero, it stays zero. It is zero at the beginning, because each landmark is placed by a sight of
+# its own, from a pose without error. **So one filter of size $2N$ falls apart into $N$ little filters of
+# size 2**, and a sight costs the same however large the map is.
+
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=4
+# ## How a landmark grows sure
 
 
 # %% slideshow={"slide_type": "fragment"}
-def see(beliefs, x, id, z, R=R):
-    """From the known pose x, landmark id was seen at z; beliefs: id to (p, P)."""
-    if id not in beliefs:
-        J_z = jacobians.J_z(x, z)
-        beliefs[id] = models.g(x, z), J_z @ R @ J_z.T
-        return
-    p, P = beliefs[id]
-    v = z - models.h(x, p)
-    v[1] = wrap(v[1])
-    H = jacobians.H_landmark(x, p)
-    S = H @ P @ H.T + R
-    K = P @ H.T @ np.linalg.inv(S)
-    beliefs[id] = p + K @ v, P - K @ S @ K.T
+def mean_spread(found):
+    return np.mean([spread(b.P) for b in found.landmarks.values()])
 
 
-def sightings(run, poses):
-    """Everything seen in a run: pose, id and z, one after the other."""
-    for x, reading in zip(poses, run, strict=True):
-        for id, z in zip(reading.observations.ids.tolist(), reading.observations.z, strict=True):
-            yield x, id, z
+first, whole = KnownPoseMap(), two_halves.draw_map(run, run.truth.poses)
+for x, id, z in two_halves.sights(run, run.truth.poses):
+    if id not in first.landmarks:
+        first.see(x, id, z, two_halves.R(run))
 
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# **Predict:** the map after a landmark's first sighting, and after the whole lap: which ellipses
-# shrink, and by how much?
+def drawn(found, poses, name="truth"):
+    ellipses = Ellipses("landmark", found.points(), [b.P for b in found.landmarks.values()])
+    return [Poses(name, poses), ellipses, Points("truth", run.landmarks)]
+
+
+def crossed(ax):
+    ax.lines[-1].set(marker="x", markersize=7, markeredgewidth=1.5, label="true landmark")
+
 
 # %% slideshow={"slide_type": "fragment"}
-first, whole = {}, {}
-for x, id, z in sightings(run, run.truth.poses):
-    if id not in first:
-        see(first, x, id, z)
-    see(whole, x, id, z)
-
-
-def drawn(beliefs, poses):
-    """The layers of a map: the way, the landmarks' ellipses, the truth."""
-    p, P = zip(*beliefs.values(), strict=True)
-    return [Poses("way", poses), Ellipses("landmark", p, P), Points("truth", run.landmarks)]
-
-
-def maps(layers_by_title):
-    """Maps side by side, true landmarks as crosses."""
-    fig, both = views.side_by_side(layers_by_title, size=(7.6, 3.7))
-    for ax in both:
-        ax.lines[-1].set(marker="x", markersize=5, markeredgewidth=1, label="true landmark")
-    views.legend_below(fig)
-    return fig, both
-
-
-titles = {"after first sight": first, "after the whole lap": whole}
-layers = {title: drawn(beliefs, run.truth.poses) for title, beliefs in titles.items()}
-fig, both = maps(layers)
-both[0].set(xlim=(-3, -1.3), ylim=(3.4, 5.1))  # two of the eight
-views.show(fig, "At first sight the ellipses are half a metre long; after the lap they are small.")
+maps = {"after its first sight": first, "after the whole lap": whole}
+layers = {title: drawn(found, run.truth.poses) for title, found in maps.items()}
+fig, both = views.side_by_side(layers, size=(11, 5.5))
+at_first, at_last = (mean_spread(found) for found in maps.values())
+both[0].set(xlim=(-6.5, -3.6), ylim=(3.1, 6.0))  # two of the eight
+for ax in both:
+    crossed(ax)
+views.legend_below(fig)
+views.show(fig, f"Ellipses shrink from a mean spread of {at_first:.2f} m to {at_last:.2f} m.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** two of the eight landmarks, near by. Both ellipses have shrunk, the upper one (seen nine
-# times) more than the lower one (five times), and the true landmarks are still in them, if only
-# just: 95 % is not always.
+# At first sight a landmark is uncertain by {= at_first:.2f =} m on average, and after the lap by
+# {= at_last:.2f =} m. No landmark's ellipse ever grows: (05.5) takes $K S K^{\mathsf T}$ away, and
+# there is no (05.4) that would add anything.
 
-# %% [markdown] slideshow={"slide_type": "slide"}
-# ## How fast does it shrink?
-#
-# A robot stands still and sees a landmark again and again, 64 times. **Predict** the variance after
-# k sightings. 300 such robots tell the mean squared error.
+# %% slideshow={"slide_type": "subslide"}
+ask(
+    "05-root",
+    "A robot stands still, at a known pose, and sees one landmark 64 times. By which factor is its "
+    "σ smaller after 64 sights than after the first?",
+    right=8,
+    tolerance=0.5,
+    reason="variances fall as 1/k, as those of the mean of k numbers do, and σ is the root.",
+    wrong={
+        64: "that is the factor of the variance; σ is its root.",
+        1: "that would be so if the same noise came back at every sight.",
+        4096: "that would be 1/k²; variances fall as 1/k.",
+    },
+)
 
 # %% slideshow={"slide_type": "fragment"}
 at, mark, looks = np.array([0.5, 0.2, 0.4]), np.array([2.0, 1.5]), [1, 2, 4, 8, 16, 32, 64]
-rng = np.random.default_rng(5)
-noise = rng.multivariate_normal([0, 0], R, (300, 64))
-squared = np.zeros((300, 64))
-for robot in range(300):
-    beliefs = {}
-    for k in range(64):
-        see(beliefs, at, 0, models.h(at, mark) + noise[robot, k])
-        squared[robot, k] = np.sum((beliefs[0][0] - mark) ** 2)
-
-# %% slideshow={"slide_type": "fragment"}
+rng, R = np.random.default_rng(1), two_halves.R(run)
+squared = np.zeros((100, 64))
+for robot in squared:
+    found = KnownPoseMap()
+    for k, eps in enumerate(rng.multivariate_normal([0, 0], R, 64)):
+        found.see(at, 0, models.h(at, mark) + eps, R)
+        robot[k] = np.sum((found.landmarks[0].x - mark) ** 2)
 mean_squared = squared.mean(axis=0)[np.array(looks) - 1]
+
+# %% slideshow={"slide_type": "fragment"} answers="05-root"
 J = jacobians.J_z(at, models.h(at, mark))
 one_look = np.trace(J @ R @ J.T)
 fig, ax = views.growth(
     looks,
-    {"mean squared error of 300 robots": mean_squared},
-    {"trace(J_z R J_zᵀ) / k": one_look / np.array(looks)},
-    "sightings k",
+    {"mean squared error of 100 robots": mean_squared},
+    {"trace of (05.10)": one_look / np.array(looks)},
+    "sights k",
     "squared error [m²]",
-    size=(5, 3.3),
+    size=(8, 4),
 )
-views.show(fig, f"The measured squared errors lie on the falling line over {looks[-1]} sightings.")
+views.show(fig, f"The squared errors fall as one over k, over {looks[-1]} sights, on the line.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** 1/k, as with the mean of k numbers: that is what each little filter computes.
-
-# %% [markdown] slideshow={"slide_type": "slide"}
-# ## What it costs
+# The errors of 100 robots follow a line that falls as $1/k$. From one place, $k$ sights leave
 #
-# Each observation touches one filter of size 2, however large the map: O(1). Memory: 2 + 4 numbers
-# a landmark (symmetry ignored), O(N). **Predict** the same for one big filter of 2N.
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-for N in (8, 100, 10_000):
-    print(f"N = {N:6}: {6 * N:8,} numbers apart, {2 * N + (2 * N) ** 2:12,} in one filter")
-
-# %% [markdown] slideshow={"slide_type": "slide"}
-# ## Apart or together: the same map
+# $$P_{ii} \approx \tfrac{1}{k}\, J_z R J_z^{\mathsf T}, \tag{05.10}$$
 #
-# Believe the blocks, but check. One filter with all eight landmarks in its state, same sightings,
-# its full covariance kept:
+# since (05.6), with $H_{\mathrm p}$, adds the same information each time. After 64 sights σ is
+# {= np.sqrt(mean_squared[0] / mean_squared[-1]):.1f =} times smaller here.
 
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=3
+# ## Poses that are only believed to be known
 
 # %% slideshow={"slide_type": "fragment"}
-def together(run, poses):
-    """One filter for the whole map: mean (2N,), covariance (2N, 2N), placed at first sight."""
-    n = 2 * len(run.landmarks)
-    m, P, placed = np.zeros(n), np.zeros((n, n)), set()
-    for x, id, z in sightings(run, poses):
-        i = slice(2 * id, 2 * id + 2)
-        if id not in placed:
-            placed.add(id)
-            J_z = jacobians.J_z(x, z)
-            m[i], P[i, i] = models.g(x, z), J_z @ R @ J_z.T
-            continue
-        v = z - models.h(x, m[i])
-        H = np.zeros((2, n))
-        H[:, i] = jacobians.H_landmark(x, m[i])
-        S = H @ P @ H.T + R
-        K = P @ H.T @ np.linalg.inv(S)
-        m, P = m + K @ [v[0], wrap(v[1])], P - K @ S @ K.T
-    return m, P
+ask(
+    "05-trust",
+    "We draw the map once more, but from the poses that the wheels tell, as if they were exact. "
+    "What do the ellipses of the landmarks do?",
+    {
+        "they grow, as the poses are worse": "nobody told the filter: it computes its ellipses "
+        "from R and from how often it saw a landmark.",
+        "they stay nearly the same": "P depends on R and the Jacobians, not on whether the poses "
+        "are right.",
+        "they shrink": "no more was seen than before.",
+    },
+    right="they stay nearly the same",
+)
 
 
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-m, P = together(run, run.truth.poses)
-blocks = P.reshape(8, 2, 8, 2).transpose(0, 2, 1, 3)
-cross = blocks[~np.eye(8, dtype=bool)]
-apart = max(np.abs(m[2 * i : 2 * i + 2] - p).max() for i, (p, _) in whole.items())
-print("largest entry of all 56 cross blocks:", np.abs(cross).max())
-print("means differ by less than 1e-12:", apart < 1e-12)
+# %% slideshow={"slide_type": "subslide"}
+def from_wrong_poses(share_of_the_wheels_error):
+    believed = run.truth.poses + share_of_the_wheels_error * two_halves.off(run, wheels)
+    error = two_halves.landmark_nees(run, believed)
+    fig, ax = views.axes(f"mean NEES of a landmark {error:.0f}; 2 is right", size=(8, 5.5))
+    for layer in drawn(two_halves.draw_map(run, believed), believed, "naive"):
+        views.draw(ax, layer)
+    ax.lines[0].set_label("poses taken for true")
+    crossed(ax)
+    views.legend(ax, loc="center")
+    return fig
 
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-peer = known_pose_mapping.KnownPoseMap()
-for x, id, z in sightings(run, run.truth.poses):
-    peer.see(x, id, z, R)
-apart = max(np.abs(peer.landmarks[i].x - p).max() for i, (p, _) in whole.items())
-print("KnownPoseMap of the package differs by less than 1e-12:", apart < 1e-12)
 
-# %% [markdown] slideshow={"slide_type": "slide"}
-# ## Does the order matter?
-#
-# Information adds up, and a sum has no order: P⁻¹ = P_first⁻¹ + Σ HᵀR⁻¹H. **Predict:** play the
-# lap's sightings in another order. Is the map the same, to rounding?
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-shuffled, seen = {}, list(sightings(run, run.truth.poses))
-for k in np.random.default_rng(5).permutation(len(seen)):
-    see(shuffled, *seen[k])
-moved = [np.linalg.norm(shuffled[i][0] - whole[i][0]) for i in whole]
-sigma = [np.sqrt(np.trace(whole[i][1])) for i in whole]
-print(f"EKF: moved by {np.max(np.divide(moved, sigma)):.2f} σ at most")
+# %% slideshow={"slide_type": "fragment"} answers="05-trust"
+views.explore(
+    from_wrong_poses,
+    lambda share_of_the_wheels_error: (
+        f"With {share_of_the_wheels_error:.0%} of the wheels' error in the poses the ellipses are as "
+        "small as without, and lie beside the true landmarks."
+    ),
+    share_of_the_wheels_error=(0.0, 1.0, 1.0),
+)
+by_the_wheels = mean_spread(two_halves.draw_map(run, wheels))
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# Nearly. H is taken at the estimate of the moment, and that depends on what came before. A sensor
-# that measures x and y directly, H = I, is linear, and there the order is truly nothing:
+# The ellipses lie beside the crosses, and are as small as before. Now move the share to 0: the crosses
+# return into the ellipses. Is this lap an exception? Here are thirty.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-direct = rng.multivariate_normal(mark, 0.01 * np.eye(2), 30)
-ends = []
-for order in (range(1, 30), range(29, 0, -1)):
-    b = linear_kalman.Belief(direct[0], 0.01 * np.eye(2))
-    for k in order:
-        b, _ = linear_kalman.update(b, direct[k], np.eye(2), 0.01 * np.eye(2))
-    ends.append(b.x)
-print("linear: the same to 1e-12 m:", np.abs(ends[0] - ends[1]).max() < 1e-12)
+thirty = [drive(seed) for seed in range(30)]
+known = np.mean([two_halves.landmark_nees(one, one.truth.poses) for one in thirty])
+trusted = np.mean([two_halves.landmark_nees(one, two_halves.by_wheels(one)) for one in thirty])
+print(f"mean NEES of a landmark: true poses {known:.1f}, wheels' poses {trusted:.0f} (2 is right)")
 
-# %% [markdown] slideshow={"slide_type": "slide"}
-# ## Break it: poses that are not known
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# It is not. And on our lap the mean spread of the ellipses is {= 1000 * at_last:.0f =} mm with the true
+# poses and {= 1000 * by_the_wheels:.0f =} mm with the wheels'. The filter was told that
+# $P_{\mathrm{rr}} = 0$ and believed it. A covariance is only as good as what the filter was told.
+
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=7
+# ## Neither known: can the two halves take turns?
 #
-# Take odometry's poses for the truth. **Predict:** the ellipses will be … larger? The same?
+# In SLAM both are unknown, and both halves are written. The first idea is to take turns: at each sight correct
+# the pose as if the map were exact, and the map as if the pose were exact.
+#
+# A careful student objects: "Do not pretend. Tell each half how unsure the other one is." Each half then
+# works with
+#
+# $$S = H_{\mathrm r} P_{\mathrm{rr}} H_{\mathrm r}^{\mathsf T} + H_{\mathrm p} P_{ii} H_{\mathrm p}^{\mathsf T} + R.
+# \tag{05.11}$$
+
+# %% slideshow={"slide_type": "subslide"}
+ask(
+    "05-turns",
+    "The careful student's two filters drive two laps. Is their NEES of the pose near 3?",
+    {
+        "yes: all that is uncertain is in S": "all *variances* are; compare (05.11) with (05.2), term "
+        "by term.",
+        "no, far above 3: they are too sure": "two terms of (05.2) are missing, those that hold what "
+        "pose and landmark have in common.",
+        "no, far below 3: they are too modest": "adding terms to S does make each single update more "
+        "modest; still, each sight counts as news though part of it is an echo.",
+    },
+    right="no, far above 3: they are too sure",
+)
 
 # %% slideshow={"slide_type": "fragment"}
-trusting = {}
-for x, id, z in sightings(run, by_odometry):
-    see(trusting, x, id, z)
-layers = {
-    "from the true poses": drawn(whole, run.truth.poses),
-    "from odometry's poses": drawn(trusting, by_odometry),
+BEGIN, RUNS = 3, 20  # the start is exact, P = 0: NEES means nothing yet
+schemes = {
+    "one filter for both (lesson 06)": halves_in_turn.together,
+    "each takes the other for exact": lambda one: halves_in_turn.in_turn(one, careful=False),
+    "each adds the other's covariance": lambda one: halves_in_turn.in_turn(one, careful=True),
 }
-fig, _ = maps(layers)
-views.show(fig, "From odometry's poses the ellipses are as small, and far from the true landmarks.")
+runs = [drive(seed, replace(LAP, steps=84)) for seed in range(RUNS)]
+results = {name: [(one, *scheme(one)) for one in runs] for name, scheme in schemes.items()}
+NEES = {name: two_halves.mean_nees(result, BEGIN) for name, result in results.items()}
+
+# %% slideshow={"slide_type": "subslide"} answers="05-turns"
+steps = BEGIN + np.arange(len(runs[0]) - BEGIN)
+title, (low_20, high_20) = f"Two laps, {RUNS} runs", band(3, RUNS)
+fig, _ = views.against_band(steps, NEES, (low_20, high_20), "step", "mean NEES [1]", title)
+peaks = [values.max() for values in NEES.values()]
+left = [steps[values > high_20][0] for values in list(NEES.values())[1:]]
+said = f"NEES of both schemes rises to {min(peaks[1:]):.0f} and more; of one filter, "
+views.show(fig, f"{said}to {peaks[0]:.1f}, about where the band ends.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** the ellipses on the right are just as small, and they miss the true landmarks by many
-# times their size. In numbers, over 50 laps:
+# Both schemes leave the band by step {= max(left) =} and climb to {= peaks[1]:.0f =} and
+# {= peaks[2]:.0f =}. Their errors are then {= np.sqrt(peaks[1] / 3):.0f =} and
+# {= np.sqrt(peaks[2] / 3):.0f =} times as large as they believe. One filter for pose and map, which keeps
+# $P_{\mathrm ri}$, takes in the same runs with the same models; its NEES never exceeds
+# {= peaks[0]:.1f =}, and the band ends at {= high_20:.1f =}. NEES falls as the second lap begins (step 42):
+# the robot is back among landmarks that it placed while its pose was still good.
 
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-def nees_of_map(seed, odometry):
-    """Mean NEES of the landmarks of a run, mapped from its true poses or from odometry's."""
-    run, beliefs, poses = LandmarkRun(LAP, np.random.default_rng(seed)), {}, [np.zeros(3)]
-    for reading in list(run)[1:]:
-        poses.append(compose(poses[-1], reading.odometry))
-    for x, id, z in sightings(run, poses if odometry else run.truth.poses):
-        see(beliefs, x, id, z)
-    return np.mean([nees(p - run.landmarks[id], P) for id, (p, P) in beliefs.items()])
-
-
-for name, odometry in (("true poses", False), ("odometry's poses", True)):
-    mean = np.mean([nees_of_map(seed, odometry) for seed in range(50)])
-    print(f"{name:17} mean NEES of a landmark {mean:6.1f} (2 is right)")
+# %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
+believed = {"wheels alone": [two_halves.by_wheels(one) for one in runs]}
+believed |= {name: [poses for _, poses, _ in result] for name, result in results.items()}
+rms = {n: np.array(list(map(two_halves.rms, runs, poses))) for n, poses in believed.items()}
+wheels_rms, together_rms, pretending_rms, careful_rms = rms.values()
+for name, errors in rms.items():
+    wins = f"smaller than the wheels' in {np.sum(errors < wheels_rms):2} of {RUNS} runs"
+    print(f"{name:33} median error {np.median(errors):.2f} m, {wins}")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# The filter was told P_rr = 0 and believed it. A covariance is only as good as what it was told.
-
-# %% [markdown] slideshow={"slide_type": "slide"}
-# ## Neither known: each half in turn?
-#
-# The obvious idea: at each sighting, correct the pose as if the map were exact, and the map as if
-# the pose were exact. Both halves are written.
-#
-# A careful student objects: "Do not pretend. Tell each half how unsure the other is: add H_p P_ii
-# H_pᵀ to the R of the one, and H_r P_rr H_rᵀ to the R of the other." Fair enough; we try that, too.
-
-
-# %% slideshow={"slide_type": "fragment"}
-def in_turn(run, careful):
-    """Pose and covariance after every reading, from two halves that take turns."""
-    x, P, beliefs, history = np.zeros(3), np.zeros((3, 3)), {}, []
-    for reading in run:
-        x, P = predict(x, P, wheels(reading)) if reading.time else (x, P)
-        for id, z in zip(reading.observations.ids, reading.observations.z, strict=True):
-            p, P_ii = beliefs.get(id, (models.g(x, z), np.zeros((2, 2))))
-            H_r, H_p = jacobians.H_robot(x, p), jacobians.H_landmark(x, p)
-            R_pose, R_map = R, R
-            if careful:
-                R_pose, R_map = R + H_p @ P_ii @ H_p.T, R + H_r @ P @ H_r.T
-            pose_before, is_known = x, id in beliefs
-            if is_known:
-                x, P = update(x, P, z, p, R_pose)
-            see(beliefs, pose_before, id, z, R_map)
-        history.append((x, P))
-    return history
-
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# **Predict** NEES over two laps for both. The band is 2.4 to 3.7.
-
-# %% slideshow={"slide_type": "fragment"}
-TWO_LAPS = Loop(landmarks=8, steps=168, range_max=2.0, v_sigma=0.03, omega_sigma=0.03)
-BEGIN = 5  # the start is exact, P = 0: its NEES has no meaning yet
-
-
-def nees_in_turn(runs, careful):
-    values = []
-    for seed in range(runs):
-        run = LandmarkRun(TWO_LAPS, np.random.default_rng(seed))
-        poses, P = map(np.array, zip(*in_turn(run, careful), strict=True))
-        error = poses - run.truth.poses
-        error[:, 2] = wrap(error[:, 2])
-        values.append(nees(error[BEGIN:], P[BEGIN:]))
-    return np.mean(values, axis=0)
-
-
-# %% slideshow={"slide_type": "slide"}
-turns = {
-    "each pretends the other is exact": nees_in_turn(50, careful=False),
-    "each adds the other's covariance to R": nees_in_turn(50, careful=True),
-}
-fig = against_band(turns, 50, "Two laps of two halves in turn, 50 runs", BEGIN)
-views.show(fig, "NEES of both schemes rises from near the band to hundreds within a lap.")
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** both leave the band at once and end at hundreds: an error over ten times what the filter
-# believes. NEES falls round step 84, where the robot meets its first landmarks again, which it
-# placed while its pose was still good; then it climbs again.
+# The poses themselves are mostly better than the wheels'. What is wrong is the covariance, and whoever
+# relies on it, to recognise a landmark or to avoid a wall, is misled. As for the errors themselves, the careful scheme does
+# better than the pretending one in {= np.sum(careful_rms < pretending_rms) =} of {= RUNS =} runs, and one
+# filter for both better than the careful scheme in {= np.sum(together_rms < careful_rms) =}.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* Let the careful student win first: their scheme is better than pretending, and
-# the reason why it fails is the reason for lesson 06. What fails is not the size of the covariances
-# but that they are taken as independent: the robot placed the landmark with its own error, so
-# seeing it again says nothing about that error. It is like asking for a second opinion and getting
-# your own, by post.
+# *For the lecturer:* Let the careful student win first; the objection is fair, and the reason why it does not
+# help is the reason for lesson 06. What fails is not the size of the covariances but that the errors are taken
+# for independent. It is like asking for a second opinion and getting your own back, by post.
+
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# ### Why care is not enough
+#
+# Hold (05.11) against (05.2): the two terms with $P_{\mathrm ri}$ are gone, the covariance *between* robot and
+# landmark. It is not small. The robot placed the landmark from its own pose, so the error that the pose had then is
+# in the landmark as well.
+#
+# When the robot sees the landmark again, the shared error cancels and the innovation is small. One filter
+# expects that, knowing $P_{\mathrm ri}$, and learns little. Two filters take it each time for a
+# confirmation that both were right.
+
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# The landmark in sight is not the only one concerned. Row $j$ of the gain, for a landmark that is *not* seen, is
+#
+# $$K_j = (P_{j\mathrm r} H_{\mathrm r}^{\mathsf T} + P_{ji} H_{\mathrm p}^{\mathsf T})\, S^{-1}, \tag{05.12}$$
+#
+# and with neither known it is not zero: whoever sees $i$ also learns about $j$. The $N$ little filters have
+# become one, and it holds the robot as well.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
-# ## Why
+# ## Literature
 #
-# Once more, what the innovation depends on when nothing is known:
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-S
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# Pretending keeps one term and R. The careful student keeps two. Both drop P_ri, the covariance
-# *between* robot and landmark. It is not small: the robot placed the landmark, so they share one
-# error. A robot that sees its own landmark again has learned nothing about that shared error, and
-# only P_ri could tell it so.
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# The gain's row for a landmark j that is *not* seen:
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-PHt.blocks[2, 0]
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# With neither known it is not zero: who sees i learns about j. The N filters have become one.
+# J. J. Leonard and H. F. Durrant-Whyte, "Mobile robot localization by tracking geometric beacons", *IEEE
+# Transactions on Robotics and Automation* 7(3), 1991: the first half, with sonar.
 #
-# (Before its (4.10) the thesis prints this row as P_jr H_rᵀ + P_ij H_pᵀ, where P_ji is meant, if our
-# copy has the subscripts right, and S_rr⁻¹ in the gain, where our S, its S_vv, is meant. Sections 4.1
-# and 4.2, the two halves, hold.)
+# R. Smith, M. Self and P. Cheeseman, "Estimating uncertain spatial relationships in robotics", in *Autonomous
+# Robot Vehicles*, Springer, 1990: why the relations must be kept in one state.
+#
+# S. J. Julier and J. K. Uhlmann, "A non-divergent estimation algorithm in the presence of unknown correlations",
+# *American Control Conference*, 1997: what can be done where $P_{\mathrm ri}$ cannot be kept.
+#
+# **Read next:** S. Thrun, W. Burgard and D. Fox, *Probabilistic Robotics*, MIT Press, 2005, chapter 7.
 
-# %% [markdown] slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=1
 # ## What you can do now
 #
-# Find a robot in a known map, map from known poses, say which blocks of P make each easy, and
-# refute a filter that takes them in turn.
+# You can find a robot in a known map, draw a map from known poses, say which blocks of $P$ make each easy, and
+# refute a scheme that takes turns.
 #
-# **Next:** [lesson 06](06_ekf_slam.ipynb) puts robot and landmarks into one state and keeps P_ri:
-# the MAK filter, EKF-SLAM.
+# **What comes next:** [lesson 06](06_ekf_slam.ipynb) puts robot and landmarks into one state and keeps
+# $P_{\mathrm ri}$. That is EKF-SLAM.
 #
-# **Exercise:** [write both halves](../exercises/ex05_two_easy_halves.ipynb), and have them judged by
-# what honest filters obey.
+# The sections below this one are optional.
+#
+# **Exercise:** [05 · Two easy halves](../exercises/ex05_two_easy_halves.ipynb). You write both halves, meet a
+# sensor that this lesson has not met, and find a robot that is lost and lied to.
+
+# %% [markdown] slideshow={"slide_type": "slide"}
+# ## Deeper: an arc has the same A
+#
+# A robot that turns *while* it drives goes along an arc, whose chord points half the turn off the old
+# heading. That is not lesson 04's $f$, yet (05.4) uses its $A$. The machine agrees:
+
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+x, y, theta, d, turn, dx, dy = sp.symbols("x y theta d Δθ Δx Δy", real=True)
+half = theta + turn / 2
+arc = sp.Matrix([x + d * sp.cos(half), y + d * sp.sin(half), theta + turn])
+same = sp.Matrix([[1, 0, -dy], [0, 1, dx], [0, 0, 1]])
+A_steps = derive("A", arc.jacobian([x, y, theta]), "the arc by the pose")
+A_steps.step("its displacement has a name", same, given={dx: arc[0] - x, dy: arc[1] - y})
+
+# %% [markdown] slideshow={"slide_type": "slide"}
+# ## Deeper: does the order of the sights matter?
+#
+# Information adds up, as (05.6) says, and a sum has no order. So we check (05.6) once, and then play the
+# lap's sights in another order.
+
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+x, p = np.array([1, 2, 0.4]), np.array([3, 2.5])
+H_there, P_before = jacobians.H_robot(x, p), np.diag([0.1, 0.2, 0.05]) ** 2
+b, _ = ekf_localisation.update(Belief(x, P_before), [models.h(x, p)], [p], R)
+gained = np.linalg.inv(b.P) - np.linalg.inv(P_before)
+print("(05.6) holds:", np.allclose(gained, H_there.T @ np.linalg.inv(R) @ H_there))
+
+shuffled, seen = KnownPoseMap(), list(two_halves.sights(run, run.truth.poses))
+for k in np.random.default_rng(5).permutation(len(seen)):
+    shuffled.see(*seen[k], two_halves.R(run))
+moved = [shuffled.landmarks[i].x - b.x for i, b in whole.landmarks.items()]
+print(f"in another order landmarks end up to {1000 * np.abs(moved).max():.1f} mm elsewhere")
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# It matters a little, because $H_{\mathrm p}$ is taken at the estimate of the moment, and that depends on what came
+# before. With a linear sensor, $z = p + \varepsilon$, the order would not matter at all.
+
+# %% [markdown] slideshow={"slide_type": "slide"}
+# ## Deeper: one filter for the whole map
+#
+# (05.9) says that one large filter computes the same as $N$ little ones. Lesson 06's filter can be told that all
+# poses are exact; then its map must be ours, and its cross blocks must be zero.
+
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+large = MAK(np.zeros(3), np.zeros((3, 3)))
+for x, reading in zip(run.truth.poses, run, strict=True):
+    large.predict(x, np.zeros((3, 3)))
+    for id, z in zip(reading.observations.ids.tolist(), reading.observations.z, strict=True):
+        (large.update if id in large.ids else large.add)([id], [z], two_halves.R(run))
+little = np.array([whole.landmarks[id].x for id in large.ids])
+print("means differ by less than 1e-9:", np.abs(large.landmarks() - little).max() < 1e-9)
+P_map, own = large.block(np.arange(3, 19)), np.kron(np.eye(8), np.ones((2, 2))) == 1
+print("largest entry of all cross blocks:", np.abs(P_map[~own]).max())
+
+# %% [markdown] slideshow={"slide_type": "slide"}
+# ## In print
+#
+# Optional: what the MAK thesis prints of this lesson's formulas, if our copy has its subscripts right. Its
+# sections 4.1 and 4.2, the two halves, hold.
+#
+# | place | printed | right | harm |
+# | --- | --- | --- | --- |
+# | gain, before (4.10) | $S_{\mathrm{rr}}^{-1}$ | $S_{vv}^{-1}$, our $S^{-1}$ | shapes do not fit |
+# | row $j$, before (4.10) | $P_{j\mathrm r} H_{\mathrm r}^{\mathsf T} + P_{ij} H_{\mathrm p}^{\mathsf T}$ | $P_{ji}$, as in (05.12) | wrong gain for unseen landmarks |
+
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+right = sp.block_collapse(gain_steps.result).blocks[2, 0]
+printed = P_jr * H_r.T + P_ji.T * H_p.T
+print("row j, right − printed:", sp.expand(right - printed))
+try:
+    columns * H.T * P_rr.inverse()
+except sp.ShapeError:
+    print("P Hᵀ, two columns, times the inverse of the 3 × 3 block of the robot: refused")
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# $P_{ij}$ is the transpose of $P_{ji}$ and has the same shape, so no program would complain.

@@ -12,6 +12,8 @@ from slamlab.models import jacobians, observation
 def predict(b, x, A, Q):
     """EKF prediction of the pose by the motion model: x ← f(x, u), P ← A P Aᵀ + Q.
 
+    Equation (05.4).
+
     Parameters
     ----------
     b : Belief of the pose, size 3
@@ -34,6 +36,8 @@ def predict(b, x, A, Q):
 
 def update(b, z, p, R):
     """EKF measurement update by known landmarks, all observations of a scan at once (batch).
+
+    Equation (05.5).
 
     Parameters
     ----------

@@ -17,6 +17,8 @@ class KnownPoseMap:
     def see(self, x, id, z, R):
         """Process one observation: initialise a new landmark, or EKF update of a known one.
 
+        Equation (05.8) places it, (05.5) corrects it.
+
         Parameters
         ----------
         x : (3,) the pose, known [m, m, rad]

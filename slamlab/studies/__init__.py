@@ -1,9 +1,11 @@
-"""Monte Carlo studies: tables of many runs; each module is a command that writes one.
+"""Monte Carlo studies: tables of many runs; most modules are commands that write one.
 
 - ``consistency`` (with ``ideal_filter``): NEES of EKF-SLAM; ``boxes``: BOR's guarantee
 - ``walls``: Smolec's SLAM by its parts; ``feet``: his listing, and what its verdict hangs on
 - ``three``: BOR, MAK, Monte Carlo, with ``three_records`` of each drive, ``three_rows`` of its
   table, ``three_costs``
+- ``two_halves``, ``halves_in_turn``, ``agreeing_poses``: the laps of lesson 05, run where they
+  stand
 - ``intel_maps``: the maps of a real log that lesson 01 shows
 - ``arena_logs``: the six data sets as files; ``paired_statistics``, ``study_command``: what they
   share

@@ -17,7 +17,7 @@ Read in this order:
 
 from slamlab.views import box_drawing as boxes
 from slamlab.views.colours import COLOURS, SERIES
-from slamlab.views.comparison import cloud, curves
+from slamlab.views.comparison import against_band, cloud, curves
 from slamlab.views.figures import axes, band, chart, panels, two_sigma
 from slamlab.views.frame_sketches import frames
 from slamlab.views.heatmap import cells
@@ -36,6 +36,7 @@ from slamlab.views.sliders import explore
 __all__ = [
     "COLOURS",
     "SERIES",
+    "against_band",
     "apart",
     "axes",
     "band",

@@ -1,13 +1,13 @@
-"""Comparison plots: covariance ellipses over a scatter plot of samples, line plots of curves."""
+"""Comparison plots: ellipses over a scatter plot of samples, line plots, curves against a band."""
 
 from itertools import cycle
 
 import numpy as np
-from matplotlib.ticker import MaxNLocator
+from matplotlib.ticker import MaxNLocator, NullFormatter, StrMethodFormatter
 
 from slamlab.layers import Ellipses, Points
 from slamlab.views.colours import COLOURS, SERIES
-from slamlab.views.figures import axes, chart
+from slamlab.views.figures import axes, band, chart
 from slamlab.views.layer_drawing import draw
 from slamlab.views.legends import legend
 
@@ -60,4 +60,29 @@ def curves(x, ys, xlabel, ylabel, title=None, size=(6, 3.5)):
     for (name, y), (colour, line, _) in zip(ys.items(), cycle(SERIES)):
         ax.plot(x, y, color=colour, linestyle=line, linewidth=2, label=name)
     legend(ax)
+    return fig, ax
+
+
+def against_band(x, ys, limits, xlabel, ylabel, title=None, size=(8, 4)):
+    """Curves over a logarithmic axis, against the 95 % band that they should stay in, such as NEES.
+
+    Parameters
+    ----------
+    x : (n,)
+    ys : dict, name for the legend to (n,)
+    limits : (low, high) of the band
+    xlabel, ylabel : str, with the unit in brackets
+    title : str or None
+    size : (width, height) [80 pixels of the page]
+
+    Returns
+    -------
+    (Figure, Axes)
+    """
+    fig, ax = curves(x, ys, xlabel, ylabel, title, size)
+    band(ax, *limits, "95 % band")
+    ax.set(yscale="log", ylim=(1, 30 * max(map(np.max, ys.values()))))
+    ax.yaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
+    ax.yaxis.set_minor_formatter(NullFormatter())
+    legend(ax, loc="upper left", ncols=2)
     return fig, ax

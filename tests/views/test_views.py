@@ -347,6 +347,15 @@ def test_faults_are_told_where_they_are_asked_for(stored, tmp_path, monkeypatch)
     assert known_faults.compare(told, told) == []
 
 
+def test_curves_against_a_band_stand_on_a_logarithmic_axis_with_the_band_in_the_legend():
+    values = {"a": np.array([2.0, 3.0, 200.0])}
+    _, ax = views.against_band(np.arange(3), values, (2.4, 3.7), "step", "mean NEES [1]")
+    assert ax.get_yscale() == "log" and ax.get_ylim()[1] > 200
+    assert [text.get_text() for text in ax.get_legend().get_texts()] == ["a", "95 % band"]
+    (shade,) = ax.patches
+    assert np.allclose([shade.get_y(), shade.get_y() + shade.get_height()], [2.4, 3.7])
+
+
 def test_the_band_of_an_estimate_reaches_two_sigma_to_either_side():
     _, ax = views.chart("x [m]", "y [m]")
     x, y, sigma = np.arange(3.0), np.array([1.0, 2.0, 4.0]), np.array([0.1, 0.2, 0.3])
