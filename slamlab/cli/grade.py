@@ -113,7 +113,7 @@ def run(arguments) -> int:
             catalogue.exercise(arguments.exercise)
         found, secret = batch.prepare_grading(arguments.folder, arguments.out, arguments.secret)
         found = batch.select_shard(found, arguments.shard) if arguments.shard else found
-        policy = late_policy.load(arguments.policy) if arguments.policy else late_policy.NO_PENALTY
+        policy = late_policy.load(arguments.policy) if arguments.policy else None
         if not arguments.scheduler:
             isolation.ensure_level(arguments.isolation)
         with (
@@ -121,10 +121,12 @@ def run(arguments) -> int:
             WorkerPool(arguments.isolation) as workers,
             _signals_as_interrupt(),
         ):
+            kept = batch.kept_policies(book)
             if arguments.regrade:
                 book.delete_attempts([submission.name for submission in found])
             graded = _graded(arguments, found, secret, workers, book.attempts())
-            written = batch.store_records(graded, arguments.out, book, arguments.exercise, policy)
+            words = arguments.out, book, arguments.exercise, policy, kept
+            written = batch.store_records(graded, *words)
             records = _with_progress(written, len(found))
     except foreseen as error:
         print(f"slamlab grade: {error.args[0]}", file=sys.stderr)

@@ -1,6 +1,7 @@
 """``slamlab grade merge``, ``adjust``, ``export``: merge gradebooks, override points, export."""
 
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 VERBS = ("merge", "adjust", "export")
@@ -45,7 +46,7 @@ def run(arguments) -> int:
 
     verb = {"merge": _merge, "adjust": _adjust, "export": _export}[arguments.verb]
     try:
-        policy = late_policy.load(arguments.policy) if arguments.policy else late_policy.NO_PENALTY
+        policy = late_policy.load(arguments.policy) if arguments.policy else None
         if arguments.verb == "merge":
             arguments.out.mkdir(parents=True, exist_ok=True)
         with Gradebook(
@@ -105,8 +106,11 @@ def _export(arguments, book, policy):
 def _marks(book, policy):
     from slamlab.grading.marks import mark
 
+    if policy is not None:
+        for record in book.latest_attempts():
+            book.add(replace(record, policy=policy.stored(record.student)))
     overrides = book.overrides()
-    return [mark(record, overrides, policy) for record in book.latest_attempts()]
+    return [mark(record, overrides) for record in book.latest_attempts()]
 
 
 def _write(arguments, book, policy):

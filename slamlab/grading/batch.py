@@ -3,10 +3,11 @@
 import re
 import threading
 from concurrent.futures import ThreadPoolExecutor, as_completed, wait
+from dataclasses import replace
 from hashlib import sha256
 from pathlib import Path
 
-from slamlab.grading import class_report, feedback, grade_tables, judge, late_policy, submissions
+from slamlab.grading import class_report, feedback, grade_tables, judge, submissions
 from slamlab.grading.marks import mark
 from slamlab.grading.submissions import SubmissionError
 
@@ -98,7 +99,7 @@ def grade_locally(found, secret, workers, default=None, known=None, jobs=1):
             workers.close()  # before the threads end that they would die with
 
 
-def store_records(graded, out, book, default=None, policy=late_policy.NO_PENALTY):
+def store_records(graded, out, book, default=None, policy=None, kept=None):
     """Store each record in the gradebook with its feedback page, and all tables at the end.
 
     Parameters
@@ -107,7 +108,8 @@ def store_records(graded, out, book, default=None, policy=late_policy.NO_PENALTY
     out : Path
     book : Gradebook
     default : str or None, an exercise whose columns stand in the table in any case
-    policy : LatePolicy
+    policy : LatePolicy or None; None: the one that was kept
+    kept : submission to the policy stored with it before, see :func:`kept_policies`
 
     Yields
     ------
@@ -116,13 +118,22 @@ def store_records(graded, out, book, default=None, policy=late_policy.NO_PENALTY
     done, overrides = [], book.overrides()
     try:
         for record in graded:
-            done.append(mark(record, overrides, policy))
+            stored = (
+                policy.stored(record.student) if policy else (kept or {}).get(record.submission)
+            )
+            record = replace(record, policy=stored)
+            done.append(mark(record, overrides))
             if not record.failed:
                 book.add(record)
             feedback.write_feedback_page(out, done[-1])
             yield record
     finally:
         write_results(out, done, default)
+
+
+def kept_policies(book):
+    """The late policy that was stored with each submission, so that grading again keeps it."""
+    return {record.submission: record.policy for record in book.latest_attempts()}
 
 
 def write_results(out, marks, default=None):

@@ -31,6 +31,7 @@ class Record:
     handed_in : str or None, the time in ISO's form
     fingerprints : task to a hash of its functions, see :mod:`slamlab.grading.similarity`
     failed : bool, whether it was the grader that failed: not kept, but tried again
+    policy : the late policy that held, as :meth:`LatePolicy.stored` makes it; None for none
     """
 
     submission: str
@@ -50,6 +51,7 @@ class Record:
     handed_in: str | None = None
     fingerprints: dict[str, str] = field(default_factory=dict)
     failed: bool = False
+    policy: dict | None = None
 
     @property
     def graded(self):

@@ -8,13 +8,13 @@ from pathlib import Path
 
 from slamlab.exercises import catalogue
 from slamlab.grading.notebooks import Notebook, SubmissionError, parse
+from slamlab.grading.term.lms_names import lms_name
 
 MAX_NOTEBOOK_BYTES = 20 << 20  # size of a file [bytes]
 MAX_TIMESTAMP_CHARACTERS = 100  # of nbgrader's note on the time
 MAX_FOLDER_DEPTH = 10  # folders in folders
 
-_MOODLE = re.compile(r"(?P<student>.+?)_(?P<number>\d+)_assignsubmission_file_?(?P<file>.*)", re.S)
-_CANVAS = re.compile(r"(?P<student>[^_]+)_(LATE_)?(?P<number>\d+)_\d+_(?P<file>.+)", re.S)
+_AT_THE_START = re.compile(r"(?:ex)?(\d\d)_", re.IGNORECASE)
 
 
 @dataclass(frozen=True)
@@ -119,12 +119,15 @@ def read_notebook(submission: Submission) -> Notebook:
     return parse(data)
 
 
-def identify_exercise(submission: Submission, notebook: Notebook, default=None):
-    """Identify the exercise: by the notebook's metadata, else its path, else a default.
+def identify_exercise(submission: Submission, notebook: Notebook, bound=None):
+    """Identify the exercise: as bound, else by the metadata, else by the file's name.
+
+    A name tells it by ``NN_`` or ``exNN_`` at its start. What tells another exercise is an error:
+    a solution of one must not be taken for that of another.
 
     Parameters
     ----------
-    default : str or None, an exercise's number
+    bound : str or None, the number of the exercise that all are to be of
 
     Returns
     -------
@@ -132,21 +135,32 @@ def identify_exercise(submission: Submission, notebook: Notebook, default=None):
 
     Raises
     ------
-    SubmissionError : when nothing tells it
+    SubmissionError : when nothing tells it, or two tell different ones
     """
-    known = list(catalogue.EXERCISES)
-    if notebook.exercise in known:
-        return catalogue.exercise(notebook.exercise)
-    parts = Path(submission.name).parts
-    for part in (_original(parts[-1]), *reversed(parts[:-1])):
-        for id in re.findall(r"(?<!\d)(\d\d)(?=[_\-. ]|$)", part):
-            if id in known:
-                return catalogue.exercise(id)
-    if default is None:
+    named = notebook.exercise
+    if named is not None and named not in catalogue.EXERCISES:
+        said = f"its metadata name exercise {named[:20]!r}, which there is not"
+        raise SubmissionError(f"{said}; there are {', '.join(catalogue.EXERCISES)}")
+    told = {"its metadata": named, "its name": None, "--exercise": bound and bound.zfill(2)}
+    if not (named and bound):  # two that agree need no third
+        told["its name"] = _exercise_by_name(submission.name)
+    told = {way: id for way, id in told.items() if id}
+    if not told:
         raise SubmissionError(
-            "which exercise it is stands neither in it nor in its name: say --exercise"
+            "which exercise it is stands neither in it nor at its name's start: say --exercise"
         )
-    return catalogue.exercise(default)
+    if len(set(told.values())) > 1:
+        said = "exercise " + ", ".join(f"{id} by {way}" for way, id in told.items())
+        raise SubmissionError(said if bound else f"{said}; --exercise settles it")
+    return catalogue.exercise(next(iter(told.values())))
+
+
+def _exercise_by_name(name):
+    """The exercise that a file's name begins with, as it was before an LMS put more before it."""
+    parts = Path(name).parts
+    of_lms = lms_name(parts[0], is_file=True) if len(parts) == 1 else None
+    match = _AT_THE_START.match(of_lms.file if of_lms else parts[-1])
+    return match[1] if match and match[1] in catalogue.EXERCISES else None
 
 
 def _is_searched(folder, skipped):
@@ -158,18 +172,12 @@ def _is_searched(folder, skipped):
 def _submission(folder, path, problem=None):
     relative = path.relative_to(folder)
     first = relative.parts[0]
-    match = _MOODLE.fullmatch(first) or (len(relative.parts) == 1 and _CANVAS.fullmatch(first))
+    of_lms = lms_name(first, is_file=len(relative.parts) == 1)
     own = relative.stem if len(relative.parts) == 1 else first
-    student, number = (match["student"], match["number"]) if match else (own, None)
+    student, number = (of_lms.student, of_lms.number) if of_lms else (own, None)
     name = _printable(relative.as_posix())
     has_trusted_time = folder.name == "submitted" and len(relative.parts) == 3
     return Submission(name, _printable(student), path, problem, number, has_trusted_time)
-
-
-def _original(name):
-    """A file's name before Moodle or Canvas put the student's into it."""
-    match = _MOODLE.fullmatch(name) or _CANVAS.fullmatch(name)
-    return match["file"] if match else name
 
 
 def _printable(text):
