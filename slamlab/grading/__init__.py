@@ -12,4 +12,5 @@ Read in this order:
 - ``gradebook``, ``gradebook_rows``, ``marks``, ``late_policy``: attempts, overrides, late policy
 - ``feedback``, ``redaction``, ``class_report``, ``similarity``, ``grade_tables``,
   ``nbgrader_gradebook``: feedback pages, reports, exports
+- ``term``: a course file, a roster, downloads of Moodle and Canvas, releases
 """

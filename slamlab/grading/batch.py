@@ -7,19 +7,22 @@ from dataclasses import replace
 from hashlib import sha256
 from pathlib import Path
 
-from slamlab.grading import class_report, feedback, grade_tables, judge, submissions
+from slamlab.grading import class_report, feedback, grade_tables, judge
 from slamlab.grading.marks import mark
 from slamlab.grading.submissions import SubmissionError
+from slamlab.grading.term.hand_ins import find_hand_ins
 
 
-def prepare_grading(folder: Path, out: Path, secret: Path | None = None):
+def prepare_grading(place: Path, out: Path, scratch: Path, secret=None, make=False):
     """Find the submissions, load the secret seed and make the folder of results.
 
     Parameters
     ----------
-    folder : Path, of submissions
+    place : Path, a folder or a zip of submissions
     out : Path, made where it is missing
+    scratch : Path, an empty folder in which zips are unpacked
     secret : Path or None, the file of the secret; None: ``out/secret``, made where it is missing
+    make : bool, whether the file of the secret is made where it is missing
 
     Returns
     -------
@@ -29,16 +32,16 @@ def prepare_grading(folder: Path, out: Path, secret: Path | None = None):
     ------
     SubmissionError : when one of them cannot be used
     """
-    if out.resolve() == folder.resolve():
+    if out.resolve() == place.resolve():
         raise SubmissionError("the results need another folder than the submissions'")
-    found = submissions.find_submissions(folder, out)
+    found = find_hand_ins(place, scratch, out)
     if not found:
-        raise SubmissionError(f"there is no notebook in {folder}")
+        raise SubmissionError(f"there is no notebook in {place}")
     try:
         out.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise SubmissionError(f"{out} cannot be made: {error.strerror}") from None
-    return found, judge.load_secret(secret or out / "secret", make=secret is None)
+    return found, judge.load_secret(secret or out / "secret", make=make or secret is None)
 
 
 def select_shard(found, part):
@@ -75,7 +78,7 @@ def grade_locally(found, secret, workers, default=None, known=None, jobs=1):
     found : list of Submission
     secret : bytes
     workers : WorkerPool, closed in the end
-    default : str or None, the exercise of notebooks that do not tell it
+    default : str or None, the exercise that all are to be of
     known : attempt's key to Record; these attempts are not graded again
     jobs : int, how many at once
 
@@ -99,7 +102,7 @@ def grade_locally(found, secret, workers, default=None, known=None, jobs=1):
             workers.close()  # before the threads end that they would die with
 
 
-def store_records(graded, out, book, default=None, policy=None, kept=None):
+def store_records(graded, out, book, default=None, policy=None, kept=None, term=None):
     """Store each record in the gradebook with its feedback page, and all tables at the end.
 
     Parameters
@@ -110,6 +113,7 @@ def store_records(graded, out, book, default=None, policy=None, kept=None):
     default : str or None, an exercise whose columns stand in the table in any case
     policy : LatePolicy or None; None: the one that was kept
     kept : submission to the policy stored with it before, see :func:`kept_policies`
+    term : Term or None, which writes its own tables and pages
 
     Yields
     ------
@@ -125,10 +129,14 @@ def store_records(graded, out, book, default=None, policy=None, kept=None):
             done.append(mark(record, overrides))
             if not record.failed:
                 book.add(record)
-            feedback.write_feedback_page(out, done[-1])
+            if term is None:
+                feedback.write_feedback_page(out, done[-1])
             yield record
     finally:
-        write_results(out, done, default)
+        if term is None:
+            write_results(out, done, default)
+        else:
+            term.write(book)
 
 
 def kept_policies(book):

@@ -119,10 +119,11 @@ class Gradebook:
 
         Returns
         -------
-        dict, key to Record
+        dict, key to Record, the oldest first
         """
+        columns = sa.select(ATTEMPTS.c.key, ATTEMPTS.c.record)
         with self._engine.connect() as connection:
-            found = connection.execute(sa.select(ATTEMPTS.c.key, ATTEMPTS.c.record))
+            found = connection.execute(columns.order_by(*OLDEST_FIRST))
             return {row.key: gradebook_rows.stored_record(row.record) for row in found}
 
     def latest_attempts(self):

@@ -29,6 +29,8 @@ class Submission:
     problem : str or None, why there is nothing to read
     number : str or None, of the student in Moodle or Canvas
     has_trusted_time : bool, whether nbgrader, not the student, wrote the note on the time beside it
+    when : str or None, the time of submission (ISO 8601) where the file does not tell it, "" where
+        nothing does
     """
 
     name: str
@@ -37,10 +39,13 @@ class Submission:
     problem: str | None = None
     number: str | None = None
     has_trusted_time: bool = False
+    when: str | None = None
 
     @property
     def handed_in(self):
         """The time of submission (ISO 8601): nbgrader's timestamp, else the file's."""
+        if self.when is not None:
+            return self.when or None
         note = self.path.parent / "timestamp.txt"
         try:
             if self.has_trusted_time and note.is_file() and not note.is_symlink():
@@ -56,7 +61,7 @@ def _time(text):
     return (when if when.tzinfo else when.replace(tzinfo=UTC)).isoformat()
 
 
-def find_submissions(folder: Path, out: Path | None = None) -> list[Submission]:
+def find_submissions(folder: Path, out: Path | None = None, zips=False) -> list[Submission]:
     """Find all submissions in a folder, whatever their layout, sorted by name.
 
     Flat files, ``STUDENT/EXERCISE/`` folders, nbgrader's ``submitted/STUDENT/ASSIGNMENT/``, and
@@ -66,6 +71,7 @@ def find_submissions(folder: Path, out: Path | None = None) -> list[Submission]:
     ----------
     folder : Path
     out : Path or None, a folder that is not looked into
+    zips : bool, whether a zip anywhere is listed, as one with a problem
 
     Raises
     ------
@@ -84,10 +90,12 @@ def find_submissions(folder: Path, out: Path | None = None) -> list[Submission]:
         if len(place.relative_to(folder).parts) >= MAX_FOLDER_DEPTH:
             folders.clear()
         notebooks = [f for f in files if f.lower().endswith(".ipynb") and not f.startswith(".")]
+        zipped = [f for f in files if zips and f.lower().endswith(".zip") and not f.startswith(".")]
         found += [_submission(folder, place / file) for file in notebooks]
+        found += [_submission(folder, place / file, "not a notebook") for file in zipped]
         if place == folder:  # what Moodle or Canvas put there is somebody's, whatever it is
             others = (_submission(folder, place / f, "not a notebook") for f in files
-                      if f not in notebooks)  # fmt: skip
+                      if f not in (*notebooks, *zipped))  # fmt: skip
             found += [other for other in others if other.number]
     handed_in = {parent for submission in found for parent in submission.path.parents}
     reason = "a folder without a notebook in it"
