@@ -166,7 +166,7 @@ def identify_exercise(submission: Submission, notebook: Notebook, bound=None):
 def _exercise_by_name(name):
     """The exercise that a file's name begins with, as it was before an LMS put more before it."""
     parts = Path(name).parts
-    of_lms = lms_name(parts[0], is_file=True) if len(parts) == 1 else None
+    of_lms = lms_name(name) if len(parts) == 1 else None
     match = _AT_THE_START.match(of_lms.file if of_lms else parts[-1])
     return match[1] if match and match[1] in catalogue.EXERCISES else None
 
@@ -180,7 +180,7 @@ def _is_searched(folder, skipped):
 def _submission(folder, path, problem=None):
     relative = path.relative_to(folder)
     first = relative.parts[0]
-    of_lms = lms_name(first, is_file=len(relative.parts) == 1)
+    of_lms = lms_name(relative.as_posix())
     own = relative.stem if len(relative.parts) == 1 else first
     student, number = (of_lms.student, of_lms.number) if of_lms else (own, None)
     name = _printable(relative.as_posix())

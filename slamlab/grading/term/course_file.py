@@ -166,8 +166,10 @@ def moment(when, zone, name):
             when = date.fromisoformat(text) if len(text) == 10 else datetime.fromisoformat(text)
         if type(when) is date:
             when = datetime.combine(when, time(23, 59, 59))
+        if not isinstance(when, datetime):
+            raise ValueError
         return when if when.tzinfo else when.replace(tzinfo=zone)
-    except (ValueError, AttributeError):
+    except ValueError:
         raise ValueError(
             f"{name} is a time such as 2026-12-01T23:59:00 or 2026-12-01, not {when!r}"
         ) from None

@@ -7,7 +7,7 @@ not. What fits nobody is graded all the same, and listed as such.
 from collections import defaultdict
 from dataclasses import replace
 
-from slamlab.grading.term.lms_names import CANVAS, MOODLE, lms_name
+from slamlab.grading.term.lms_names import MOODLE, lms_name
 
 STRANGER = "not in the roster: "
 """Before the name of somebody who is not; no id begins so."""
@@ -35,8 +35,7 @@ def joined(found, roster, worksheet=None):
 
 
 def _joined(submission, roster, worksheet):
-    parts = submission.name.split("/")
-    of_lms = lms_name(parts[0], is_file=len(parts) == 1 or parts[0].lower().endswith(".zip"))
+    of_lms = lms_name(submission.name)
     when = submission.when
     if of_lms is None:
         student = _by_any_name(submission.student, roster)
@@ -46,7 +45,6 @@ def _joined(submission, roster, worksheet):
                    else roster.find(name=of_lms.student))  # fmt: skip
         when = (worksheet.handed_in(of_lms.number) if by_sheet else None) or ""
     else:
-        assert of_lms.lms == CANVAS
         student = roster.find(canvas=of_lms.number)
         when = ""  # a download's files were written when it was made
     who = student.id if student else STRANGER + submission.student

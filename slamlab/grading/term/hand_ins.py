@@ -39,7 +39,7 @@ def _root(folder):
     """The folder of a download; that of a zip somebody zipped again is one below."""
     inside = [path for path in folder.iterdir() if path.name != "__MACOSX"]
     below = inside[0] if len(inside) == 1 and inside[0].is_dir() else folder
-    of_lms = any(lms_name(path.name, path.is_file()) for path in below.iterdir())
+    of_lms = any(lms_name(path.name + "/" * path.is_dir()) for path in below.iterdir())
     return below if of_lms else folder
 
 

@@ -43,20 +43,22 @@ class LmsName:
     late: bool = False
 
 
-def lms_name(first, is_file):
+def lms_name(name):
     """Parse the first part of a path in a download.
 
     Parameters
     ----------
-    first : str, the name of a file or folder
-    is_file : bool; Canvas makes no folders
+    name : str, of a submission: its path in the folder graded
 
     Returns
     -------
     LmsName or None, for another name
     """
+    first, slash, _ = name.partition("/")
     if match := _MOODLE.fullmatch(first):
         return LmsName(MOODLE, match["student"], match["number"], match["prefix"], match["file"])
+    # Canvas makes no folders; a zip that was opened is one
+    is_file = not slash or first.lower().endswith(".zip")
     if is_file and (match := _CANVAS.fullmatch(first)):
         told = {name: match[name] for name in ("student", "number", "prefix", "file")}
         return LmsName(CANVAS, **told, late=match["late"] is not None)

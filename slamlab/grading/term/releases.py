@@ -16,7 +16,7 @@ from slamlab.exercises.report import number
 from slamlab.grading import feedback
 from slamlab.grading.grade_tables import write_table
 from slamlab.grading.records import write_atomically
-from slamlab.grading.term.lms_names import CANVAS, MOODLE, lms_name
+from slamlab.grading.term.lms_names import CANVAS, MOODLE
 from slamlab.grading.term.term_tables import exercise_rows
 
 _OF_CANVAS = ("Student", "ID", "SIS User ID", "SIS Login ID", "Section")
@@ -81,7 +81,7 @@ def _for_moodle(folder, exercise, handed_in, pages, worksheet):
     """Write the worksheet and the zip of feedback; what to say of them."""
     mine, said = {}, []
     for standing in handed_in:
-        told = _of_download(standing)
+        told = standing.of_download
         if told and told.lms == MOODLE:
             mine[told.number] = (told, standing)
     if not mine:
@@ -102,7 +102,7 @@ def _for_moodle(folder, exercise, handed_in, pages, worksheet):
             total = standing.total
             grades[participant] = ("" if total is None else number(total), standing.mark.note)
     write_table(folder / "moodle.csv", worksheet.filled(grades))
-    said.append(f"moodle.csv: {len(grades)} grades")
+    said.append(f"moodle.csv: {sum(grade != '' for grade, _ in grades.values())} grades")
     points = catalogue.exercise(exercise).points
     most = {row[title] for row in worksheet.rows.values() for title in _MOST if row.get(title)}
     other = [text for text in most if _as_number(text) != points]
@@ -126,7 +126,7 @@ def _for_canvas(folder, course, roster, exercise, standings, pages):
         who |= standing.student.row | {"ID": standing.student.canvas}
         total = "" if standing.total is None else number(standing.total)
         rows.append([*(who.get(title, "") for title in _OF_CANVAS), total])
-        told = _of_download(standing)
+        told = standing.of_download
         if told and told.lms == CANVAS:
             files[f"{told.prefix}_{_page(exercise)}"] = pages[standing.student.id]
     write_table(folder / "canvas.csv", rows)
@@ -145,14 +145,6 @@ def _canvas_column(roster, exercise):
     names = {catalogue.exercise(exercise).title, catalogue.exercise(exercise).notebook}
     found = [t for t in roster.titles if re.sub(r" \(\d+\)$", "", t) in names]
     return found[0] if len(found) == 1 else None
-
-
-def _of_download(standing):
-    """What the LMS wrote into the name of the attempt that counts; None without any."""
-    if standing.mark is None:
-        return None
-    parts = standing.mark.record.submission.split("/")
-    return lms_name(parts[0], is_file=len(parts) == 1 or parts[0].lower().endswith(".zip"))
 
 
 def _page(exercise):

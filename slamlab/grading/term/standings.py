@@ -6,6 +6,7 @@ from datetime import datetime
 
 from slamlab.exercises import catalogue
 from slamlab.grading.marks import Mark
+from slamlab.grading.term.lms_names import lms_name
 from slamlab.grading.term.roster import Student
 
 
@@ -36,6 +37,11 @@ class Standing:
         if self.mark is None:
             return "nothing handed in"
         return "could not be graded" if self.mark.total is None else "graded"
+
+    @property
+    def of_download(self):
+        """What the LMS wrote into the name of the attempt that counts; None without any."""
+        return lms_name(self.mark.record.submission) if self.mark else None
 
     @property
     def total(self):

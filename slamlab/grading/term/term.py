@@ -108,7 +108,7 @@ class Term:
             [f"not in the course file, so not in its tables: {', '.join(other)}"] if other else []
         )
         release = [f"slamlab grade release {id}" for id in sorted(ids - {*other})]
-        return said + [f"when it is as it should be: {' or '.join(release)}"] if release else said
+        return [*said, f"when it is as it should be: {' or '.join(release)}"] if release else said
 
 
 def load(file: Path):

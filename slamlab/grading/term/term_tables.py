@@ -1,5 +1,7 @@
 """Tables of a term: over all and per exercise, a row for everybody who is enrolled."""
 
+from datetime import datetime
+
 from slamlab.exercises import catalogue
 from slamlab.exercises.report import number
 from slamlab.grading.grade_tables import (
@@ -71,8 +73,6 @@ def local_time(when, zone):
     when : datetime, str in ISO's form, or None
     zone : ZoneInfo or None, for the time as it is told
     """
-    from datetime import datetime
-
     if not when:
         return ""
     moment = datetime.fromisoformat(when) if isinstance(when, str) else when
@@ -93,6 +93,9 @@ def _note(standing):
         return ""
     unread = standing.unread if standing.total is not None else 0
     told = [f"{unread} more could not be graded"] if unread else []
+    of_lms = standing.of_download
+    if of_lms and of_lms.late and not standing.mark.record.handed_in:
+        told.append("late as Canvas says, which does not tell when: nothing taken")
     return "; ".join(filter(None, [standing.mark.note, *told]))
 
 
