@@ -97,7 +97,7 @@ def _adjust(arguments, book, term, policy):
     book.override_points(
         name, arguments.task[:2], arguments.task, arguments.points, arguments.reason
     )
-    _write(arguments, book, term, policy)
+    _write(arguments, book, term, policy, exercises={arguments.task[:2]})
     return f"{name}: {arguments.task} set to {arguments.points:g}"
 
 
@@ -133,11 +133,11 @@ def _marks(book, policy):
     return [mark(record, overrides) for record in book.latest_attempts()]
 
 
-def _write(arguments, book, term, policy):
+def _write(arguments, book, term, policy, exercises=None):
     from slamlab.grading import batch, feedback
 
     if term is not None:
-        return len(term.write(book))
+        return len(term.write(book, exercises))
     marks = _marks(book, policy)
     batch.write_results(arguments.out, marks)
     for mark in marks:

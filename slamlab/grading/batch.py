@@ -136,7 +136,7 @@ def store_records(graded, out, book, default=None, policy=None, kept=None, term=
         if term is None:
             write_results(out, done, default)
         else:
-            term.write(book)
+            term.write(book, {mark.record.exercise for mark in done})
 
 
 def kept_policies(book):

@@ -87,7 +87,8 @@ def _local(when, zone):
     """A time on the clocks of a zone, with its name there."""
     if not when or zone is None:
         return when
-    return f"{datetime.fromisoformat(when).astimezone(zone):%A, %d %B %Y, %H:%M %Z}"
+    local = datetime.fromisoformat(when).astimezone(zone)
+    return f"{local:%A}, {local.day} {local:%B %Y, %H:%M %Z}"
 
 
 def write_feedback_page(out: Path, mark: Mark):

@@ -193,7 +193,7 @@ def test_a_release_is_as_moodle_and_canvas_take_it_in(folder):
         page = archive.read(name).decode()
     assert name == "Ana Kos_501_assignsubmission_file_/exercise-99-feedback.html"
     assert "<title>Exercise 99: A fake · Ana Kos</title>" in page
-    assert "Tuesday, 01 December 2026, 12:00 CET" in page
+    assert "Tuesday, 1 December 2026, 12:00 CET" in page
     with zipfile.ZipFile(out / "canvas-feedback.zip") as archive:
         assert archive.namelist() == ["ivoben_LATE_1022_7_exercise-99-feedback.html"]
     assert "in Moodle this assignment has 10 points, here 8" in "\n".join(said)

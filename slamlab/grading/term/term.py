@@ -65,12 +65,13 @@ class Term:
         marks = [mark(r, overrides, self.policy) for r in book.attempts().values()]
         return standings(self.course, self.roster, marks, self.policy)
 
-    def write(self, book):
-        """Write tables, the class report and feedback pages, from the whole gradebook.
+    def write(self, book, exercises=None):
+        """Write tables and the class report from the whole gradebook, and feedback pages.
 
         Parameters
         ----------
         book : Gradebook
+        exercises : container of str or None, those whose pages are written; None for all
 
         Returns
         -------
@@ -82,6 +83,8 @@ class Term:
         counted = [s for of_one in found.values() for s in of_one if s.mark]
         class_report.write_report(out, [standing.mark for standing in counted])
         for standing in counted:
+            if exercises is not None and standing.exercise not in exercises:
+                continue
             page = feedback.feedback_page(standing.mark, standing.student.name, self.course.zone)
             name = f"{file_name(standing.student.id)}.html"
             write_atomically(out / standing.exercise / "feedback" / name, page)
