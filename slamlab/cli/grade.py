@@ -101,7 +101,7 @@ def run(arguments) -> int:
     told = (SubmissionError, GradebookError, IsolationError, LatePolicyError, CourseFileError)
     try:
         with tempfile.TemporaryDirectory(prefix="slamlab-zips-") as scratch:
-            records, term = _grade(arguments, Path(scratch))
+            records, said = _grade(arguments, Path(scratch))
     except (*told, RosterError, RunError, KeyError, ValueError) as error:
         print(f"slamlab grade: {error.args[0]}", file=sys.stderr)
         return 2
@@ -110,13 +110,13 @@ def run(arguments) -> int:
         return 2
     Console().print(_table(records))
     print(_summary_line(records, arguments.out))
-    if term is not None:
-        print(*term.summary(records), sep="\n")
+    for line in said:
+        print(line)
     return 0
 
 
 def _grade(arguments, scratch):
-    """The records of a run, and the term it is of."""
+    """The records of a run, and what else there is to tell of it."""
     from slamlab.grading import batch, isolation, late_policy
     from slamlab.grading.gradebook import Gradebook, default_url
     from slamlab.grading.worker_pool import WorkerPool
@@ -143,7 +143,8 @@ def _grade(arguments, scratch):
             book.delete_attempts([submission.name for submission in found])
         graded = _graded(arguments, found, secret, workers, book.attempts())
         words = arguments.out, book, arguments.exercise, policy, kept, term
-        return _with_progress(batch.store_records(graded, *words), len(found)), term
+        records = _with_progress(batch.store_records(graded, *words), len(found))
+        return records, term.summary(book, records) if term else []
 
 
 def _check(arguments, term):

@@ -108,6 +108,9 @@ def _release(arguments):
         known = ", ".join(term.course.exercises)
         raise ValueError(f"the course file has no exercise {id}; it has {known}")
     with Gradebook(arguments.db or default_url(arguments.out, new=False)) as book:
-        mine = term.standings(book)[id]
+        mine, gone = term.standings(book)[id], term.gone(book)
+    if gone and not any(standing.mark for standing in mine):
+        raise ValueError(gone[0])
     said = releases.release(term.course, term.roster, id, mine, term.worksheet(id))
-    return "\n".join([f"exercise {id} released: {term.course.results / id / 'release'}", *said])
+    place = term.course.results / id / "release"
+    return "\n".join([f"exercise {id} released: {place}", *said, *gone])

@@ -52,10 +52,12 @@ def test_a_download_is_read_from_its_zip_with_students_zips_opened(tmp_path):
     assert all(s.handed_in is None for s in found if s.problem is None)
 
 
-def test_a_download_zipped_again_with_its_folder_is_read(tmp_path):
-    file = zipped(tmp_path / "x.zip", [("04/Ana Kos_12_assignsubmission_file/hw.ipynb", "{}")])
-    (found,) = find_hand_ins(file, tmp_path / "scratch")
-    assert found.student == "Ana Kos"
+def test_a_place_that_a_student_made_up_in_his_own_makes_nobody_else(tmp_path):
+    members = [("Ana Kos_12_assignsubmission_file/Ben Ivo_13_assignsubmission_file/x.ipynb", "{}")]
+    inside = in_memory([("Ben Ivo_13_assignsubmission_file/x.ipynb", "{}")])
+    members += [("Ana Kos_12_assignsubmission_file/w.zip", inside), ("anna.zip", inside)]
+    found = find_hand_ins(zipped(tmp_path / "x.zip", members), tmp_path / "scratch")
+    assert [s.student for s in found] == ["Ana Kos", "Ana Kos", "anna"]
 
 
 def test_a_students_zip_in_a_folder_keeps_its_time(tmp_path):

@@ -207,6 +207,16 @@ def test_a_release_is_as_moodle_and_canvas_take_it_in(folder):
     assert not (out / "stray").exists()
 
 
+def test_who_is_no_longer_in_the_roster_is_told(folder, capsys):
+    stored(folder, attempt("old-id", 8))
+    assert main(["grade", "release", "99"]) == 2
+    assert "no longer in roster.csv, in submissions.csv only: old-id" in capsys.readouterr().err
+    stored(folder, attempt("s1", 8))
+    assert main(["grade", "release", "99"]) == 0
+    assert "no longer in roster.csv" in capsys.readouterr().out
+    assert {row["student"] for row in table(folder / "results/submissions.csv")} == {"s1", "old-id"}
+
+
 def test_the_late_mark_of_canvas_is_told(folder):
     stored(folder, attempt("s2", 8, name="ivoben_LATE_1022_7_x.ipynb"))
     assert "late as Canvas says" in table(folder / "results/99/grades.csv")[1]["note"]

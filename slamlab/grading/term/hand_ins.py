@@ -5,7 +5,6 @@ from dataclasses import replace
 from slamlab.grading.notebooks import SubmissionError
 from slamlab.grading.submissions import Submission, find_submissions
 from slamlab.grading.term import archives
-from slamlab.grading.term.lms_names import lms_name
 
 
 def find_hand_ins(place, scratch, out=None):
@@ -28,19 +27,11 @@ def find_hand_ins(place, scratch, out=None):
     if not archives.is_archive(place):
         return _with_zips_opened(find_submissions(place, out, zips=True), scratch)
     refused = archives.unpack(place, scratch / "download")
-    listed = find_submissions(_root(scratch / "download"), zips=True)
+    listed = find_submissions(scratch / "download", zips=True)
     # a file of a zip tells no time; nbgrader's note does
     listed = [s if s.has_trusted_time else replace(s, when="") for s in listed]
     found = _with_zips_opened(listed, scratch)
     return found + [_refused(scratch, name, why) for name, why in refused]
-
-
-def _root(folder):
-    """The folder of a download; that of a zip somebody zipped again is one below."""
-    inside = [path for path in folder.iterdir() if path.name != "__MACOSX"]
-    below = inside[0] if len(inside) == 1 and inside[0].is_dir() else folder
-    of_lms = any(lms_name(path.name + "/" * path.is_dir()) for path in below.iterdir())
-    return below if of_lms else folder
 
 
 def _with_zips_opened(listed, scratch):

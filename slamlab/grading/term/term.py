@@ -90,12 +90,13 @@ class Term:
             write_atomically(out / standing.exercise / "feedback" / name, page)
         return newest
 
-    def summary(self, records):
+    def summary(self, book, records):
         """What to tell after a run: who is unknown, and what comes next.
 
         Parameters
         ----------
-        records : list of Record
+        book : Gradebook
+        records : list of Record, of this run
 
         Returns
         -------
@@ -107,11 +108,22 @@ class Term:
         said = [f"not in {file}, in submissions.csv only: {names}"] if unknown else []
         ids = {r.exercise for r in records} - {None}
         other = sorted(ids - {*self.course.exercises})
-        said += (
-            [f"not in the course file, so not in its tables: {', '.join(other)}"] if other else []
-        )
+        if other:
+            said.append(f"not in the course file, so not in its tables: {', '.join(other)}")
+        said += self.gone(book)
         release = [f"slamlab grade release {id}" for id in sorted(ids - {*other})]
         return [*said, f"when it is as it should be: {' or '.join(release)}"] if release else said
+
+    def gone(self, book):
+        """A line on those who handed something in under an id that the roster has no more."""
+        ids = {record.student for record in book.latest_attempts()} - {*self.roster.students}
+        ids = sorted(id for id in ids if not id.startswith(enrolment.STRANGER))
+        if not ids:
+            return []
+        file, most = self.course.roster.name, 10
+        names = ", ".join(ids[:most]) + (f" and {len(ids) - most} more" if ids[most:] else "")
+        return [f"no longer in {file}, in submissions.csv only: {names} (where ids were changed, "
+                "grade the downloads once more)"]  # fmt: skip
 
 
 def load(file: Path):
