@@ -5,8 +5,8 @@ Read in this order:
 - ``run``, ``convert``: estimators over sources, sources into reading logs
 - ``emulate``, ``record``, ``replay``: devices
 - ``progress``, ``reset`` (and update): a student's own folder
-- ``check``, ``grade``, ``term_verbs`` (init, release), ``gradebook_verbs`` (merge, adjust,
-  export): exercises
+- ``check``, ``grade``, ``grade_output``, ``term_verbs`` (init, release), ``gradebook_verbs``
+  (merge, adjust, export): exercises
 - ``rehearse``, ``print_handout``: a lesson before and after its lecture
 - ``common``: what several share
 

@@ -12,6 +12,10 @@ COURSE = "the course file; default: course.toml here, where there is one and no 
 INTERRUPTED = 130  # the exit code after Ctrl-C, as of shells
 
 
+class UsageError(Exception):
+    """A command was given in a way that means nothing; the text says how it is meant."""
+
+
 def generator(seed):
     """The random generator of ``--seed``; ValueError where the seed is negative."""
     import numpy as np  # late: a help text should come at once
@@ -60,19 +64,19 @@ def term_of(arguments):
 
     Raises
     ------
-    ValueError : wrong use
-    CourseFileError, RosterError : the course file or the roster cannot be used
+    UsageError
+    TermError : the course file or the roster cannot be used
     """
     from slamlab.grading.term import course_file, term
 
     file = arguments.course or Path(course_file.NAME)
     if arguments.course is None and (arguments.out or not file.exists()):
         if arguments.out is None:
-            raise ValueError("say --out DIR, or make a course file: slamlab grade init")
+            raise UsageError("say --out DIR, or make a course file: slamlab grade init")
         return None
     for option in ("out", "policy"):
         if getattr(arguments, option):
-            raise ValueError(f"{file} says what --{option} says; leave one of them out")
+            raise UsageError(f"{file} says what --{option} says; leave one of them out")
     found = term.load(file)
     arguments.out = found.course.results
     arguments.db = arguments.db or found.course.gradebook

@@ -8,16 +8,9 @@ import tempfile
 import threading
 from pathlib import Path
 
-from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
-from rich.table import Table
-from rich.text import Text
-
-from slamlab.cli.common import add_course_options, term_of
+from slamlab.cli.common import UsageError, add_course_options, term_of
+from slamlab.cli.grade_output import print_summary, with_progress
 from slamlab.exercises import catalogue
-from slamlab.exercises.report import number
-
-MAX_TABLE_ROWS = 60  # submissions shown; of larger classes only those that failed
 
 
 def add_parser(subparsers):
@@ -94,24 +87,20 @@ def run(arguments) -> int:
     from slamlab.grading.isolation import IsolationError
     from slamlab.grading.late_policy import LatePolicyError
     from slamlab.grading.submissions import SubmissionError
-    from slamlab.grading.term.course_file import CourseFileError
-    from slamlab.grading.term.roster import RosterError
+    from slamlab.grading.term.course_file import TermError
     from slamlab.parallel import RunError
 
-    told = (SubmissionError, GradebookError, IsolationError, LatePolicyError, CourseFileError)
+    told = (UsageError, SubmissionError, GradebookError, IsolationError, LatePolicyError, TermError)
     try:
         with tempfile.TemporaryDirectory(prefix="slamlab-zips-") as scratch:
             records, said = _grade(arguments, Path(scratch))
-    except (*told, RosterError, RunError, KeyError, ValueError) as error:
+    except (*told, RunError, KeyError) as error:
         print(f"slamlab grade: {error.args[0]}", file=sys.stderr)
         return 2
     except OSError as error:
         print(f"slamlab grade: {error.filename}: {error.strerror}", file=sys.stderr)
         return 2
-    Console().print(_table(records))
-    print(_summary_line(records, arguments.out))
-    for line in said:
-        print(line)
+    print_summary(records, arguments.out, said)
     return 0
 
 
@@ -143,21 +132,21 @@ def _grade(arguments, scratch):
             book.delete_attempts([submission.name for submission in found])
         graded = _graded(arguments, found, secret, workers, book.attempts())
         words = arguments.out, book, arguments.exercise, policy, kept, term
-        records = _with_progress(batch.store_records(graded, *words), len(found))
+        records = with_progress(batch.store_records(graded, *words), len(found))
         return records, term.summary(book, records) if term else []
 
 
 def _check(arguments, term):
     """Check what was said against the course file, and fill in what was not."""
     if arguments.jobs < 1:
-        raise ValueError("--jobs must be at least 1")
+        raise UsageError("--jobs must be at least 1")
     if arguments.exercise is not None:
         arguments.exercise = catalogue.exercise(arguments.exercise).id
     if arguments.worksheet and not (term and arguments.exercise):
-        raise ValueError("--worksheet needs a course file, and --exercise, which it is of")
+        raise UsageError("--worksheet needs a course file, and --exercise, which it is of")
     if term and arguments.exercise not in (None, *term.course.exercises):
         known = ", ".join(term.course.exercises)
-        raise ValueError(f"the course file has no exercise {arguments.exercise}; it has {known}")
+        raise UsageError(f"the course file has no exercise {arguments.exercise}; it has {known}")
     if arguments.isolation is None:
         arguments.isolation = term.course.isolation if term else "strict"
 
@@ -191,35 +180,3 @@ def _signals_as_interrupt():
 
 def _interrupt(*_):
     raise KeyboardInterrupt
-
-
-def _with_progress(graded, count):
-    columns = (BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
-    text = TextColumn("{task.description}", markup=False)
-    records = []
-    with Progress(*columns, text, console=Console(stderr=True)) as progress:
-        bar = progress.add_task("starting", total=count)
-        for record in graded:
-            records.append(record)
-            progress.update(bar, advance=1, description=_printable(record.submission))
-    return sorted(records, key=lambda record: record.submission)
-
-
-def _table(records):
-    shown = records if len(records) <= MAX_TABLE_ROWS else [r for r in records if not r.graded]
-    table = Table("submission", "score", "of", "note")
-    for record in shown:
-        scores = (number(record.score), number(record.max_score)) if record.graded else ("–", "–")
-        # as Text, so that a name or a note cannot style the table
-        table.add_row(Text(_printable(record.submission)), *scores, Text(_printable(record.note)))
-    return table
-
-
-def _summary_line(records, out):
-    missing = sum(not record.graded for record in records)
-    lost = f", {missing} could not be graded" if missing else ""
-    return f"{len(records) - missing} graded{lost}: {out / 'grades.csv'}, class.html, feedback/"
-
-
-def _printable(text):
-    return "".join(c if c.isprintable() else " " for c in text)

@@ -4,7 +4,7 @@ import sys
 from dataclasses import replace
 from pathlib import Path
 
-from slamlab.cli.common import add_course_options, term_of
+from slamlab.cli.common import UsageError, add_course_options, term_of
 
 VERBS = ("merge", "adjust", "export")
 
@@ -43,10 +43,9 @@ def run(arguments) -> int:
     from slamlab.grading import late_policy
     from slamlab.grading.gradebook import Gradebook, GradebookError, default_url
     from slamlab.grading.nbgrader_gradebook import NbgraderError
-    from slamlab.grading.term.course_file import CourseFileError
-    from slamlab.grading.term.roster import RosterError
+    from slamlab.grading.term.course_file import TermError
 
-    told = (GradebookError, NbgraderError, late_policy.LatePolicyError, CourseFileError)
+    told = (UsageError, GradebookError, NbgraderError, late_policy.LatePolicyError, TermError)
     verb = {"merge": _merge, "adjust": _adjust, "export": _export}[arguments.verb]
     try:
         term = term_of(arguments)
@@ -57,7 +56,7 @@ def run(arguments) -> int:
             arguments.db or default_url(arguments.out, arguments.verb == "merge")
         ) as book:
             print(verb(arguments, book, term, policy))
-    except (*told, RosterError, KeyError, ValueError) as error:
+    except (*told, KeyError) as error:
         print(f"slamlab grade {arguments.verb}: {error.args[0]}", file=sys.stderr)
         return 2
     except OSError as error:

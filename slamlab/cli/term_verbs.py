@@ -4,7 +4,7 @@ import os
 import sys
 from pathlib import Path
 
-from slamlab.cli.common import COURSE
+from slamlab.cli.common import COURSE, UsageError, term_of
 
 VERBS = ("init", "release")
 TEMPLATE = """\
@@ -54,14 +54,11 @@ def add_parser(subparsers):
 def run(arguments) -> int:
     """Begin a term, or release an exercise; 0 when done, 2 for wrong use."""
     from slamlab.grading.gradebook import GradebookError
-    from slamlab.grading.term.course_file import CourseFileError
-    from slamlab.grading.term.releases import ReleaseError
-    from slamlab.grading.term.roster import RosterError
+    from slamlab.grading.term.course_file import TermError
 
-    told = (CourseFileError, GradebookError, ReleaseError, RosterError, KeyError, ValueError)
     try:
         print({"init": _init, "release": _release}[arguments.verb](arguments))
-    except told as error:
+    except (UsageError, TermError, GradebookError, KeyError) as error:
         print(f"slamlab grade {arguments.verb}: {error.args[0]}", file=sys.stderr)
         return 2
     except OSError as error:
@@ -77,7 +74,7 @@ def _init(arguments):
 
     file = arguments.folder / NAME
     if file.exists():
-        raise ValueError(f"{file} is there already")
+        raise UsageError(f"{file} is there already")
     known = [catalogue.exercise(id) for id in catalogue.EXERCISES]
     exercises = "".join(EXERCISE.format(id=e.id, title=e.title) for e in known)
     arguments.folder.mkdir(parents=True, exist_ok=True)
@@ -95,22 +92,21 @@ def _zone_here():
 
 
 def _release(arguments):
-    from slamlab.cli.common import term_of
     from slamlab.exercises import catalogue
     from slamlab.grading.gradebook import Gradebook, default_url
     from slamlab.grading.term import course_file, releases
 
     if not (arguments.course or Path(course_file.NAME)).exists():
-        raise ValueError("a release needs a course file: slamlab grade init")
+        raise UsageError("a release needs a course file: slamlab grade init")
     term = term_of(arguments)
     id = catalogue.exercise(arguments.exercise).id
     if id not in term.course.exercises:
         known = ", ".join(term.course.exercises)
-        raise ValueError(f"the course file has no exercise {id}; it has {known}")
+        raise UsageError(f"the course file has no exercise {id}; it has {known}")
     with Gradebook(arguments.db or default_url(arguments.out, new=False)) as book:
         mine, gone = term.standings(book)[id], term.gone(book)
     if gone and not any(standing.mark for standing in mine):
-        raise ValueError(gone[0])
+        raise UsageError(gone[0])
     said = releases.release(term.course, term.roster, id, mine, term.worksheet(id))
     place = term.course.results / id / "release"
     return "\n".join([f"exercise {id} released: {place}", *said, *gone])

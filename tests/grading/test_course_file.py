@@ -151,6 +151,12 @@ def test_a_worksheet_tells_whose_a_number_is_and_when_it_was_handed_in(tmp_path)
     assert sheet.handed_in("503") is None
 
 
+def test_a_time_in_a_worksheet_that_is_not_understood_is_told(tmp_path):
+    (tmp_path / "sheet.csv").write_text(MOODLE.replace("December 2026", "prosinca 2026"), "utf-8")
+    with pytest.raises(RosterError, match=r"sheet.csv, line 2: .*prosinca.* is no time"):
+        Worksheet(tmp_path / "sheet.csv", UTC)
+
+
 def test_what_is_no_worksheet_is_refused(tmp_path):
     (tmp_path / "sheet.csv").write_text("Identifier,Full name,Grade\nParticipant 1,Ana,")
     with pytest.raises(RosterError, match=r"no column 'Last modified \(grade\)'"):

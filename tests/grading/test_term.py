@@ -182,16 +182,17 @@ def test_a_release_is_as_moodle_and_canvas_take_it_in(folder):
     out = folder / "results/99/release"
     sheet = {row["Identifier"]: row for row in table(out / "moodle.csv")}
     assert list(sheet["Participant 501"]) == next(csv.reader(io.StringIO(SHEET.strip("\ufeff"))))
-    assert [sheet[f"Participant {n}"]["Grade"] for n in (501, 502, 503)] == ["6", "", ""]
+    assert [sheet[f"Participant {n}"]["Grade"] for n in (501, 502, 503)] == ["6", "5.5", ""]
     assert sheet["Participant 502"]["Last modified (grade)"] == "-"
     header, possible, *rows = csv.reader((out / "canvas.csv").read_text("utf-8").splitlines())
     assert header == ["Student", "ID", "SIS User ID", "SIS Login ID", "Section", "A fake"]
     assert possible == ["Points Possible", "", "", "", "", "8"]
     assert [(row[1], row[5]) for row in rows] == [("1021", "6"), ("1022", "5.5"), ("1023", "")]
     with zipfile.ZipFile(out / "moodle-feedback.zip") as archive:
-        (name,) = archive.namelist()
-        page = archive.read(name).decode()
-    assert name == "Ana Kos_501_assignsubmission_file_/exercise-99-feedback.html"
+        first, second = archive.namelist()
+        page = archive.read(first).decode()
+    assert first == "Ana Kos_501_assignsubmission_file_/exercise-99-feedback.html"
+    assert second == "Ben Ivo_502_assignsubmission_file_/exercise-99-feedback.html"
     assert "<title>Exercise 99: A fake · Ana Kos</title>" in page
     assert "Tuesday, 1 December 2026, 12:00 CET" in page
     with zipfile.ZipFile(out / "canvas-feedback.zip") as archive:
@@ -205,6 +206,18 @@ def test_a_release_is_as_moodle_and_canvas_take_it_in(folder):
     said = releases.release(*words[:3], found["99"], words[4])
     assert said[-1] == "changed since the last release: Ben Ivo: 5.5 → 7"
     assert not (out / "stray").exists()
+
+
+def test_who_handed_in_by_another_way_is_in_moodles_tables(folder):
+    made, found = stored(folder, attempt("s2", 8, "2026-12-01T10:00:00+00:00", name="s2/x.ipynb"))
+    made.keep_worksheet("99", folder / "sheet.csv")
+    releases.release(made.course, made.roster, "99", found["99"], made.worksheet("99"))
+    out = folder / "results/99/release"
+    assert [row["Grade"] for row in table(out / "moodle.csv")] == ["", "8", ""]
+    with zipfile.ZipFile(out / "moodle-feedback.zip") as archive:
+        assert archive.namelist() == [
+            "Ben Ivo_502_assignsubmission_file_/exercise-99-feedback.html"
+        ]
 
 
 def test_who_is_no_longer_in_the_roster_is_told(folder, capsys):

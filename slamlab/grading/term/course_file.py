@@ -17,7 +17,11 @@ _TABLES = ("late", "exercises", "extensions")
 _OF_EXERCISE = ("due", "canvas")
 
 
-class CourseFileError(Exception):
+class TermError(Exception):
+    """Something of a term cannot be used; the text says what, and why."""
+
+
+class CourseFileError(TermError):
     """The course file cannot be used; the text says why, and what may stand there."""
 
 

@@ -62,4 +62,5 @@ def _opened(zipped, folder):
 
 
 def _refused(scratch, name, why):
-    return Submission(name, name.split("/")[0], scratch / name.lstrip("/\\"), f"refused: {why}")
+    whose = name.replace("\\", "/").lstrip("/").split("/")[0]
+    return Submission(name, whose, scratch, f"refused: {why}", when="")

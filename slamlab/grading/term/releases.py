@@ -16,6 +16,7 @@ from slamlab.exercises.report import number
 from slamlab.grading import feedback
 from slamlab.grading.grade_tables import write_table
 from slamlab.grading.records import write_atomically
+from slamlab.grading.term.course_file import TermError
 from slamlab.grading.term.lms_names import CANVAS, MOODLE
 from slamlab.grading.term.term_tables import exercise_rows
 
@@ -23,7 +24,7 @@ _OF_CANVAS = ("Student", "ID", "SIS User ID", "SIS Login ID", "Section")
 _MOST = "Maximum Grade", "Maximum grade"
 
 
-class ReleaseError(Exception):
+class ReleaseError(TermError):
     """There is nothing to release; the text says why."""
 
 
@@ -65,7 +66,7 @@ def release(course, roster, exercise, standings, worksheet=None):
     said = [f"{len(handed_in)} of {len(standings)} handed in"]
     ungraded = [s.student.name for s in handed_in if s.total is None]
     said += [f"no score yet: {', '.join(ungraded)}"] if ungraded else []
-    said += _for_moodle(made, exercise, handed_in, pages, worksheet)
+    said += _for_moodle(made, exercise, roster, handed_in, pages, worksheet)
     said += _for_canvas(made, course, roster, exercise, standings, pages)
     shutil.rmtree(final, ignore_errors=True)
     os.replace(made, final)
@@ -77,30 +78,24 @@ def file_name(id):
     return re.sub(r"[^\w.@+-]|^\.", lambda match: f"%{ord(match[0]):02x}", id)
 
 
-def _for_moodle(folder, exercise, handed_in, pages, worksheet):
+def _for_moodle(folder, exercise, roster, handed_in, pages, worksheet):
     """Write the worksheet and the zip of feedback; what to say of them."""
-    mine, said = {}, []
-    for standing in handed_in:
-        told = standing.of_download
-        if told and told.lms == MOODLE:
-            mine[told.number] = (told, standing)
+    mine = _participants(roster, handed_in, worksheet)
     if not mine:
         return []
     files = {
-        f"{told.prefix}_/{_page(exercise)}": pages[standing.student.id]
-        for told, standing in mine.values()
+        f"{prefix}_/{_page(exercise)}": pages[standing.student.id]
+        for prefix, standing in mine.values()
     }
     _write_zip(folder / "moodle-feedback.zip", files)
-    said.append(f"moodle-feedback.zip: {len(files)} pages")
+    said = [f"moodle-feedback.zip: {len(files)} pages"]
     if worksheet is None:
         return [*said, "no moodle.csv: it needs the grading worksheet (--worksheet, when grading)"]
-    by_student = {standing.student.id: standing for standing in handed_in}
-    grades = {}
-    for participant in worksheet.rows:
-        standing = mine.get(participant, (None, None))[1]
-        if standing is not None and standing is by_student[standing.student.id]:
-            total = standing.total
-            grades[participant] = ("" if total is None else number(total), standing.mark.note)
+    grades = {
+        participant: ("" if standing.total is None else number(standing.total), standing.mark.note)
+        for participant, (_, standing) in mine.items()
+        if participant in worksheet.rows
+    }
     write_table(folder / "moodle.csv", worksheet.filled(grades))
     said.append(f"moodle.csv: {sum(grade != '' for grade, _ in grades.values())} grades")
     points = catalogue.exercise(exercise).points
@@ -110,6 +105,23 @@ def _for_moodle(folder, exercise, handed_in, pages, worksheet):
         said.append(f"in Moodle this assignment has {', '.join(other)} points, here {points:g}: "
                     f"set its maximum grade to {points:g} first")  # fmt: skip
     return said
+
+
+def _participants(roster, handed_in, worksheet):
+    """Moodle's number of each who handed in to (start of the folder's name, Standing)."""
+    found = {}
+    for standing in handed_in:
+        told = standing.of_download
+        if told and told.lms == MOODLE:
+            found[told.number] = (told.prefix, standing)
+    by_id = {standing.student.id: standing for standing in handed_in}
+    for participant, row in worksheet.rows.items() if worksheet else ():
+        student = worksheet.student(participant, roster)
+        if student and student.id in by_id:  # also who handed in by another way
+            name = re.sub(r"[_/\\]", " ", row.get("Full name", "")) or "Participant"
+            prefix = f"{name}_{participant}_assignsubmission_file"
+            found.setdefault(participant, (prefix, by_id[student.id]))
+    return found
 
 
 def _for_canvas(folder, course, roster, exercise, standings, pages):

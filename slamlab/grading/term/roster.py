@@ -11,7 +11,7 @@ import io
 import re
 from dataclasses import dataclass, field
 
-from slamlab.grading.term.course_file import moment
+from slamlab.grading.term.course_file import TermError, moment
 
 OWN = ("id", "name", "email", "section", "canvas")
 _TITLES = {
@@ -26,7 +26,7 @@ _TITLES = {
 """Field to the titles it may have, the first that a row fills counts."""
 
 
-class RosterError(Exception):
+class RosterError(TermError):
     """The roster cannot be used; the text says why."""
 
 

@@ -44,6 +44,11 @@ class Worksheet:
             if number is None:
                 raise RosterError(f"{file}, line {line}: {row[IDENTIFIER]!r} has no number")
             self.rows[number[1]] = row
+            if row.get(SUBMITTED, "").strip() not in ("", "-") and not self.handed_in(number[1]):
+                raise RosterError(
+                    f"{file}, line {line}: {row[SUBMITTED]!r} is no time that is read "
+                    "(download it with Moodle in English)"
+                )
 
     def student(self, number, roster):
         """The student of a participant's number: by ID number, else e-mail, else full name.
