@@ -29,7 +29,7 @@ def with_progress(graded, count):
         bar = progress.add_task("starting", total=count)
         for record in graded:
             records.append(record)
-            progress.update(bar, advance=1, description=_printable(record.submission))
+            progress.update(bar, advance=1, description=printable(record.submission))
     return sorted(records, key=lambda record: record.submission)
 
 
@@ -45,7 +45,7 @@ def print_summary(records, out, said=()):
     Console().print(_table(records))
     print(_summary_line(records, out))
     for line in said:
-        print(line)
+        print(printable(line))
 
 
 def _table(records):
@@ -54,7 +54,7 @@ def _table(records):
     for record in shown:
         scores = (number(record.score), number(record.max_score)) if record.graded else ("–", "–")
         # as Text, so that a name or a note cannot style the table
-        table.add_row(Text(_printable(record.submission)), *scores, Text(_printable(record.note)))
+        table.add_row(Text(printable(record.submission)), *scores, Text(printable(record.note)))
     return table
 
 
@@ -64,5 +64,6 @@ def _summary_line(records, out):
     return f"{len(records) - missing} graded{lost}: {out / 'grades.csv'}, class.html, feedback/"
 
 
-def _printable(text):
+def printable(text):
+    """Text without what a terminal would take for a command."""
     return "".join(c if c.isprintable() else " " for c in text)

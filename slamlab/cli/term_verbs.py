@@ -5,6 +5,7 @@ import sys
 from pathlib import Path
 
 from slamlab.cli.common import COURSE, UsageError, term_of
+from slamlab.cli.grade_output import printable
 
 VERBS = ("init", "release")
 TEMPLATE = """\
@@ -109,4 +110,5 @@ def _release(arguments):
         raise UsageError(gone[0])
     said = releases.release(term.course, term.roster, id, mine, term.worksheet(id))
     place = term.course.results / id / "release"
-    return "\n".join([f"exercise {id} released: {place}", *said, *gone])
+    lines = [f"exercise {id} released: {place}", *said, *gone]
+    return "\n".join(map(printable, lines))
