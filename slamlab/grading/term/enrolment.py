@@ -28,10 +28,16 @@ def joined(found, roster, worksheet=None):
     """
     made = [_joined(submission, roster, worksheet) for submission in found]
     numbers = defaultdict(set)
-    for before, after in zip(found, made, strict=True):
-        if before.number and after.student in roster.students:
-            numbers[after.student].add(before.number)
+    for submission in made:
+        if submission.student in roster.students:
+            numbers[submission.student] |= _participant(submission)
     return [_unless_claimed_twice(s, numbers[s.student], roster) for s in made]
+
+
+def _participant(submission):
+    """Moodle's number of whose it is, alone in a set; empty for what is not Moodle's."""
+    of_lms = lms_name(submission.name)
+    return {of_lms.number} if of_lms and of_lms.lms == MOODLE else set()
 
 
 def _joined(submission, roster, worksheet):
@@ -57,9 +63,9 @@ def _by_any_name(name, roster):
 
 
 def _unless_claimed_twice(submission, numbers, roster):
-    if len(numbers) < 2:
+    if len(numbers) < 2 or not _participant(submission):
         return submission
     name = roster.students[submission.student].name
     said = f"the participants {', '.join(sorted(numbers))} are all called {name}"
-    who = f"{STRANGER}{name} (participant {submission.number})"
+    who = f"{STRANGER}{name} (participant {min(_participant(submission))})"
     return replace(submission, student=who, problem=f"{said}: say whose it is by --worksheet")
