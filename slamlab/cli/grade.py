@@ -121,10 +121,11 @@ def run(arguments) -> int:
             WorkerPool(arguments.isolation) as workers,
             _signals_as_interrupt(),
         ):
-            if arguments.regrade:
-                book.delete_attempts([submission.name for submission in found])
-            graded = _graded(arguments, found, secret, workers, book.attempts())
-            written = batch.store_records(graded, arguments.out, book, arguments.exercise, policy)
+            known = {} if arguments.regrade else book.attempts()
+            graded = _graded(arguments, found, secret, workers, known)
+            written = batch.store_records(
+                graded, arguments.out, book, arguments.exercise, policy, arguments.regrade
+            )
             records = _with_progress(written, len(found))
     except foreseen as error:
         print(f"slamlab grade: {error.args[0]}", file=sys.stderr)

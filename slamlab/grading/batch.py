@@ -1,5 +1,6 @@
 """Batch grading: a folder's submissions, each stored when graded, so that it can resume."""
 
+import contextlib
 import re
 import threading
 from concurrent.futures import ThreadPoolExecutor, as_completed, wait
@@ -7,7 +8,9 @@ from hashlib import sha256
 from pathlib import Path
 
 from slamlab.grading import class_report, feedback, grade_tables, judge, late_policy, submissions
+from slamlab.grading.gradebook_rows import attempt_key
 from slamlab.grading.marks import mark
+from slamlab.grading.records import private_folder
 from slamlab.grading.submissions import SubmissionError
 
 
@@ -34,7 +37,7 @@ def prepare_grading(folder: Path, out: Path, secret: Path | None = None):
     if not found:
         raise SubmissionError(f"there is no notebook in {folder}")
     try:
-        out.mkdir(parents=True, exist_ok=True)
+        private_folder(out)
     except OSError as error:
         raise SubmissionError(f"{out} cannot be made: {error.strerror}") from None
     return found, judge.load_secret(secret or out / "secret", make=secret is None)
@@ -42,6 +45,9 @@ def prepare_grading(folder: Path, out: Path, secret: Path | None = None):
 
 def select_shard(found, part):
     """Select one shard of the submissions, the same on every machine: for batch systems.
+
+    Dealt out in the order of their names' hashes, shards differ by one submission at most; where
+    there are more shards than submissions, some are empty.
 
     Parameters
     ----------
@@ -60,10 +66,8 @@ def select_shard(found, part):
     i, n = (int(number) for number in match.groups()) if match else (0, 0)
     if not 1 <= i <= n:
         raise SubmissionError(f"--shard is I/N such as 2/8, with I from 1 to N, not {part}")
-    mine = [s for s in found if int(sha256(s.name.encode()).hexdigest(), 16) % n == i - 1]
-    if not mine:
-        raise SubmissionError(f"part {part} of {len(found)} submissions is empty")
-    return mine
+    dealt = sorted(found, key=lambda s: (sha256(s.name.encode()).digest(), s.name))
+    return sorted(dealt[i - 1 :: n], key=lambda s: s.name)
 
 
 def grade_locally(found, secret, workers, default=None, known=None, jobs=1):
@@ -83,7 +87,7 @@ def grade_locally(found, secret, workers, default=None, known=None, jobs=1):
     Record
     """
     stop = threading.Event()
-    with ThreadPoolExecutor(jobs) as pool:
+    with ThreadPoolExecutor(max(1, jobs)) as pool:
         futures = [
             pool.submit(judge.grade_submission, s, secret, workers, default, known, stop)
             for s in found
@@ -98,8 +102,10 @@ def grade_locally(found, secret, workers, default=None, known=None, jobs=1):
             workers.close()  # before the threads end that they would die with
 
 
-def store_records(graded, out, book, default=None, policy=late_policy.NO_PENALTY):
+def store_records(graded, out, book, default=None, policy=late_policy.NO_PENALTY, regrade=False):
     """Store each record in the gradebook with its feedback page, and all tables at the end.
+
+    A regrade's records take the place of the older ones all at once, when the last is known.
 
     Parameters
     ----------
@@ -108,21 +114,38 @@ def store_records(graded, out, book, default=None, policy=late_policy.NO_PENALTY
     book : Gradebook
     default : str or None, an exercise whose columns stand in the table in any case
     policy : LatePolicy
+    regrade : bool
 
     Yields
     ------
-    Record, written
+    Record, written; those of a regrade are not yet
     """
-    done, overrides = [], book.overrides()
-    try:
+    records, overrides = [], book.overrides()
+    with contextlib.closing(graded):  # nothing is graded any more when the gradebook is lost
         for record in graded:
-            done.append(mark(record, overrides, policy))
-            if not record.failed:
-                book.add(record)
-            feedback.write_feedback_page(out, done[-1])
+            records.append(record)
+            if not regrade:
+                if not record.failed:
+                    book.add(record)
+                feedback.write_feedback_page(out, mark(record, overrides, policy))
             yield record
-    finally:
-        write_results(out, done, default)
+    if regrade:
+        records, overrides = _swap(records, book), book.overrides()
+    marks = [mark(record, overrides, policy) for record in records]
+    for each in marks if regrade else ():
+        feedback.write_feedback_page(out, each)
+    write_results(out, marks, default)
+
+
+def _swap(records, book):
+    """Put records in the place of older ones at once; where the grader failed, the older stays."""
+    older = book.attempts()
+    book.add_all([record for record in records if not record.failed])
+    keys = [attempt_key(record.submission, record.sha256, record.seed) for record in records]
+    return [
+        older.get(key, record) if record.failed else record
+        for key, record in zip(keys, records, strict=True)
+    ]
 
 
 def write_results(out, marks, default=None):
