@@ -56,7 +56,7 @@ raise ValueError(len(found))
     opened = [os.open(os.devnull, os.O_RDONLY) for _ in range(400)]
     try:
         with WorkerPool(workers().level, warm=False) as pool:  # its sockets have large numbers
-            assert cells_of(spy, by=pool)[1].startswith("ValueError: 2,")  # the pipe's two ends
+            assert cells_of(spy, by=pool)[1].startswith("ValueError: 2 (")  # the pipe's two ends
     finally:
         for number in opened:
             os.close(number)
