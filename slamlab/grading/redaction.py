@@ -1,8 +1,9 @@
 """Redaction: what is said of a task that fails, redacted so that it reveals nothing of the inputs.
 
 The worker runs the student's code, so that any text of its may be the student's, and so may any
-number in it: the line at which it fails, the shape that it returns can be chosen by an input. Only
-sentences of the drives are passed on, and in their gaps only a few words that are known anyway.
+name and number in it: the line at which it fails, the exception that it raises, the shape that it
+returns can be chosen by an input. Only sentences of the drives are passed on, and in their gaps
+only the names of the functions that are asked for.
 """
 
 import ast
@@ -12,16 +13,6 @@ import re
 
 # kinds of problem that a worker may report
 PROBLEM_KINDS = {"missing", "not attempted", "raised", "malformed"}
-ERRORS = (
-    "AttributeError", "IndexError", "KeyError", "MemoryError", "NameError", "RecursionError",
-    "TypeError", "ValueError", "ZeroDivisionError",
-)  # fmt: skip
-"""Everyday exceptions, which are named; a longer list would carry more of an input."""
-TYPES = {
-    "NoneType", "bool", "int", "float", "complex", "str", "list", "tuple", "dict", "set",
-    "function", "generator", "module", "ndarray", "DataFrame", "Series", "MutableDenseMatrix",
-}  # fmt: skip
-"""Everyday types of what is returned."""
 # what the judge itself measured, without the numbers that the student's function chose
 MEASURED = (
     (re.compile(r"returned shape \([\d, ]*\)(?: \(one number\))?, expected"),
@@ -30,7 +21,6 @@ MEASURED = (
     (re.compile(r"returned \d+ entries"), "returned entries"),
 )  # fmt: skip
 
-_RAISED = re.compile(r"(\w{1,60}): .*", re.S)
 _GAP = r"(.{0,80}?)"
 _HIDDEN = "…"
 _SEE_CHECK = "check(…) in the notebook says more"
@@ -50,9 +40,7 @@ def redact(kind, problem, task, drives):
     str
     """
     if kind == "raised":
-        match = _RAISED.fullmatch(problem)
-        name = match[1] if match and match[1] in ERRORS else "an exception"
-        return f"raised {name}; check(…) in the notebook shows what it says, and where"
+        return "raised an exception; check(…) in the notebook shows which, and where"
     known = _known_words(task)
     for template in sentence_templates(drives):
         if match := template.fullmatch(problem):
@@ -77,11 +65,11 @@ def redact_measured(problem):
 
 
 def _known_words(task):
-    """What may stand in a gap: a function, one of its outputs, a type, a question."""
+    """What may stand in a gap: a function, one of its outputs, a question."""
     functions = set(task.drive.functions)
     outputs = () if callable(task.shapes) else task.shapes
     parts = {f"{function}'s {output}" for function in functions for output in outputs}
-    return functions | parts | TYPES | {"", " (transposed?)"}
+    return functions | parts | {"", " (transposed?)"}
 
 
 def _filled(match, known):

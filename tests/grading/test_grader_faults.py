@@ -404,10 +404,10 @@ def turn(v, angle):
     raise d.StudentError('malformed', f'turn is of type {signs}, not a function')
 """
 BY_NAME = "def turn(v, angle):\n    raise [KeyError, EOFError, OSError][int(9 * angle) % 3]('x')\n"
-BY_NAME = BY_NAME.replace("KeyError", "ImportError")
+BY_TYPE = "def turn(v, angle):\n    return ['x', {}, object(), b''][int(9 * angle) % 4]\n"
 
 
-@pytest.mark.parametrize("cell", [BY_LINE, BY_NUMBER, BY_SIGNS, BY_NAME])
+@pytest.mark.parametrize("cell", [BY_LINE, BY_NUMBER, BY_SIGNS, BY_NAME, BY_TYPE])
 def test_what_is_said_of_a_failure_is_the_same_whatever_the_inputs(cell):
     said = set()
     for seed in range(6):
