@@ -128,10 +128,9 @@ def _grade(arguments, scratch):
         _signals_as_interrupt(),
     ):
         kept = batch.kept_policies(book)
-        if arguments.regrade:
-            book.delete_attempts([submission.name for submission in found])
-        graded = _graded(arguments, found, secret, workers, book.attempts())
-        words = arguments.out, book, arguments.exercise, policy, kept, term
+        known = {} if arguments.regrade else book.attempts()
+        graded = _graded(arguments, found, secret, workers, known)
+        words = arguments.out, book, arguments.exercise, policy, arguments.regrade, kept, term
         records = with_progress(batch.store_records(graded, *words), len(found))
         return records, term.summary(book, records) if term else []
 

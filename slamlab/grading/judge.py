@@ -15,7 +15,7 @@ from slamlab import __version__
 from slamlab.exercises.drives import StudentError
 from slamlab.exercises.run_task import recognised
 from slamlab.exercises.task import OPEN_SEED
-from slamlab.grading import similarity, submissions
+from slamlab.grading import redaction, similarity, submissions
 from slamlab.grading.gradebook_rows import attempt_key
 from slamlab.grading.records import Record
 from slamlab.grading.submissions import Submission, SubmissionError
@@ -130,6 +130,8 @@ def judge_notebook(
         def judge_one(task):
             try:
                 verdict = task.judge(*answered(task, seed))
+                if verdict.problem and not unredacted:
+                    verdict = replace(verdict, problem=redaction.redact_measured(verdict.problem))
                 if verdict.full:
                     return verdict
                 return recognised(task, verdict, lambda: answered(task, OPEN_SEED))

@@ -92,9 +92,19 @@ def _failed_laws(verdict):
 
 
 def write_atomically(path: Path, text: str):
-    """Write a file atomically: it is there whole or not at all."""
-    path.parent.mkdir(parents=True, exist_ok=True)
+    """Write a file atomically, for its owner's eyes only: it is there whole or not at all."""
+    private_folder(path.parent)
     # what a killed grader left half written is written again under the same name
     partial = path.with_name(f".{path.name}.part")
-    partial.write_text(text, encoding="utf-8", errors="backslashreplace", newline="")
+    partial.unlink(missing_ok=True)
+    handle = os.open(partial, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600)
+    with open(handle, "w", encoding="utf-8", errors="backslashreplace", newline="") as file:
+        file.write(text)
     os.replace(partial, path)
+
+
+def private_folder(path: Path):
+    """Make a folder where it is missing, with those above it, that only its owner can look into."""
+    if not path.is_dir():
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.mkdir(mode=0o700, exist_ok=True)
