@@ -6,7 +6,7 @@ from pathlib import Path
 
 from slamlab.grading import class_report, feedback
 from slamlab.grading.marks import mark
-from slamlab.grading.records import write_atomically
+from slamlab.grading.records import private_folder, write_atomically
 from slamlab.grading.term import course_file, enrolment, roster, term_tables
 from slamlab.grading.term.releases import file_name
 from slamlab.grading.term.standings import standings
@@ -37,7 +37,8 @@ class Term:
         """Check a worksheet and keep it, so that no later command needs it again."""
         Worksheet(file, self.course.zone)
         kept = self._worksheet_file(exercise)
-        kept.parent.mkdir(parents=True, exist_ok=True)
+        private_folder(self.course.results)
+        private_folder(kept.parent)
         if not (kept.exists() and kept.samefile(file)):
             shutil.copyfile(file, kept)
             kept.chmod(0o600)
