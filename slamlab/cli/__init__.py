@@ -5,7 +5,8 @@ Read in this order:
 - ``run``, ``convert``: estimators over sources, sources into reading logs; ``film``: films of runs
 - ``emulate``, ``record``, ``replay``: devices
 - ``progress``, ``reset`` (and update): a student's own folder
-- ``check``, ``grade``, ``gradebook_verbs`` (merge, adjust, export): exercises
+- ``check``, ``grade``, ``grade_output``, ``term_verbs`` (init, release), ``gradebook_verbs``
+  (merge, adjust, export): exercises
 - ``rehearse``, ``print_handout``: a lesson before and after its lecture
 - ``common``: what several share
 
@@ -19,8 +20,9 @@ from importlib import import_module
 from slamlab import __version__
 
 COMMANDS = ("run", "film", "convert", "emulate", "record", "replay", "check", "grade",
-            "gradebook_verbs", "progress", "reset", "rehearse", "print_handout")  # fmt: skip
-SUBCOMMANDS = {"grade": ("merge", "adjust", "export")}
+            "term_verbs", "gradebook_verbs", "progress", "reset", "rehearse",
+            "print_handout")  # fmt: skip
+SUBCOMMANDS = {"grade": ("init", "release", "merge", "adjust", "export")}
 """Subcommands, written as two words; a folder of such a name is given as ./merge."""
 
 

@@ -1,13 +1,19 @@
-"""Helpers shared by the commands: random generator, source that ends at Ctrl-C, damage report."""
+"""Helpers shared by the commands: generator, source that ends at Ctrl-C, damage, course file."""
 
 import signal
 import threading
+from pathlib import Path
 
 SOURCES = (
     "a log file, a ROS bag, a raw recording of devices, sim:WORLD, a recording's name, or, live, "
     "devices:LIDAR_PORT,EMIR_PORT"
 )
+COURSE = "the course file; default: course.toml here, where there is one and no --out is given"
 INTERRUPTED = 130  # the exit code after Ctrl-C, as of shells
+
+
+class UsageError(Exception):
+    """A command was given in a way that means nothing; the text says how it is meant."""
 
 
 def generator(seed):
@@ -23,6 +29,58 @@ def damage_line(source):
     """Count a source's corrupt data (damage), as the end of a line; empty where there is none."""
     kinds = ", ".join(f"{kind}: {count}" for kind, count in source.damage.items())
     return f"; damage: {kinds}" if kinds else ""
+
+
+def add_course_options(parser):
+    """Add the options of every command on a gradebook; a course file gives what is left out."""
+    parser.add_argument("--course", metavar="FILE", type=Path, help=COURSE)
+    parser.add_argument(
+        "--out", metavar="DIR", type=Path, help="for the results; default: the course file's"
+    )
+    parser.add_argument(
+        "--db",
+        metavar="URL",
+        help="the gradebook, a database that SQLAlchemy speaks to; default: DIR/grades.db, SQLite",
+    )
+    parser.add_argument(
+        "--policy",
+        metavar="FILE",
+        type=Path,
+        help='late policy: per_day = 0.1, at_most = 0.5, [due], "04" = 2026-12-01T23:59Z; '
+        "stored with each mark. A course file has its own",
+    )
+
+
+def term_of(arguments):
+    """The term that a command is given in, which fills in what was left out; None without one.
+
+    Parameters
+    ----------
+    arguments : Namespace, of :func:`add_course_options`; changed
+
+    Returns
+    -------
+    Term or None
+
+    Raises
+    ------
+    UsageError
+    TermError : the course file or the roster cannot be used
+    """
+    from slamlab.grading.term import course_file, term
+
+    file = arguments.course or Path(course_file.NAME)
+    if arguments.course is None and (arguments.out or not file.exists()):
+        if arguments.out is None:
+            raise UsageError("say --out DIR, or make a course file: slamlab grade init")
+        return None
+    for option in ("out", "policy"):
+        if getattr(arguments, option):
+            raise UsageError(f"{file} says what --{option} says; leave one of them out")
+    found = term.load(file)
+    arguments.out = found.course.results
+    arguments.db = arguments.db or found.course.gradebook
+    return found
 
 
 class Interruptible:

@@ -4,18 +4,13 @@ import contextlib
 import os
 import signal
 import sys
+import tempfile
 import threading
 from pathlib import Path
 
-from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
-from rich.table import Table
-from rich.text import Text
-
+from slamlab.cli.common import UsageError, add_course_options, term_of
+from slamlab.cli.grade_output import print_summary, with_progress
 from slamlab.exercises import catalogue
-from slamlab.exercises.report import number
-
-MAX_TABLE_ROWS = 60  # submissions shown; of larger classes only those that failed
 
 
 def add_parser(subparsers):
@@ -31,12 +26,20 @@ def add_parser(subparsers):
             "processes."
         ),
     )
-    parser.add_argument("folder", metavar="FOLDER", type=Path, help="where the submissions are")
-    parser.add_argument("--out", metavar="DIR", type=Path, required=True, help="for the results")
+    parser.add_argument(
+        "folder", metavar="FOLDER", type=Path, help="where the submissions are: a folder or a zip"
+    )
+    add_course_options(parser)
     parser.add_argument(
         "--exercise",
         metavar="ID",
-        help="the exercise of notebooks that tell it neither inside nor by their name, such as 04",
+        help="the exercise that all are to be of, such as 04; what tells another is not graded",
+    )
+    parser.add_argument(
+        "--worksheet",
+        metavar="FILE",
+        type=Path,
+        help="Moodle's grading worksheet of the assignment: whose each number is, and the times",
     )
     parser.add_argument(
         "--secret",
@@ -54,15 +57,9 @@ def add_parser(subparsers):
     parser.add_argument(
         "--isolation",
         choices=("strict", "basic", "none"),
-        default="strict",
-        help="sandbox of student code. strict: bubblewrap, Landlock, seccomp; basic: the last two "
-        "(Linux, as an ordinary user); none: only resource limits, for notebooks you "
-        "trust. Nothing is graded where the level asked for is not available",
-    )
-    parser.add_argument(
-        "--db",
-        metavar="URL",
-        help="the gradebook, a database that SQLAlchemy speaks to; default: DIR/grades.db, SQLite",
+        help="sandbox of student code, default strict. strict: bubblewrap, Landlock, seccomp; "
+        "basic: the last two (Linux, as an ordinary user); none: only resource limits, for "
+        "notebooks you trust. Nothing is graded where the level asked for is not available",
     )
     parser.add_argument(
         "--shard",
@@ -76,12 +73,6 @@ def add_parser(subparsers):
         "in their own sandbox and see the secret: use TLS and machines you trust",
     )
     parser.add_argument(
-        "--policy",
-        metavar="FILE",
-        type=Path,
-        help='late policy: per_day = 0.1, at_most = 0.5, [due], "04" = 2026-12-01T23:59Z',
-    )
-    parser.add_argument(
         "--regrade",
         action="store_true",
         help="grade again what the gradebook knows; points set by hand stay",
@@ -92,49 +83,71 @@ def add_parser(subparsers):
 def run(arguments) -> int:
     """Grade; 0 when every submission was graded or listed, 2 for wrong use or no sandbox."""
     # imported late: what a help text needs should come at once
-    from slamlab.grading import batch, isolation, late_policy
-    from slamlab.grading.gradebook import Gradebook, GradebookError, default_url
+    from slamlab.grading.gradebook import GradebookError
+    from slamlab.grading.isolation import IsolationError
+    from slamlab.grading.late_policy import LatePolicyError
     from slamlab.grading.submissions import SubmissionError
-    from slamlab.grading.worker_pool import WorkerPool
+    from slamlab.grading.term.course_file import TermError
     from slamlab.parallel import RunError
 
-    foreseen = (
-        SubmissionError,
-        GradebookError,
-        isolation.IsolationError,
-        late_policy.LatePolicyError,
-        RunError,
-        KeyError,
-    )
+    told = (UsageError, SubmissionError, GradebookError, IsolationError, LatePolicyError, TermError)
     try:
-        if arguments.jobs < 1:
-            raise SubmissionError("--jobs must be at least 1")
-        if arguments.exercise is not None:
-            catalogue.exercise(arguments.exercise)
-        found, secret = batch.prepare_grading(arguments.folder, arguments.out, arguments.secret)
-        found = batch.select_shard(found, arguments.shard) if arguments.shard else found
-        policy = late_policy.load(arguments.policy) if arguments.policy else late_policy.NO_PENALTY
-        if not arguments.scheduler:
-            isolation.ensure_level(arguments.isolation)
-        with (
-            Gradebook(arguments.db or default_url(arguments.out)) as book,
-            WorkerPool(arguments.isolation) as workers,
-            _signals_as_interrupt(),
-        ):
-            if arguments.regrade:
-                book.delete_attempts([submission.name for submission in found])
-            graded = _graded(arguments, found, secret, workers, book.attempts())
-            written = batch.store_records(graded, arguments.out, book, arguments.exercise, policy)
-            records = _with_progress(written, len(found))
-    except foreseen as error:
+        with tempfile.TemporaryDirectory(prefix="slamlab-zips-") as scratch:
+            records, said = _grade(arguments, Path(scratch))
+    except (*told, RunError, KeyError) as error:
         print(f"slamlab grade: {error.args[0]}", file=sys.stderr)
         return 2
     except OSError as error:
         print(f"slamlab grade: {error.filename}: {error.strerror}", file=sys.stderr)
         return 2
-    Console().print(_table(records))
-    print(_summary_line(records, arguments.out))
+    print_summary(records, arguments.out, said)
     return 0
+
+
+def _grade(arguments, scratch):
+    """The records of a run, and what else there is to tell of it."""
+    from slamlab.grading import batch, isolation, late_policy
+    from slamlab.grading.gradebook import Gradebook, default_url
+    from slamlab.grading.worker_pool import WorkerPool
+
+    term = term_of(arguments)
+    _check(arguments, term)
+    secret = arguments.secret or (term and term.course.secret)
+    make = term is not None and arguments.secret is None
+    if term and arguments.worksheet:
+        term.keep_worksheet(arguments.exercise, arguments.worksheet)
+    found, secret = batch.prepare_grading(arguments.folder, arguments.out, scratch, secret, make)
+    found = term.join(found, arguments.exercise) if term else found
+    found = batch.select_shard(found, arguments.shard) if arguments.shard else found
+    policy = late_policy.load(arguments.policy) if arguments.policy else term and term.policy
+    if not arguments.scheduler:
+        isolation.ensure_level(arguments.isolation)
+    with (
+        Gradebook(arguments.db or default_url(arguments.out)) as book,
+        WorkerPool(arguments.isolation) as workers,
+        _signals_as_interrupt(),
+    ):
+        kept = batch.kept_policies(book)
+        known = {} if arguments.regrade else book.attempts()
+        graded = _graded(arguments, found, secret, workers, known)
+        words = arguments.out, book, arguments.exercise, policy, arguments.regrade, kept, term
+        records = with_progress(batch.store_records(graded, *words), len(found))
+        return records, term.summary(book, records) if term else []
+
+
+def _check(arguments, term):
+    """Check what was said against the course file, and fill in what was not."""
+    if arguments.jobs < 1:
+        raise UsageError("--jobs must be at least 1")
+    if arguments.exercise is not None:
+        arguments.exercise = catalogue.exercise(arguments.exercise).id
+    if arguments.worksheet and not (term and arguments.exercise):
+        raise UsageError("--worksheet needs a course file, and --exercise, which it is of")
+    if term and arguments.exercise not in (None, *term.course.exercises):
+        known = ", ".join(term.course.exercises)
+        raise UsageError(f"the course file has no exercise {arguments.exercise}; it has {known}")
+    if arguments.isolation is None:
+        arguments.isolation = term.course.isolation if term else "strict"
 
 
 def _graded(arguments, found, secret, workers, known):
@@ -166,35 +179,3 @@ def _signals_as_interrupt():
 
 def _interrupt(*_):
     raise KeyboardInterrupt
-
-
-def _with_progress(graded, count):
-    columns = (BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
-    text = TextColumn("{task.description}", markup=False)
-    records = []
-    with Progress(*columns, text, console=Console(stderr=True)) as progress:
-        bar = progress.add_task("starting", total=count)
-        for record in graded:
-            records.append(record)
-            progress.update(bar, advance=1, description=_printable(record.submission))
-    return sorted(records, key=lambda record: record.submission)
-
-
-def _table(records):
-    shown = records if len(records) <= MAX_TABLE_ROWS else [r for r in records if not r.graded]
-    table = Table("submission", "score", "of", "note")
-    for record in shown:
-        scores = (number(record.score), number(record.max_score)) if record.graded else ("–", "–")
-        # as Text, so that a name or a note cannot style the table
-        table.add_row(Text(_printable(record.submission)), *scores, Text(_printable(record.note)))
-    return table
-
-
-def _summary_line(records, out):
-    missing = sum(not record.graded for record in records)
-    lost = f", {missing} could not be graded" if missing else ""
-    return f"{len(records) - missing} graded{lost}: {out / 'grades.csv'}, class.html, feedback/"
-
-
-def _printable(text):
-    return "".join(c if c.isprintable() else " " for c in text)

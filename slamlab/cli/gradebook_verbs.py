@@ -1,7 +1,10 @@
 """``slamlab grade merge``, ``adjust``, ``export``: merge gradebooks, override points, export."""
 
 import sys
+from dataclasses import replace
 from pathlib import Path
+
+from slamlab.cli.common import UsageError, add_course_options, term_of
 
 VERBS = ("merge", "adjust", "export")
 
@@ -13,7 +16,9 @@ def add_parser(subparsers):
     adjust = _parser(
         subparsers, "adjust", "Override the points of a task by hand; the judge's stay."
     )
-    adjust.add_argument("submission", metavar="SUBMISSION", help="as in grades.csv")
+    adjust.add_argument(
+        "submission", metavar="SUBMISSION", help="as in grades.csv; in a term a student's id"
+    )
     adjust.add_argument("task", metavar="TASK", help="such as 04-h-robot")
     adjust.add_argument("points", metavar="POINTS", type=float)
     adjust.add_argument("--reason", metavar="TEXT", required=True, help="stands in the table")
@@ -28,11 +33,7 @@ def add_parser(subparsers):
 
 def _parser(subparsers, verb, says):
     parser = subparsers.add_parser(f"grade {verb}", description=says)
-    parser.add_argument("--out", metavar="DIR", type=Path, required=True, help="results, written")
-    parser.add_argument("--db", metavar="URL", help="the gradebook; default: DIR/grades.db")
-    parser.add_argument(
-        "--policy", metavar="FILE", type=Path, help="late policy (due dates, penalty)"
-    )
+    add_course_options(parser)
     parser.set_defaults(run=run, verb=verb)
     return parser
 
@@ -42,17 +43,20 @@ def run(arguments) -> int:
     from slamlab.grading import late_policy
     from slamlab.grading.gradebook import Gradebook, GradebookError, default_url
     from slamlab.grading.nbgrader_gradebook import NbgraderError
+    from slamlab.grading.term.course_file import TermError
 
+    told = (UsageError, GradebookError, NbgraderError, late_policy.LatePolicyError, TermError)
     verb = {"merge": _merge, "adjust": _adjust, "export": _export}[arguments.verb]
     try:
-        policy = late_policy.load(arguments.policy) if arguments.policy else late_policy.NO_PENALTY
+        term = term_of(arguments)
+        policy = late_policy.load(arguments.policy) if arguments.policy else None
         if arguments.verb == "merge":
             arguments.out.mkdir(parents=True, exist_ok=True)
         with Gradebook(
             arguments.db or default_url(arguments.out, arguments.verb == "merge")
         ) as book:
-            print(verb(arguments, book, policy))
-    except (GradebookError, NbgraderError, late_policy.LatePolicyError, KeyError) as error:
+            print(verb(arguments, book, term, policy))
+    except (*told, KeyError) as error:
         print(f"slamlab grade {arguments.verb}: {error.args[0]}", file=sys.stderr)
         return 2
     except OSError as error:
@@ -63,55 +67,76 @@ def run(arguments) -> int:
     return 0
 
 
-def _merge(arguments, book, policy):
+def _merge(arguments, book, term, policy):
     from slamlab.grading.gradebook import Gradebook, default_url
 
     added = 0
     for name in arguments.books:
         with Gradebook(name if "://" in name else default_url(Path(name), new=False)) as other:
             added += book.merge(other)
-    count = _write(arguments, book, policy)
+    count = _write(arguments, book, term, policy)
     return f"{added} attempts added; {count} submissions: {arguments.out / 'grades.csv'}"
 
 
-def _adjust(arguments, book, policy):
+def _adjust(arguments, book, term, policy):
     from slamlab.exercises import catalogue
 
     task = catalogue.task(arguments.task)
+    name = _submission(arguments, book, term)
     known = {record.submission: record for record in book.latest_attempts()}
-    if arguments.submission not in known:
-        raise KeyError(f"no submission {arguments.submission!r} in the gradebook; see grades.csv")
-    exercise = known[arguments.submission].exercise
+    if name not in known:
+        raise KeyError(f"no submission {name!r} in the gradebook; see grades.csv")
+    exercise = known[name].exercise
     if exercise not in (None, arguments.task[:2]):
-        raise KeyError(f"{arguments.submission} is of exercise {exercise}, {arguments.task} is not")
+        raise KeyError(f"{name} is of exercise {exercise}, {arguments.task} is not")
     if not 0 <= arguments.points <= task.points:
         raise KeyError(
             f"{arguments.task} has 0 to {task.points:g} points, not {arguments.points:g}"
         )
     book.override_points(
-        arguments.submission, arguments.task[:2], arguments.task, arguments.points, arguments.reason
+        name, arguments.task[:2], arguments.task, arguments.points, arguments.reason
     )
-    _write(arguments, book, policy)
-    return f"{arguments.submission}: {arguments.task} set to {arguments.points:g}"
+    _write(arguments, book, term, policy, exercises={arguments.task[:2]})
+    return f"{name}: {arguments.task} set to {arguments.points:g}"
 
 
-def _export(arguments, book, policy):
+def _submission(arguments, book, term):
+    """The submission that is meant: by its name, or in a term by the student's id."""
+    if term is None or arguments.submission not in term.roster.students:
+        return arguments.submission
+    standings = term.standings(book).get(arguments.task[:2], [])
+    counted = [s.mark for s in standings if s.student.id == arguments.submission and s.mark]
+    if not counted:
+        raise KeyError(f"{arguments.submission} has handed in nothing for {arguments.task[:2]}")
+    return counted[0].record.submission
+
+
+def _export(arguments, book, term, policy):
     from slamlab.grading import nbgrader_gradebook
 
-    count = nbgrader_gradebook.export(_marks(book, policy), arguments.nbgrader_gradebook)
+    if term is None:
+        marks = _marks(book, policy)
+    else:
+        marks = [s.mark for of_one in term.standings(book).values() for s in of_one if s.mark]
+    count = nbgrader_gradebook.export(marks, arguments.nbgrader_gradebook)
     return f"{count} submissions written to {arguments.nbgrader_gradebook}"
 
 
 def _marks(book, policy):
     from slamlab.grading.marks import mark
 
+    if policy is not None:
+        for record in book.latest_attempts():
+            book.add(replace(record, policy=policy.stored(record.student)))
     overrides = book.overrides()
-    return [mark(record, overrides, policy) for record in book.latest_attempts()]
+    return [mark(record, overrides) for record in book.latest_attempts()]
 
 
-def _write(arguments, book, policy):
+def _write(arguments, book, term, policy, exercises=None):
     from slamlab.grading import batch, feedback
 
+    if term is not None:
+        return len(term.write(book, exercises))
     marks = _marks(book, policy)
     batch.write_results(arguments.out, marks)
     for mark in marks:

@@ -20,6 +20,8 @@ class Exercise:
     drives : str, the module of the drives, such as "slamlab.exercises.drives.ex04"
     allows : whitelist of slamlab modules that the worker holds, with their import closure
     answers : modules of slamlab that answer the exercise; never in the worker
+    hides : other installed packages that answer it, by the names they are imported by; their files
+        cannot be read in the worker either
     """
 
     id: str
@@ -29,6 +31,7 @@ class Exercise:
     drives: str
     allows: tuple[str, ...] = ()
     answers: tuple[str, ...] = ()
+    hides: tuple[str, ...] = ()
 
     def __post_init__(self):
         seen = set()

@@ -5,9 +5,12 @@ import numpy as np
 
 from slamlab.exercises.drives import StudentError
 from slamlab.exercises.drives.arguments import CHANGED
+from slamlab.exercises.law import ROUNDING
 
 MAX_MAGNITUDE = 1e9
 """Largest absolute output: beyond it a law's own rounding could hide how wrong a number is."""
+JITTER = 1e-6
+"""Share of the largest number by which rows may differ and still count as the same."""
 MAX_ROWS = 2000
 """Most rows of an output of any length: a law may compare each entry with each."""
 
@@ -43,7 +46,9 @@ def shapes_of(task, inputs):
 
 
 def degenerate(inputs, outputs):
-    """Whether nothing was computed: all outputs constant, or an argument, perhaps scaled.
+    """Whether nothing was computed: all outputs empty, constant, or an argument, perhaps scaled.
+
+    A little noise upon them, less than any law would let pass, makes no answer of them.
 
     Parameters
     ----------
@@ -54,12 +59,13 @@ def degenerate(inputs, outputs):
     bool
     """
     arrays = [array for name, array in outputs.items() if name != CHANGED]
-    rows = [array for array in arrays if array.ndim and len(array) > 1]
+    rows = [array for array in arrays if array.ndim and len(array) != 1]
     return bool(rows) and all(_constant(array) or _copied(array, inputs) for array in rows)
 
 
 def _constant(array):
-    return bool((array == array[:1]).all())
+    off = np.abs(array - array[:1])
+    return bool((off <= JITTER * np.abs(array).max(initial=0.0) + ROUNDING).all())
 
 
 def _copied(array, inputs):
@@ -67,7 +73,7 @@ def _copied(array, inputs):
     for given in inputs.values():
         if given.shape == array.shape and given.dtype.kind in "fiu" and given.any():
             factor = np.vdot(given, array) / np.vdot(given, given)
-            if np.allclose(array, factor * given, rtol=1e-9, atol=1e-9 * np.abs(array).max()):
+            if (np.abs(array - factor * given) <= JITTER * np.abs(array).max()).all():
                 return True
     return False
 

@@ -6,7 +6,7 @@ out of it.
 
 import hashlib
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -27,6 +27,7 @@ UNCHANGED = Law(
     lambda inputs, outputs: outputs[CHANGED].size == 0,
     asks="Which line writes into an array that was given to the function? Where could it take a "
     "copy?",
+    alone=False,
 )
 """The law of every task: what is changed in place spoils what the caller does next."""
 
@@ -153,11 +154,18 @@ class Task:
             matching = (d for d in self.diagnoses if _safely(d.matches, sets[MAIN], found[MAIN]))
             wrong = any(result.failed for result in results)
             mistake = next(matching, IDLE if idle else None) if wrong else None
-        if not any(result.points for result in results[:-1]) and not results[-1].failed:
-            results = results[:-1]  # to leave the arguments alone is worth nothing by itself
+        results = self._worth_something(results)
         earned = sum(result.points for result in results)
         named = (mistake.name, mistake.hint) if mistake else (None, None)
         return Verdict(self.id, earned, self.points, results, *named)
+
+    def _worth_something(self, results):
+        """Results of which those of laws that earn nothing alone earn beside others only."""
+        pairs = zip(self.all_laws, results, strict=True)
+        if any(result.points for law, result in pairs if law.alone):
+            return results
+        results = tuple(replace(result, points=0.0) for result in results)
+        return results if results[-1].failed else results[:-1]  # arguments left as they are
 
     def _result(self, law, sets, found, idle):
         failed = tried = 0

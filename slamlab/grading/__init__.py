@@ -6,10 +6,12 @@ Read in this order:
 - ``judge``: one submission; ``batch``, ``dask_cluster``: a folder of them; ``records``
 - ``worker_pool``, ``zygote``, ``forked_workers``, ``fresh_workers``, ``worker_client``, ``worker``,
   ``wire_protocol``: fork server (zygote) and sandboxed processes, serialisation between them
-- ``staging``, ``import_closure``, ``checks_stub``: what a worker holds; ``sandbox``
-  (``bubblewrap``, ``landlock``, ``seccomp``), ``quotas``, ``isolation``; ``probe`` and
-  ``probe_drives``: the self-test
-- ``gradebook``, ``gradebook_rows``, ``marks``, ``late_policy``: attempts, overrides, late policy
+- ``staging``, ``import_closure``, ``hidden_packages``, ``checks_stub``: what a worker holds;
+  ``sandbox`` (``bubblewrap``, ``landlock``, ``seccomp``), ``quotas``, ``tree_removal``,
+  ``isolation``; ``probe`` and ``probe_drives``: the self-test
+- ``gradebook``, ``gradebook_rows``, ``database``, ``marks``, ``late_policy``: attempts, overrides,
+  late policy
 - ``feedback``, ``redaction``, ``class_report``, ``similarity``, ``grade_tables``,
   ``nbgrader_gradebook``: feedback pages, reports, exports
+- ``term``: a course file, a roster, downloads of Moodle and Canvas, releases
 """

@@ -4,7 +4,7 @@ import os
 import shutil
 from pathlib import Path
 
-from slamlab.grading import quotas, staging
+from slamlab.grading import hidden_packages, quotas, staging
 
 # folders of the system at the root, bound read-only
 SYSTEM_FOLDERS = {Path(p) for p in ("/bin", "/sbin", "/lib", "/lib64", "/lib32")}
@@ -20,7 +20,7 @@ def drops_privileges():
     return hasattr(os, "geteuid") and os.geteuid() == 0
 
 
-def command(folder, home, python):
+def command(folder, home, python, hidden=()):
     """The command line of bubblewrap that goes in front of the worker's own.
 
     Parameters
@@ -28,6 +28,7 @@ def command(folder, home, python):
     folder : Path, that holds the worker's staged modules and views of libraries
     home : Path, where it may write; exists inside only, in memory
     python : Path, the interpreter
+    hidden : list of Path that are covered, links resolved
 
     Returns
     -------
@@ -53,15 +54,17 @@ def command(folder, home, python):
         for p in staging.python_folders()
         if p not in SYSTEM_FOLDERS and not _below(p, ["/usr", "/etc"])
     ]
-    shown += [p for p in (*staging.library_folders(), folder) if not _below(p, ["/usr", *shown])]
+    shown += [
+        p for p in (*hidden_packages.library_folders(), folder) if not _below(p, ["/usr", *shown])
+    ]
     if not _below(python, ["/usr", *shown]):
         shown.append(python)
     for path in shown:
         words += [*_parent_directories(path), "--ro-bind", str(path), str(path)]
-    for library in staging.library_folders():
-        for entry in staging.course_entries(library):
+    for path in (Path("/usr"), *(p for p in SYSTEM_FOLDERS if not p.is_symlink()), *shown):
+        for entry in (entry for entry in hidden if entry.is_relative_to(path.resolve())):
             hide = ["--tmpfs"] if entry.is_dir() else ["--ro-bind", "/dev/null"]
-            words += [*hide, str(entry)]
+            words += [*hide, str(path / entry.relative_to(path.resolve()))]
     words += ["--perms", "0777", "--size", str(quotas.MAX_BYTES), "--tmpfs", str(home)]
     return [*words, "--chdir", str(home), "--"]
 

@@ -26,7 +26,7 @@ def grade_on_cluster(scheduler, found, secret, level, default=None, known=None):
     found : list of Submission
     secret : bytes
     level : str, of isolation, tested on every machine
-    default : str or None, the exercise of notebooks that do not tell it
+    default : str or None, the exercise that all are to be of
     known : attempt's key to Record
 
     Yields

@@ -1,9 +1,11 @@
 """Feedback page for the student: each task, its laws, the points, and what would gain the rest."""
 
+from datetime import datetime
 from pathlib import Path
 
 import jinja2
 
+from slamlab.exercises import catalogue
 from slamlab.exercises.report import number, points
 from slamlab.grading.marks import Mark
 from slamlab.grading.records import write_atomically
@@ -18,18 +20,75 @@ TEMPLATES = jinja2.Environment(
 TEMPLATES.filters |= {"number": number, "points": points}
 
 
-def feedback_page(mark: Mark) -> str:
+def feedback_page(mark: Mark, student=None, zone=None) -> str:
     """The feedback page of a submission; whatever the student wrote is escaped.
 
     Parameters
     ----------
     mark : Mark
+    student : str or None, the name to show; None: as the record has it
+    zone : ZoneInfo or None, of the times shown; None: as they are told
 
     Returns
     -------
     str, HTML without scripts or anything to load
     """
-    return TEMPLATES.get_template("feedback.html").render(mark=mark, record=mark.record)
+    return TEMPLATES.get_template("feedback.html").render(
+        mark=mark,
+        record=mark.record,
+        title=title(mark, student),
+        handed_in=_local(mark.record.handed_in, zone),
+        text=feedback_text(mark, student, zone),
+    )
+
+
+def feedback_text(mark: Mark, student=None, zone=None) -> str:
+    """The feedback as plain text, to be copied into a message.
+
+    Parameters
+    ----------
+    mark, student, zone : as of :func:`feedback_page`
+
+    Returns
+    -------
+    str, lines
+    """
+    record, lines = mark.record, [title(mark, student)]
+    if record.graded:
+        lines.append(f"{number(mark.total)} of {points(record.max_score)}")
+    else:
+        by_hand = f", {points(mark.total)} by hand" if mark.total is not None else ""
+        lines.append(f"Could not be graded{by_hand}: {record.reason}")
+    if mark.late_penalty:
+        when = _local(record.handed_in, zone)
+        lines.append(f"{points(mark.late_penalty)} taken for lateness, handed in {when}")
+    for task, why in mark.override_reasons.items():
+        lines.append(f"{task} set by hand to {points(mark.points[task])}: {why}")
+    for verdict in record.verdicts:
+        earned = f"{number(verdict.points)} of {points(verdict.max_points)}"
+        lines += ["", f"{record.titles.get(verdict.task, verdict.task)}: {earned}"]
+        lines += [f"  {verdict.problem}"] if verdict.problem else []
+        lines += [f"  {'✗' if law.failed else '✓'} {law.says}" for law in verdict.laws]
+        lines += [f"  Hint: {verdict.hint}"] if verdict.hint else []
+    cells = [f"  cell {cell}: {problem}" for cell, problem in record.cells.items()]
+    lines += ["", "Cells that did not run to their end", *cells] if cells else []
+    return "\n".join(lines) + "\n"
+
+
+def title(mark: Mark, student=None) -> str:
+    """The title of a page: exercise and student."""
+    of = mark.record.exercise
+    known = of in catalogue.EXERCISES if of else False
+    what = f"Exercise {of}: {catalogue.exercise(of).title}" if known else "An exercise"
+    return f"{what} · {student or mark.record.student}"
+
+
+def _local(when, zone):
+    """A time on the clocks of a zone, with its name there."""
+    if not when or zone is None:
+        return when
+    local = datetime.fromisoformat(when).astimezone(zone)
+    return f"{local:%A}, {local.day} {local:%B %Y, %H:%M %Z}"
 
 
 def write_feedback_page(out: Path, mark: Mark):

@@ -9,7 +9,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from slamlab.grading import bubblewrap, sandbox, staging
+from slamlab.grading import bubblewrap, hidden_packages, sandbox, staging, tree_removal
 
 BOOTSTRAP = (
     "import json, sys; plan = json.loads(sys.argv[1]); sys.path[:0] = [plan['copy']]; "
@@ -50,7 +50,12 @@ class Zygote:
         inside, outside = folder / "inside", folder / "errors"
         inside.mkdir(mode=0o755)
         staging.copy_modules(inside / "copy", exercise)
-        search, readable = staging.stage_libraries(inside)
+        search, readable = staging.stage_libraries(inside, exercise.hides)
+        hidden = hidden_packages.places(staging.python_folders(), exercise.hides)
+        listed = []
+        for path in staging.python_folders():
+            read, names_only = hidden_packages.readable_around(path, hidden)
+            readable, listed = readable + read, listed + names_only
         home = inside / "home"
         home.mkdir()
         self._control, control = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
@@ -58,9 +63,8 @@ class Zygote:
             "control": control.fileno(),
             "copy": str(inside / "copy"),
             "search": [str(path) for path in search],
-            "readable": [
-                str(path) for path in (inside / "copy", *readable, *staging.python_folders())
-            ],
+            "readable": [str(path) for path in (inside / "copy", *readable)],
+            "listed": [str(path) for path in listed],
             "home": str(home),
             "drives": exercise.drives,
             "preload": [*PRELOADED, MAGICS_MODULE, *exercise.allows] if warm else [],
@@ -70,7 +74,7 @@ class Zygote:
         python = Path(sys._base_executable or sys.executable).resolve()
         words = [str(python), "-I", "-S", "-B", "-c", BOOTSTRAP, json.dumps(plan)]
         if level == sandbox.STRICT:
-            words = bubblewrap.command(inside, home, python) + words
+            words = bubblewrap.command(inside, home, python, hidden) + words
         with open(outside, "wb") as errors:
             self._process = subprocess.Popen(
                 words,
@@ -141,6 +145,7 @@ class Zygote:
                 self._process.wait(1.0)  # it ends its workers and itself when nobody listens
         self._process.kill()
         self._process.wait()
+        tree_removal.remove_tree(self._folder.name)
         self._folder.cleanup()
 
     def _receive(self, seconds):

@@ -7,7 +7,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from slamlab.grading import staging
+from slamlab.grading import staging, tree_removal
 
 POSIX = os.name == "posix"
 BOOTSTRAP = (
@@ -33,7 +33,7 @@ class FreshWorker:
         copy, home = folder / "copy", folder / "home"
         staging.copy_modules(copy, exercise)
         home.mkdir()
-        search, _ = staging.stage_libraries(folder)
+        search, _ = staging.stage_libraries(folder, exercise.hides)
         options = ["-I", "-S", "-B", "-c", BOOTSTRAP, exercise.drives, copy, *search]
         with open(folder / "errors", "wb") as errors:
             self._process = subprocess.Popen(
@@ -64,4 +64,5 @@ class FreshWorker:
             else:
                 self._process.kill()
                 self._process.wait()
+        tree_removal.remove_tree(self._folder.name)
         self._folder.cleanup()

@@ -27,20 +27,27 @@ def write_tables(out, marks, default=None):
     marks = sorted(marks, key=lambda mark: mark.record.submission)
     exercises = {mark.record.exercise for mark in marks} | {default}
     exercises = [catalogue.exercise(id) for id in sorted(filter(None, exercises))]
-    _write(out / "grades.csv", _grades(marks, exercises))
-    _write(out / "moodle.csv", _moodle(marks))
-    _write(out / "canvas.csv", _canvas(marks, exercises))
+    write_table(out / "grades.csv", submission_rows(marks, exercises))
+    write_table(out / "moodle.csv", _moodle(marks))
+    write_table(out / "canvas.csv", _canvas(marks, exercises))
 
 
-def _grades(marks, exercises):
-    """One row a submission: its mark, then points per task, then per law."""
-    tasks = [task for exercise in exercises for task in exercise.tasks]
-    laws = [(task.id, law.name) for task in tasks for law in task.all_laws]
-    yield [*COLUMNS, *(task.id for task in tasks), *(f"{task}: {law}" for task, law in laws)]
+def submission_rows(marks, exercises):
+    """One row a submission: its mark, then points per task, then per law; the titles first.
+
+    Parameters
+    ----------
+    marks : list of Mark
+    exercises : list of Exercise, whose tasks have columns
+
+    Yields
+    ------
+    list of str
+    """
+    yield [*COLUMNS, *detail_titles(exercises)]
     for mark in marks:
         record = mark.record
         most = number(record.max_score) if record.graded else ""
-        found = {(v.task, law.name): law.points for v in record.verdicts for law in v.laws}
         yield [
             *(record.submission, record.student, record.exercise or ""),
             *(
@@ -50,19 +57,39 @@ def _grades(marks, exercises):
                 record.handed_in or "",
             ),
             mark.note,
-            *(_points(mark.points.get(task.id)) for task in tasks),
-            *(_points(found.get(law)) for law in laws),
+            *detail_cells(mark, exercises),
         ]
+
+
+def detail_titles(exercises):
+    """The titles of the columns of tasks, then of laws."""
+    tasks, laws = _details(exercises)
+    return [*tasks, *(f"{task}: {law}" for task, law in laws)]
+
+
+def detail_cells(mark, exercises):
+    """The points of a mark per task, then per law, empty where there are none."""
+    tasks, laws = _details(exercises)
+    found = {(v.task, law.name): law.points for v in mark.record.verdicts for law in v.laws}
+    cells = [mark.points.get(task) for task in tasks] + [found.get(law) for law in laws]
+    return [_points(cell) for cell in cells]
+
+
+def _details(exercises):
+    tasks = [task for exercise in exercises for task in exercise.tasks]
+    return [task.id for task in tasks], [(t.id, law.name) for t in tasks for law in t.all_laws]
 
 
 def _moodle(marks):
     """Moodle's grading worksheet: told apart by the participant's number."""
-    yield ["Identifier", "Full name", "Grade", "Maximum Grade", "Feedback comments"]
+    # a table without when a grade was last changed is refused; - means never
+    modified = "Last modified (grade)"
+    yield ["Identifier", "Full name", "Grade", "Maximum Grade", modified, "Feedback comments"]
     for mark in marks:
         record = mark.record
         who = f"Participant {record.number}" if record.number else ""
         most = number(record.max_score) if record.graded else ""
-        yield [who, record.student, _points(mark.total), most, mark.note]
+        yield [who, record.student, _points(mark.total), most, "-", mark.note]
 
 
 def _canvas(marks, exercises):
@@ -81,7 +108,14 @@ def _points(value):
     return "" if value is None else number(value)
 
 
-def _write(path, rows):
+def write_table(path, rows):
+    """Write a table as CSV that no spreadsheet takes for formulas.
+
+    Parameters
+    ----------
+    path : Path
+    rows : iterable of list of str
+    """
     text = io.StringIO(newline="")
     table = csv.writer(text, lineterminator="\n")
     table.writerows([_escape_formula(cell) for cell in row] for row in rows)
@@ -91,4 +125,6 @@ def _write(path, rows):
 def _escape_formula(text):
     """Text escaped against CSV injection: no spreadsheet takes it for a formula."""
     text = "".join(c if c.isprintable() else " " for c in text)
+    if text == "-":  # how Moodle says never
+        return text
     return _FORMULA.sub(r"\1'\2", text)

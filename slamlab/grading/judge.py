@@ -15,7 +15,7 @@ from slamlab import __version__
 from slamlab.exercises.drives import StudentError
 from slamlab.exercises.run_task import recognised
 from slamlab.exercises.task import OPEN_SEED
-from slamlab.grading import similarity, submissions
+from slamlab.grading import redaction, similarity, submissions
 from slamlab.grading.gradebook_rows import attempt_key
 from slamlab.grading.records import Record
 from slamlab.grading.submissions import Submission, SubmissionError
@@ -65,7 +65,7 @@ def grade_submission(
     submission : Submission
     secret : bytes
     workers : WorkerPool
-    default : str or None, the exercise of notebooks that do not tell it
+    default : str or None, the exercise that all are to be of
     known : attempt's key to Record, which are not graded again; None for none
     stop : threading.Event or None; once it is set, nothing is waited for any more
 
@@ -75,6 +75,7 @@ def grade_submission(
     """
     names = {name: getattr(submission, name) for name in ("student", "number", "handed_in")}
     names["submission"] = submission.name
+    names["exercise"] = default and default.zfill(2)
     known = known or {}
     try:
         notebook = submissions.read_notebook(submission)
@@ -84,7 +85,8 @@ def grade_submission(
         names |= {"exercise": exercise.id, "seed": seed.hex()}
         before = known.get(attempt_key(submission.name, notebook.sha256, names["seed"]))
         if before:
-            return replace(before, handed_in=submission.handed_in)
+            whose = {name: names[name] for name in ("student", "number", "handed_in")}
+            return replace(before, **whose)
         names["fingerprints"] = similarity.fingerprints(notebook.cells, exercise)
         return Record(**names, **judge_notebook(exercise, notebook.cells, seed, workers, stop))
     except SubmissionError as error:
@@ -128,6 +130,8 @@ def judge_notebook(
         def judge_one(task):
             try:
                 verdict = task.judge(*answered(task, seed))
+                if verdict.problem and not unredacted:
+                    verdict = replace(verdict, problem=redaction.redact_measured(verdict.problem))
                 if verdict.full:
                     return verdict
                 return recognised(task, verdict, lambda: answered(task, OPEN_SEED))

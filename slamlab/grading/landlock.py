@@ -27,13 +27,14 @@ def abi_version():
         return 0
 
 
-def create_ruleset(readable, writable):
+def create_ruleset(readable, writable, listed=()):
     """Create a Landlock ruleset that denies all file-system access but to the paths named.
 
     Parameters
     ----------
     readable : list of paths, files or folders with all below; what is not there is left out
     writable : list of folders
+    listed : list of folders, in which and below which names may be listed
 
     Returns
     -------
@@ -53,6 +54,8 @@ def create_ruleset(readable, writable):
     ruleset = _checked(libc.syscall(CREATE, attributes, size, 0))
     for path in readable:
         _allow(libc, ruleset, path, READ | LIST)
+    for path in listed:
+        _allow(libc, ruleset, path, LIST)
     for path in writable:
         _allow(libc, ruleset, path, rights & ~DEVICES & ~EXECUTE)
     return ruleset

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, replace
 
-from slamlab.grading import late_policy
+from slamlab.grading.late_policy import NO_PENALTY, LatePolicy
 from slamlab.grading.records import Record
 
 
@@ -39,7 +39,7 @@ class Mark:
         return "; ".join([*filter(None, [self.record.note]), *changed, *late])
 
 
-def mark(record, overrides=None, policy=late_policy.NO_PENALTY):
+def mark(record, overrides=None, policy=None):
     """Compute the mark of one submission from record, overrides and late policy.
 
     Points set by hand count also for what could not be graded.
@@ -48,7 +48,7 @@ def mark(record, overrides=None, policy=late_policy.NO_PENALTY):
     ----------
     record : Record
     overrides : (submission, task) to (points, reason)
-    policy : LatePolicy
+    policy : LatePolicy or None, for the one that was stored with the record
 
     Returns
     -------
@@ -61,5 +61,8 @@ def mark(record, overrides=None, policy=late_policy.NO_PENALTY):
             points[task], override_reasons[task] = value, reason
     if override_reasons and record.exercise is None:
         record = replace(record, exercise=min(override_reasons)[:2])
-    taken = policy.penalty(record.exercise, record.handed_in, sum(points.values()))
+    if policy is None:
+        policy = LatePolicy.restored(record.policy) if record.policy else NO_PENALTY
+    earned = sum(points.values())
+    taken = policy.penalty(record.exercise, record.handed_in, earned, record.student)
     return Mark(record, points, override_reasons, taken)

@@ -5,7 +5,7 @@ import re
 
 SLOW = 60.0  # warning for a whole notebook; its timeout at grading is five times as long [s]
 _UNDEFINED = re.compile(r"NameError: name '(\w+)' is not defined")
-_FORBIDDEN = re.compile(r"ModuleNotFoundError: No module named '(slamlab[\w.]*)'")
+_FORBIDDEN = re.compile(r"ModuleNotFoundError: No module named '([\w.]+)'")
 
 
 def form_warnings(cells, problems, exercise, seconds):
@@ -41,7 +41,10 @@ def _remedy(number, problem, cells, exercise):
                 "move it up, then Kernel → Restart Kernel and Run All Cells"
             )
         return ". Was its cell deleted? Kernel → Restart Kernel and Run All Cells shows it"
-    if refused := _FORBIDDEN.search(problem):
+    refused = _FORBIDDEN.search(problem)
+    if refused and refused[1].partition(".")[0] in exercise.hides:
+        return f". {refused[1]} is not there at grading: it would answer this exercise"
+    if refused and refused[1].partition(".")[0] == "slamlab":
         allowed = ", ".join(exercise.allows) or "none of slamlab's modules"
         return f". {refused[1]} is not there at grading; this exercise may use {allowed}"
     if problem.startswith("still running"):

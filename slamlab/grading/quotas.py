@@ -2,10 +2,13 @@
 
 import contextlib
 import os
+import stat
+
+from slamlab.grading.sandbox import FILE_SIZE_LIMIT
 
 MAX_THREADS = 100  # of one worker
 MAX_FILES = 10_000  # in its home, folders included
-MAX_BYTES = 256 << 20  # disk space of its home [bytes]
+MAX_BYTES = 256 << 20  # disk space of its home, and of what it deleted but holds open [bytes]
 
 
 def quota_exceeded(pid, home):
@@ -23,13 +26,15 @@ def quota_exceeded(pid, home):
     try:
         with open(f"/proc/{pid}/status") as file:
             threads = next(line for line in file if line.startswith("Threads:"))
-        return int(threads.split()[1]) > MAX_THREADS or _home_exceeds_quota(home)
+        if int(threads.split()[1]) > MAX_THREADS:
+            return True
+        return _home_exceeds_quota(home, _deleted_bytes(pid, home))
     except OSError:  # it is gone, or hides a folder
         return True
 
 
-def _home_exceeds_quota(home):
-    count, size, waiting = 0, 0, [home]
+def _home_exceeds_quota(home, size):
+    count, waiting = 0, [home]
     while waiting:
         with contextlib.suppress(FileNotFoundError):  # it may come and go meanwhile
             for entry in os.scandir(waiting.pop()):
@@ -39,4 +44,30 @@ def _home_exceeds_quota(home):
                     return True
                 if entry.is_dir(follow_symlinks=False):
                     waiting.append(entry.path)
-    return False
+    return size > MAX_BYTES
+
+
+def _deleted_bytes(pid, home):
+    """Disk space of files that have no name any more, but which the worker still holds [bytes].
+
+    The size of one that is mapped and no longer open cannot be had: it counts as the longest
+    that a file can be.
+    """
+    sizes = {}
+    try:
+        handles = os.listdir(f"/proc/{pid}/fd")
+    except PermissionError:  # root became nobody: then its home is a file system of limited size
+        return 0
+    for handle in handles:
+        with contextlib.suppress(FileNotFoundError):
+            found = os.stat(f"/proc/{pid}/fd/{handle}")
+            if stat.S_ISREG(found.st_mode) and found.st_nlink == 0:
+                sizes[found.st_ino] = found.st_blocks * 512
+    below = os.fsencode(os.path.join(os.path.realpath(home), ""))
+    with open(f"/proc/{pid}/maps", "rb") as file:
+        for line in file:
+            if line.endswith(b" (deleted)\n"):
+                parts = line.split(maxsplit=5)
+                if parts[5].startswith(below):
+                    sizes.setdefault(int(parts[4]), FILE_SIZE_LIMIT)
+    return sum(sizes.values())

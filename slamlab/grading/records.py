@@ -31,6 +31,7 @@ class Record:
     handed_in : str or None, the time in ISO's form
     fingerprints : task to a hash of its functions, see :mod:`slamlab.grading.similarity`
     failed : bool, whether it was the grader that failed: not kept, but tried again
+    policy : the late policy that held, as :meth:`LatePolicy.stored` makes it; None for none
     """
 
     submission: str
@@ -50,6 +51,7 @@ class Record:
     handed_in: str | None = None
     fingerprints: dict[str, str] = field(default_factory=dict)
     failed: bool = False
+    policy: dict | None = None
 
     @property
     def graded(self):
@@ -90,9 +92,19 @@ def _failed_laws(verdict):
 
 
 def write_atomically(path: Path, text: str):
-    """Write a file atomically: it is there whole or not at all."""
-    path.parent.mkdir(parents=True, exist_ok=True)
+    """Write a file atomically, for its owner's eyes only: it is there whole or not at all."""
+    private_folder(path.parent)
     # what a killed grader left half written is written again under the same name
     partial = path.with_name(f".{path.name}.part")
-    partial.write_text(text, encoding="utf-8", errors="backslashreplace", newline="")
+    partial.unlink(missing_ok=True)
+    handle = os.open(partial, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600)
+    with open(handle, "w", encoding="utf-8", errors="backslashreplace", newline="") as file:
+        file.write(text)
     os.replace(partial, path)
+
+
+def private_folder(path: Path):
+    """Make a folder where it is missing, with those above it, that only its owner can look into."""
+    if not path.is_dir():
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.mkdir(mode=0o700, exist_ok=True)

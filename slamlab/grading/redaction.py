@@ -1,59 +1,85 @@
-"""Redaction: what a worker says of a task, redacted so that it reveals nothing of the inputs.
+"""Redaction: what is said of a task that fails, redacted so that it reveals nothing of the inputs.
 
-The worker runs the student's code, so that any text of its may be the student's: only sentences of
-the drives are passed on, and in their gaps only names and small numbers that are known anyway.
+The worker runs the student's code, so that any text of its may be the student's, and so may any
+name and number in it: the line at which it fails, the exception that it raises, the shape that it
+returns can be chosen by an input. Only sentences of the drives are passed on, and in their gaps
+only the names of the functions that are asked for.
 """
 
 import ast
-import builtins
 import functools
 import importlib.util
 import re
 
 # kinds of problem that a worker may report
 PROBLEM_KINDS = {"missing", "not attempted", "raised", "malformed"}
-BUILTIN_TYPES = {name for name, value in vars(builtins).items() if isinstance(value, type)}
-# words that may fill a gap of a message
-ALLOWED_WORDS = BUILTIN_TYPES | {
-    "NoneType",
-    "function",
-    "generator",
-    "module",
-    "ndarray",
-    "matrix",
-    "DataFrame",
-}
-ALLOWED_WORDS |= {"Series", "MutableDenseMatrix", "transposed", "and", "is"}
+# what the judge itself measured, without the numbers that the student's function chose
+MEASURED = (
+    (re.compile(r"returned shape \([\d, ]*\)(?: \(one number\))?, expected"),
+     "returned another shape than"),
+    (re.compile(r"answered \d+ of \d+ calls"), "did not answer every call"),
+    (re.compile(r"returned \d+ entries"), "returned entries"),
+)  # fmt: skip
 
-_RAISED = re.compile(r"(\w+): .*?( \(line \d{1,6} of the cell(?:, in (\w{1,60}))?\))?", re.S)
 _GAP = r"(.{0,80}?)"
-_LONG_NUMBER = re.compile(r"\d*\.\d+|\d{5,}")
-_WORD = re.compile(r"[^\W\d]\w*")
+_HIDDEN = "…"
 _SEE_CHECK = "check(…) in the notebook says more"
 
 
-def redact(kind, problem, task, exercise, cells):
+def redact(kind, problem, task, drives):
     """Redact the message of a failure so that a student may read it.
 
     Parameters
     ----------
     kind, problem : str, from the worker
     task : Task
-    exercise : Exercise
-    cells : list of (number, source), the student's
+    drives : str, the module of the exercise's drives
 
     Returns
     -------
     str
     """
     if kind == "raised":
-        return _redact_exception(problem, cells)
-    known = ALLOWED_WORDS | set(task.drive.functions)
-    for template in sentence_templates(exercise.drives):
-        match = template.fullmatch(problem)
-        if match and known.issuperset(_WORD.findall(" ".join(match.groups()))):
-            return _LONG_NUMBER.sub("…", problem)
+        return "raised an exception; check(…) in the notebook shows which, and where"
+    known = _known_words(task)
+    for template in sentence_templates(drives):
+        if match := template.fullmatch(problem):
+            return _filled(match, known)
     return "not attempted yet" if kind == "not attempted" else f"cannot be judged; {_SEE_CHECK}"
+
+
+def redact_measured(problem):
+    """Redact what the judge measured of outputs: a shape, a count.
+
+    Parameters
+    ----------
+    problem : str, of a verdict
+
+    Returns
+    -------
+    str
+    """
+    for pattern, said in MEASURED:
+        problem = pattern.sub(said, problem)
+    return problem
+
+
+def _known_words(task):
+    """What may stand in a gap: a function, one of its outputs, a question."""
+    functions = set(task.drive.functions)
+    outputs = () if callable(task.shapes) else task.shapes
+    parts = {f"{function}'s {output}" for function in functions for output in outputs}
+    return functions | parts | {"", " (transposed?)"}
+
+
+def _filled(match, known):
+    """A sentence with each gap as it was, or hidden where it holds what is not known."""
+    text, hidden = match.string, False
+    for group in range(len(match.groups()), 0, -1):
+        if match[group] not in known:
+            start, end = match.span(group)
+            text, hidden = text[:start] + _HIDDEN + text[end:], True
+    return f"{text}; {_SEE_CHECK}" if hidden else text
 
 
 @functools.cache
@@ -68,7 +94,7 @@ def sentence_templates(drives):
     -------
     list of patterns, a group for each gap in them
     """
-    found = [re.compile(r"((?:\w+ is )?)not attempted yet")]
+    found = [re.compile(r"not attempted yet"), re.compile(rf"{_GAP} is not attempted yet")]
     for name in (drives, "slamlab.exercises.drives"):
         with open(importlib.util.find_spec(name).origin, encoding="utf-8") as file:
             tree = ast.parse(file.read())
@@ -82,13 +108,3 @@ def _template(text):
     parts = text.values if isinstance(text, ast.JoinedStr) else [text]
     said = [re.escape(p.value) if isinstance(p, ast.Constant) else _GAP for p in parts]
     return re.compile("".join(said)) if any(isinstance(p, ast.Constant) for p in parts) else None
-
-
-def _redact_exception(problem, cells):
-    match = _RAISED.fullmatch(problem)
-    name, where, function = match.groups() if match else ("", "", None)
-    if name not in BUILTIN_TYPES:
-        name = "an exception of its own"
-    if function and not any(f"def {function}(" in source for _, source in cells):
-        where = ""
-    return f"raised {name}{where or ''}; check(…) in the notebook shows what it says"

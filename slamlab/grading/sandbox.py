@@ -1,5 +1,6 @@
 """Sandbox: resource limits (quotas), Landlock, seccomp, set in a worker before student code."""
 
+import contextlib
 import ctypes
 import os
 
@@ -14,10 +15,11 @@ FILE_SIZE_LIMIT = 16 << 20  # longest file, RLIMIT_FSIZE [bytes]
 OPEN_FILES_LIMIT = 128  # file descriptors, RLIMIT_NOFILE
 CPU_LIMIT = 300  # CPU time of the whole process, RLIMIT_CPU [s]
 NO_NEW_PRIVILEGES = 38  # prctl, without which Landlock and seccomp take no orders
+CLOSE_RANGE, LAST_DESCRIPTOR = 436, 0xFFFFFFFF  # a system call, alike on every machine; its most
 DEVICES = ("/dev/null", "/dev/zero", "/dev/urandom", "/dev/random")
 
 
-def create_ruleset(level, readable, home):
+def create_ruleset(level, readable, home, listed=()):
     """Create the ruleset of file-system access (Landlock) of a level.
 
     Parameters
@@ -25,6 +27,7 @@ def create_ruleset(level, readable, home):
     level : str, one of LEVELS
     readable : list of paths
     home : str, the folder in which it may write
+    listed : list of paths of folders of which names may be listed, no more
 
     Returns
     -------
@@ -36,7 +39,36 @@ def create_ruleset(level, readable, home):
     """
     if level == NONE:
         return None
-    return landlock.create_ruleset([*readable, *DEVICES], [home, "/dev/null"])
+    return landlock.create_ruleset([*readable, *DEVICES], [home, "/dev/null"], listed)
+
+
+def close_from(first, kept=None):
+    """Close all file descriptors from a number on: none of a forked process' parent is left.
+
+    Parameters
+    ----------
+    first : int
+    kept : int or None, one that stays open
+    """
+    parts = [(first, LAST_DESCRIPTOR)]
+    if kept is not None and kept >= first:
+        parts = [(first, kept - 1), (kept + 1, LAST_DESCRIPTOR)]
+    libc = ctypes.CDLL(None, use_errno=True)
+    for low, high in parts:
+        if low <= high and libc.syscall(CLOSE_RANGE, low, high, 0):
+            _close_one_by_one(low, high)
+
+
+def _close_one_by_one(low, high):
+    """As ``close_range``, where the kernel (before 5.9) or a container refuses it."""
+    try:
+        opened = [int(number) for number in os.listdir("/proc/self/fd")]
+    except OSError:
+        opened = range(low, min(high, os.sysconf("SC_OPEN_MAX")) + 1)
+    for number in opened:
+        if low <= number <= high:
+            with contextlib.suppress(OSError):  # the list's own is closed already
+                os.close(number)
 
 
 def restrict_process(files=None):

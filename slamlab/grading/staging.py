@@ -6,11 +6,10 @@ import shutil
 import sys
 from pathlib import Path
 
-from slamlab.grading import checks_stub
+from slamlab.grading import checks_stub, hidden_packages
 from slamlab.grading.import_closure import STUBBED, closure
 
 WORKER_MODULES = ("slamlab.grading.zygote", "slamlab.grading.worker")
-LIBRARY_FOLDERS = ("site-packages", "dist-packages")
 
 
 def worker_modules(exercise):
@@ -64,35 +63,25 @@ def environment(home):
     }
 
 
-def library_folders():
-    """The folders of installed libraries (site-packages)."""
-    places = (Path(place) for place in dict.fromkeys(sys.path))
-    return [path for path in places if path.name in LIBRARY_FOLDERS and path.is_dir()]
-
-
-def course_entries(folder):
-    """The entries of this package in a folder of libraries: the worker must not see them."""
-    return [entry for entry in folder.iterdir() if "slamlab" in entry.name.lower()]
-
-
-def stage_libraries(folder):
+def stage_libraries(folder, hides=()):
     """Stage other libraries: the worker's search path, and the paths that it must be able to read.
 
-    Where the package itself stands among them, a view of the rest is made, of links. Without
-    Python's own search (-S) an editable install is not found either.
+    Where the course or a hidden package stands among them, a view of the rest is made, of links.
+    Without Python's own search (-S) an editable install is not found either.
 
     Parameters
     ----------
     folder : Path, for the views
+    hides : names of packages that the exercise hides
 
     Returns
     -------
     (list of Path for sys.path, list of Path to read)
     """
     search, readable = [], []
-    for path in library_folders():
-        if course_entries(path) and os.name == "posix":  # links need a privilege elsewhere
-            hidden = {entry.name for entry in course_entries(path)}
+    for path in hidden_packages.library_folders():
+        hidden = {entry.name for entry in hidden_packages.entries(path, hides)}
+        if hidden and os.name == "posix":  # links need a privilege elsewhere
             view = folder / f"libraries-{len(search)}"
             view.mkdir(mode=0o755)
             others = [entry for entry in path.iterdir() if entry.name not in hidden]

@@ -8,13 +8,13 @@ from pathlib import Path
 
 from slamlab.exercises import catalogue
 from slamlab.grading.notebooks import Notebook, SubmissionError, parse
+from slamlab.grading.term.lms_names import lms_name
 
 MAX_NOTEBOOK_BYTES = 20 << 20  # size of a file [bytes]
 MAX_TIMESTAMP_CHARACTERS = 100  # of nbgrader's note on the time
 MAX_FOLDER_DEPTH = 10  # folders in folders
 
-_MOODLE = re.compile(r"(?P<student>.+?)_(?P<number>\d+)_assignsubmission_file_?(?P<file>.*)", re.S)
-_CANVAS = re.compile(r"(?P<student>[^_]+)_(LATE_)?(?P<number>\d+)_\d+_(?P<file>.+)", re.S)
+_AT_THE_START = re.compile(r"(?:ex)?(\d\d)_", re.IGNORECASE)
 
 
 @dataclass(frozen=True)
@@ -29,6 +29,8 @@ class Submission:
     problem : str or None, why there is nothing to read
     number : str or None, of the student in Moodle or Canvas
     has_trusted_time : bool, whether nbgrader, not the student, wrote the note on the time beside it
+    when : str or None, the time of submission (ISO 8601) where the file does not tell it, "" where
+        nothing does
     """
 
     name: str
@@ -37,10 +39,13 @@ class Submission:
     problem: str | None = None
     number: str | None = None
     has_trusted_time: bool = False
+    when: str | None = None
 
     @property
     def handed_in(self):
         """The time of submission (ISO 8601): nbgrader's timestamp, else the file's."""
+        if self.when is not None:
+            return self.when or None
         note = self.path.parent / "timestamp.txt"
         try:
             if self.has_trusted_time and note.is_file() and not note.is_symlink():
@@ -56,7 +61,7 @@ def _time(text):
     return (when if when.tzinfo else when.replace(tzinfo=UTC)).isoformat()
 
 
-def find_submissions(folder: Path, out: Path | None = None) -> list[Submission]:
+def find_submissions(folder: Path, out: Path | None = None, zips=False) -> list[Submission]:
     """Find all submissions in a folder, whatever their layout, sorted by name.
 
     Flat files, ``STUDENT/EXERCISE/`` folders, nbgrader's ``submitted/STUDENT/ASSIGNMENT/``, and
@@ -66,6 +71,7 @@ def find_submissions(folder: Path, out: Path | None = None) -> list[Submission]:
     ----------
     folder : Path
     out : Path or None, a folder that is not looked into
+    zips : bool, whether a zip anywhere is listed, as one with a problem
 
     Raises
     ------
@@ -84,10 +90,12 @@ def find_submissions(folder: Path, out: Path | None = None) -> list[Submission]:
         if len(place.relative_to(folder).parts) >= MAX_FOLDER_DEPTH:
             folders.clear()
         notebooks = [f for f in files if f.lower().endswith(".ipynb") and not f.startswith(".")]
+        zipped = [f for f in files if zips and f.lower().endswith(".zip") and not f.startswith(".")]
         found += [_submission(folder, place / file) for file in notebooks]
+        found += [_submission(folder, place / file, "not a notebook") for file in zipped]
         if place == folder:  # what Moodle or Canvas put there is somebody's, whatever it is
             others = (_submission(folder, place / f, "not a notebook") for f in files
-                      if f not in notebooks)  # fmt: skip
+                      if f not in (*notebooks, *zipped))  # fmt: skip
             found += [other for other in others if other.number]
     handed_in = {parent for submission in found for parent in submission.path.parents}
     reason = "a folder without a notebook in it"
@@ -119,12 +127,15 @@ def read_notebook(submission: Submission) -> Notebook:
     return parse(data)
 
 
-def identify_exercise(submission: Submission, notebook: Notebook, default=None):
-    """Identify the exercise: by the notebook's metadata, else its path, else a default.
+def identify_exercise(submission: Submission, notebook: Notebook, bound=None):
+    """Identify the exercise: as bound, else by the metadata, else by the file's name.
+
+    A name tells it by ``NN_`` or ``exNN_`` at its start. What tells another exercise is an error:
+    a solution of one must not be taken for that of another.
 
     Parameters
     ----------
-    default : str or None, an exercise's number
+    bound : str or None, the number of the exercise that all are to be of
 
     Returns
     -------
@@ -132,21 +143,32 @@ def identify_exercise(submission: Submission, notebook: Notebook, default=None):
 
     Raises
     ------
-    SubmissionError : when nothing tells it
+    SubmissionError : when nothing tells it, or two tell different ones
     """
-    known = list(catalogue.EXERCISES)
-    if notebook.exercise in known:
-        return catalogue.exercise(notebook.exercise)
-    parts = Path(submission.name).parts
-    for part in (_original(parts[-1]), *reversed(parts[:-1])):
-        for id in re.findall(r"(?<!\d)(\d\d)(?=[_\-. ]|$)", part):
-            if id in known:
-                return catalogue.exercise(id)
-    if default is None:
+    named = notebook.exercise
+    if named is not None and named not in catalogue.EXERCISES:
+        said = f"its metadata name exercise {named[:20]!r}, which there is not"
+        raise SubmissionError(f"{said}; there are {', '.join(catalogue.EXERCISES)}")
+    told = {"its metadata": named, "its name": None, "--exercise": bound and bound.zfill(2)}
+    if not (named and bound):  # two that agree need no third
+        told["its name"] = _exercise_by_name(submission.name)
+    told = {way: id for way, id in told.items() if id}
+    if not told:
         raise SubmissionError(
-            "which exercise it is stands neither in it nor in its name: say --exercise"
+            "which exercise it is stands neither in it nor at its name's start: say --exercise"
         )
-    return catalogue.exercise(default)
+    if len(set(told.values())) > 1:
+        said = "exercise " + ", ".join(f"{id} by {way}" for way, id in told.items())
+        raise SubmissionError(said if bound else f"{said}; --exercise settles it")
+    return catalogue.exercise(next(iter(told.values())))
+
+
+def _exercise_by_name(name):
+    """The exercise that a file's name begins with, as it was before an LMS put more before it."""
+    parts = Path(name).parts
+    of_lms = lms_name(name) if len(parts) == 1 else None
+    match = _AT_THE_START.match(of_lms.file if of_lms else parts[-1])
+    return match[1] if match and match[1] in catalogue.EXERCISES else None
 
 
 def _is_searched(folder, skipped):
@@ -158,18 +180,12 @@ def _is_searched(folder, skipped):
 def _submission(folder, path, problem=None):
     relative = path.relative_to(folder)
     first = relative.parts[0]
-    match = _MOODLE.fullmatch(first) or (len(relative.parts) == 1 and _CANVAS.fullmatch(first))
+    of_lms = lms_name(relative.as_posix())
     own = relative.stem if len(relative.parts) == 1 else first
-    student, number = (match["student"], match["number"]) if match else (own, None)
+    student, number = (of_lms.student, of_lms.number) if of_lms else (own, None)
     name = _printable(relative.as_posix())
     has_trusted_time = folder.name == "submitted" and len(relative.parts) == 3
     return Submission(name, _printable(student), path, problem, number, has_trusted_time)
-
-
-def _original(name):
-    """A file's name before Moodle or Canvas put the student's into it."""
-    match = _MOODLE.fullmatch(name) or _CANVAS.fullmatch(name)
-    return match["file"] if match else name
 
 
 def _printable(text):

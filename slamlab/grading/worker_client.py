@@ -41,10 +41,10 @@ class WorkerClient:
         self._stop, self._unredacted = stop or threading.Event(), unredacted
         self._process, self._thread, self._turn = None, None, 0
         self._requests, self._responses = queue.SimpleQueue(), queue.SimpleQueue()
-        self._skipped_cells = set()
+        self._skipped_cells, self._inputs_known = set(), False
         self._deadline = time.monotonic() + NOTEBOOK_TIMEOUT
         self.problems = {}
-        """Problems of cells, by cell number."""
+        """Problems of cells, by cell number; as they were before the notebook had seen an input."""
         self.cpu = 0.0
         """CPU time of ended workers [s]."""
 
@@ -72,6 +72,7 @@ class WorkerClient:
         WorkerStartError
         """
         self.load()
+        self._inputs_known = True
         try:
             request = {"do": "task", "task": task.id, "sets": list(sets)}
             head, arrays = self._request(request, input_sets.joined(sets), task.drive.seconds)
@@ -91,7 +92,7 @@ class WorkerClient:
         kind = kind if kind in redaction.PROBLEM_KINDS else "raised"
         problem = _text(problem)
         if not self._unredacted:
-            problem = redaction.redact(kind, problem, task, self._exercise, self._cells)
+            problem = redaction.redact(kind, problem, task, self._exercise.drives)
         return StudentError(kind, problem)
 
     def load(self):
@@ -106,19 +107,30 @@ class WorkerClient:
                 except WorkerLost as gone:
                     self._stop_worker()
                     self._skipped_cells.add(number)
-                    self.problems[number] = _loss_message(gone.kind, CELL_TIMEOUT)
+                    self._note(number, _loss_message(gone.kind, CELL_TIMEOUT))
                     break
 
     def _load_cell(self, number, source):
-        self.problems.pop(number, None)
+        self._note(number, None)
         try:
             request = {"do": "cell", "number": number, "source": source}
             head, _ = self._request(request, {}, CELL_TIMEOUT)
         except wire_protocol.WireError:
-            self.problems[number] = "too long to be run"
+            self._note(number, "too long to be run")
             return
         if head.get("problem") is not None:
-            self.problems[number] = _text(head["problem"])
+            self._note(number, _text(head["problem"]))
+
+    def _note(self, number, problem):
+        """Note what went wrong in a cell, not when it is run again after its notebook saw inputs.
+
+        Files' times, the clock, the cell at which it dies: by many ways could one worker tell the
+        next what it was given.
+        """
+        if not self._inputs_known:
+            self.problems.pop(number, None)
+            if problem is not None:
+                self.problems[number] = problem
 
     def _start_worker(self):
         if time.monotonic() >= self._deadline:

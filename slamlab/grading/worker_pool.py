@@ -69,7 +69,7 @@ class WorkerPool:
 
     def _zygote(self, exercise):
         known = vars(self._mine).setdefault("zygotes", {})
-        kind = exercise.drives, exercise.allows
+        kind = exercise.drives, exercise.allows, exercise.hides
         zygote = known.get(kind)
         if zygote is None or not zygote.alive:
             zygote = known[kind] = Zygote(exercise, self.level, self._warm)

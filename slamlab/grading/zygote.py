@@ -13,16 +13,15 @@ import gc
 import importlib
 import json
 import os
-import shutil
 import signal
 import socket
 import sys
 
-from slamlab.grading import quotas, sandbox, worker
+from slamlab.grading import quotas, sandbox, tree_removal, worker
 
 MAX_MESSAGE_BYTES = 1 << 16  # of a control message [bytes]
 NOBODY_UID = 65534  # user and group that root becomes
-QUOTA_CHECK_SECONDS = 0.5
+QUOTA_CHECK_SECONDS = 0.1
 """Interval at which a worker's quotas are checked [s]."""
 
 
@@ -32,8 +31,8 @@ def main(control, plan):
     Parameters
     ----------
     control : int, the socket's file descriptor
-    plan : dict with "drives", "preload", "level", "readable", "home" and "drop", whether to
-        become nobody first
+    plan : dict with "drives", "preload", "level", "readable", "listed", "home" and "drop",
+        whether to become nobody first
     """
     control = socket.socket(fileno=control)
     if plan["drop"]:
@@ -48,7 +47,7 @@ def main(control, plan):
     os.mkdir(home, 0o700)
     os.environ |= {name: home for name in ("HOME", "TMPDIR", "MPLCONFIGDIR")}
     os.chdir(home)
-    files = sandbox.create_ruleset(plan["level"], plan["readable"], home)
+    files = sandbox.create_ruleset(plan["level"], plan["readable"], home, plan["listed"])
     gc.collect()
     gc.freeze()  # a collection would write to every page that is shared until then
     _send(control, {"ready": True})
@@ -64,7 +63,7 @@ def _serve(control, fork, home):
             _send(control, {"ready": True})
             continue
         cpu, pid = _kill(pid), None
-        _empty_folder(home)
+        tree_removal.empty_folder(home)
         _send(control, {"cpu": cpu})
         if os.listdir(home):  # what cannot be cleared away is not for the next to see
             break
@@ -94,8 +93,11 @@ def _fork(handles, drives, files):
         os.setsid()
         for number, handle in enumerate(handles):
             os.dup2(handle, number)
+        # the judge's socket goes, and whatever else was open, however many they are
+        sandbox.close_from(3, kept=files)
         sandbox.restrict_process(files)
-        os.closerange(3, sandbox.OPEN_FILES_LIMIT)  # the judge's socket and whatever else was open
+        if files is not None:
+            os.close(files)
         worker.serve(drives)
     except BaseException as error:
         print(f"worker: {type(error).__name__}: {error}", file=sys.stderr, flush=True)
@@ -110,16 +112,6 @@ def _kill(pid):
             kill(pid, signal.SIGKILL)
     _, _, usage = os.wait4(pid, 0)
     return usage.ru_utime + usage.ru_stime
-
-
-def _empty_folder(folder):
-    for entry in list(os.scandir(folder)):
-        # it may be nested beyond reason
-        with contextlib.suppress(OSError, RecursionError):
-            if entry.is_dir(follow_symlinks=False):
-                shutil.rmtree(entry)
-            else:
-                os.unlink(entry)
 
 
 def _send(control, what):

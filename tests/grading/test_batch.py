@@ -240,7 +240,7 @@ class Tags(html.parser.HTMLParser):
 
 
 OURS = {"html", "head", "meta", "title", "style", "body", "h1", "h2", "p", "div", "section", "span"}
-OURS |= {"ul", "li", "strong", "code"}
+OURS |= {"ul", "li", "strong", "code", "details", "summary", "pre"}
 
 
 def test_feedback_says_what_held_what_broke_and_what_gains_the_rest():
@@ -248,7 +248,7 @@ def test_feedback_says_what_held_what_broke_and_what_gains_the_rest():
     verdict = Verdict("99-turn", 1, 3, laws, "right", "turn the other way")
     graded = Record("x.ipynb", "x", "99", verdicts=(verdict,), titles={"99-turn": "T"})
     text = feedback.feedback_page(mark(graded))
-    for expected in ("is &lt;even&gt;", "broken by 7 of 20 inputs", "turn the other way"):
+    for expected in ("is &lt;even&gt;", "broken by some inputs", "turn the other way"):
         assert expected in text
     assert "To gain 2 points" in text
     assert "1 of 3 points" in text

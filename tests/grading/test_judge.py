@@ -68,17 +68,17 @@ def test_the_same_seed_gives_the_same_verdicts_and_secrets_differ():
         ("import os; os._exit(0)", "died", "ended the whole Python process"),
         ("import os, signal; os.kill(os.getpid(), signal.SIGKILL)", "died", "ended the whole"),
         ("import os; os.closerange(3, 50)", "died", "ended the whole"),
-        ("import sys; sys.exit(0)", "raised", "raised SystemExit (line"),
-        ("raise KeyboardInterrupt", "raised", "KeyboardInterrupt"),
-        ("return turn(*args)", "raised", "RecursionError"),
+        ("import sys; sys.exit(0)", "raised", "raised an exception"),
+        ("raise KeyboardInterrupt", "raised", "raised an exception"),
+        ("return turn(*args)", "raised", "raised an exception"),
         ("import sys; sys.setrecursionlimit(10**9); return turn(*args)", None, ""),
         ("return np.zeros(10**7)", "malformed", "returned … numbers: too many"),
-        ("return np.ones(10**10)", "raised", "MemoryError"),
+        ("return np.ones(10**10)", "raised", "raised an exception"),
         ("return [0.0] * 10**6", "malformed", "too many"),
-        ("return bytearray(10**10)", "raised", "MemoryError"),
-        ("return 'x' * 10**8", "malformed", "returned str"),
-        ("raise ValueError('x' * 10**8)", "raised", "raised ValueError (line"),
-        ("return {'x': 1}", "malformed", "returned dict"),
+        ("return bytearray(10**10)", "raised", "raised an exception"),
+        ("return 'x' * 10**8", "malformed", "no array of real numbers"),
+        ("raise ValueError('x' * 10**8)", "raised", "raised an exception;"),
+        ("return {'x': 1}", "malformed", "no array of real numbers"),
         ("return np.array([1, 2], dtype='datetime64[s]')", "malformed", "no array of real numbers"),
         ("return np.float64('nan') * args[0]", "malformed", "NaN"),
         ("raise type('<script>', (Exception,), {})('<b>')", "raised", "raised an exception"),
@@ -125,7 +125,7 @@ def test_what_is_said_of_a_failure_tells_nothing_of_the_inputs():
         "def total(a):\n    raise type('I' + str(a[0]).replace('.', '_'), (Exception,), {})",
     )["verdicts"]
     said = " ".join(verdict.problem for verdict in result)
-    assert "raised ValueError (line 2 of the cell, in double)" in said
+    assert "raised an exception; check(…) in the notebook shows which, and where" in said
     assert "input" not in said
     assert not re.search(r"\d[._]\d", said)
 

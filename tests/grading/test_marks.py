@@ -104,7 +104,8 @@ def test_moodle_and_canvas_get_the_columns_they_take_in(tmp_path):
     grade_tables.write_tables(tmp_path, [mark(kos), mark(ivo)])
     moodle = {row[0]: row for row in read(tmp_path / "moodle.csv")}
     assert moodle["Identifier"] == [
-        "Identifier", "Full name", "Grade", "Maximum Grade", "Feedback comments",
+        "Identifier", "Full name", "Grade", "Maximum Grade", "Last modified (grade)",
+        "Feedback comments",
     ]  # fmt: skip
     assert moodle["Participant 123"][1:4] == ["Ana Kos", "4", "5"]
     assert moodle["Participant 77"][1] == "'=ivo"

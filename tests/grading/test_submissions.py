@@ -203,20 +203,18 @@ def test_a_lesson_is_no_submission():
         notebooks.parse(text.encode())
 
 
-def exercise(name, text, default=None):
+def exercise(name, text, bound=None):
     submission = Submission(name, "anna", None)
-    return submissions.identify_exercise(submission, notebooks.parse(text.encode()), default).id
+    return submissions.identify_exercise(submission, notebooks.parse(text.encode()), bound).id
 
 
-def test_the_exercise_is_told_by_the_metadata_else_the_name_else_the_default():
+def test_the_exercise_is_told_by_the_command_line_the_metadata_or_the_start_of_the_name():
     silent = notebook(exercise=None)
-    assert exercise("04_models.ipynb", notebook(exercise="99"), "13") == "99"
-    assert exercise("99_fake.ipynb", silent, "13") == "99"
-    assert exercise("anna/99_fake/work.ipynb", silent, "13") == "99"
-    assert exercise("anna_04_5_99_fake.ipynb", silent, "13") == "99"
+    assert exercise("work.ipynb", notebook(exercise="99")) == "99"
+    assert exercise("99_fake.ipynb", silent) == "99"
+    assert exercise("anna/99_fake/ex99_fake.ipynb", silent) == "99"
     assert exercise("anna 1999.ipynb", silent, "99") == "99"
-    assert exercise("99.ipynb", notebook(exercise="77")) == "99"
     for metadata in (5, {"slamlab": 5}, {"slamlab": {"exercise": []}}):
-        assert exercise("99.ipynb", notebook(exercise=None, metadata=metadata)) == "99"
+        assert exercise("99_x.ipynb", notebook(exercise=None, metadata=metadata)) == "99"
     with pytest.raises(SubmissionError, match="--exercise"):
         exercise("anna 1999.ipynb", silent)

@@ -149,6 +149,7 @@ NOISE = Task(
             "where there is nothing nothing comes back",
             _nothing_stays,
             asks="What is NaN plus a number, and does any line of yours replace NaN?",
+            alone=False,
         ),
         Law(
             "seed",

@@ -138,6 +138,7 @@ TO_POINTS = Task(
             "there is a point for each reading that came back, and none for the others",
             lambda inputs, outputs: outputs["count"] == _polar(inputs)[2].sum(axis=1),
             "What does the device say where nothing came back, and where would that point lie?",
+            alone=False,
         ),
         _law(
             "rigid",

@@ -23,4 +23,5 @@ EXERCISE = Exercise(
     drives="slamlab.exercises.drives.ex03",
     allows=("slamlab.layers", "slamlab.views"),
     answers=("slamlab.filters", "slamlab.estimators", "slamlab.evaluation"),
+    hides=("filterpy",),
 )

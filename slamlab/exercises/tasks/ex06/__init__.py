@@ -27,4 +27,5 @@ EXERCISE = Exercise(
         "slamlab.views",
     ),
     answers=("slamlab.filters", "slamlab.estimators"),
+    hides=("filterpy",),
 )

@@ -112,6 +112,7 @@ FIT_LINE = Task(
             lambda inputs, outputs: outputs["result"][:, 0] >= -1e-12,  # rounding
             why=_negative,
             asks="Which two normals does a line have? To which of them belongs ρ ≥ 0?",
+            alone=False,
         ),
     ),
     probes=(

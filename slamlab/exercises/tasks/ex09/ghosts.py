@@ -13,11 +13,14 @@ NEAR = np.array([0.5, 0.2])  # a wall of a map is one of the room within this of
 
 def wrong(inputs, outputs):
     """(n, 2) of each map: how many of its walls are none of the room's, and how many it lacks."""
-    maps = np.split(outputs["walls"], np.cumsum(outputs["counts"].astype(int))[:-1])
+    counts, walls = outputs["counts"], outputs["walls"]
+    if (counts < 0).any() or (counts % 1).any() or counts.sum() != len(walls):
+        raise ValueError("the counts are not those of the walls")
+    maps = np.split(walls, np.cumsum(counts.astype(int))[:-1])
     known = [room for room in rooms.truth(inputs) for _ in range(2)]
     pairs = np.array([_pairs(drawn, *room) for drawn, room in zip(maps, known, strict=True)])
     walls = np.array([len(walls) for _, walls in known])
-    return np.column_stack([outputs["counts"] - pairs, walls - pairs])
+    return np.column_stack([counts - pairs, walls - pairs])
 
 
 def _pairs(drawn, way, walls):

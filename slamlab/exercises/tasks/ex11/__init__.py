@@ -29,4 +29,5 @@ EXERCISE = Exercise(
         "slamlab.views",
     ),
     answers=("slamlab.filters", "slamlab.estimators", "slamlab.studies"),
+    hides=("filterpy",),
 )

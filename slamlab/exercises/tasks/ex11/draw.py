@@ -157,6 +157,7 @@ DRAW = Task(
             "the same seed draws the same, other seeds others",
             _by_the_seed,
             asks="Where does your random number come from, and how many of them do you take?",
+            alone=False,
         ),
     ),
     diagnoses=(

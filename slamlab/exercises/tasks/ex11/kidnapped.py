@@ -104,6 +104,7 @@ KIDNAPPED = Task(
             why=_why(SHARE),
             asks="Of a thousand strangers, how many could have made the sighting? Where are all "
             "the poses from which it could have been made?",
+            alone=False,
         ),
         Law(
             "steady",

@@ -157,6 +157,7 @@ LOCALISE = Task(
             _in_time,
             why=_why_worth,
             asks="When do you draw, and what do the drawn samples weigh?",
+            alone=False,
         ),
         Law(
             "drawn",

@@ -26,4 +26,5 @@ EXERCISE = Exercise(
         "slamlab.worlds",
     ),
     answers=("slamlab.scanmatching", "slamlab.estimators"),
+    hides=("small_gicp", "open3d"),
 )

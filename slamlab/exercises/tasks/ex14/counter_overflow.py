@@ -93,6 +93,7 @@ UNWRAP = Task(
             lambda i, o: np.abs(o["result"][:, 0]) < EXACT,
             _wanted,
             asks="How far has the robot gone at the first reading, whatever the byte is?",
+            alone=False,
         ),
         Law(
             "same ring",
@@ -112,6 +113,7 @@ UNWRAP = Task(
             asks="From one byte to the next there are two ways round the ring. Which of them can "
             "the robot have gone, and which number do you add then?",
             step=_between,
+            alone=False,
         ),
     ),
     probes=(

@@ -25,4 +25,5 @@ EXERCISE = Exercise(
         "slamlab.gridmap",
         "slamlab.estimators",
     ),
+    hides=("gtsam",),
 )

@@ -47,6 +47,7 @@ _WRAPPED = equals(
     "every heading lies between −π and π, also one that steps over π",
     _wanted,
     asks="A heading of 3.1 is turned by 0.2 more: what is it then?",
+    alone=False,
 )
 
 
