@@ -17,7 +17,7 @@ NEARBY = 2.5  # how far from an old keyframe a loop is looked for [m]
 STEP_SIGMA = np.array([0.03, 0.03, 0.03])  # odometry of one reading [m, m, rad]
 MATCH_SIGMA = np.array([0.006, 0.006, 0.002])  # matched motion of one reading [m, m, rad]
 LOOP_SIGMA = np.array([0.03, 0.03, 0.01])  # of a loop's tie [m, m, rad]
-POINT_SIGMA = 0.1  # of a point off its wall; far too large, for neighbours err alike [m]
+POINT_SIGMA = 0.04  # of a point off its wall; too large for one, for neighbours err alike [m]
 
 
 class MySlam:
@@ -110,7 +110,7 @@ class Target:
         self.tree = cKDTree(self.points)
 
 
-def with_normals(scan, reach=3):
+def with_normals(scan, reach=2):
     """Points of a scan on the lines fitted to their neighbours, and the lines' normals: (n, 4)."""
     points = np.empty((0, 2)) if scan is None else scan.points()
     if len(points) < 2 * reach + 1:
@@ -118,12 +118,12 @@ def with_normals(scan, reach=3):
     beside = np.arange(len(points))[:, None] + np.arange(-reach, reach + 1)
     groups = points[beside % len(points)]
     apart = np.hypot(*(groups - points[:, None]).transpose(2, 0, 1))
-    w = (apart < 0.06 + 0.14 * np.hypot(*points.T)[:, None]).astype(float)
+    w = (apart < 0.06 + 0.1 * np.hypot(*points.T)[:, None]).astype(float)
     middle = np.sum(w[..., None] * groups, axis=1) / w.sum(axis=1)[:, None]
     d = (groups - middle[:, None]) * w[..., None]
     values, vectors = np.linalg.eigh(d.transpose(0, 2, 1) @ d)
     normals = vectors[:, :, 0]
-    flat = (w.sum(axis=1) >= 4) & (values[:, 0] < 0.05 * values[:, 1])
+    flat = (w.sum(axis=1) >= 3) & (values[:, 0] < 0.15 * values[:, 1])
     off = np.sum((points - middle) * normals, axis=1)
     return np.hstack([points - off[:, None] * normals, normals])[flat]
 
