@@ -1,8 +1,8 @@
 """The published scale: what a drive is worth, from 0 (odometry) to 100, continuous in between.
 
 Each measure is a gain over odometry on the same drive, and the package's own estimators on that
-drive are the marks: as good as odometry 0, as ``icp`` 50, as ``graph`` 90; straight lines between
-the marks, and as far beyond ``graph`` again as needed for 100, see :func:`points_of`.
+drive are the marks: as good as odometry 0, as ``icp`` 55, as ``graph`` 85, and 100 for errors a fifth
+below those of ``graph``; straight lines between. So a hard drive is hard for the marks, too.
 """
 
 from dataclasses import dataclass
@@ -14,10 +14,10 @@ from slamlab.geometry import transform
 from slamlab.project import drive_errors
 from slamlab.project.drive_errors import LENGTHS
 
-MARKS = 0.0, 50.0, 90.0, 100.0  # points of odometry, icp, graph, and of the best asked for
+MARKS = 0.0, 55.0, 85.0, 100.0  # points of odometry, icp, graph, and of the best asked for
 MAP_SHARE = 0.2  # of the points; the rest is for the trajectory [1]
 FLOOR = 0.005  # errors are told apart down to about this [m]
-FIRST_GAIN, NEXT_GAIN = np.log(1.5), np.log(1.2)  # least distances of marks: see ``marks``
+FIRST_GAIN, NEXT_GAIN = np.log(1.5), np.log(1.35)  # least distances of marks: see ``marks``
 BEYOND = np.log(1.25)  # what is asked for 100: errors smaller than graph's by this factor
 MAP_GAIN = 0.2  # least distance of the marks of odometry and graph, of maps [1]
 FALSE_CLAIM = 20.0  # points that a covariance costs that is off by a factor of 100 or more
@@ -83,10 +83,11 @@ def measure(drive, world, odometry, walls):
 
 
 def marks(odometry, icp, graph):
-    """The marks of a drive: gains, and map scores, that are worth 0, 50, 90 and 100 points.
+    """The marks of a drive: gains, and map scores, that are worth 0, 55, 85 and 100 points.
 
-    Where a baseline fails a mark keeps a least distance from the one below: as far as errors
-    smaller by half. So no drive is too easy, and nobody is asked for less than odometry.
+    Where baselines fail or hardly differ a mark keeps a least distance from the one below: no luck
+    of a single drive makes a small error worth many points. A map at ``graph``'s mark is as good as
+    its own; there is none at ``icp``'s, the line is straight.
 
     Parameters
     ----------
@@ -99,9 +100,8 @@ def marks(odometry, icp, graph):
     middle = max(icp.gain, FIRST_GAIN)
     high = max(graph.gain, middle + NEXT_GAIN)
     gains = np.array([0.0, middle, high, high + BEYOND])
-    top = max(graph.map, odometry.map + MAP_GAIN)
-    shares = np.array(MARKS) / MARKS[2]
-    return gains, odometry.map + shares * (top - odometry.map)
+    better = max(graph.map - odometry.map, MAP_GAIN)
+    return gains, odometry.map + better * np.array(MARKS) / MARKS[2]
 
 
 def points_of(measures, scale):

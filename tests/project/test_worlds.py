@@ -1,6 +1,7 @@
 """Drawn worlds: the drive never goes through a wall, readings tell no truth, a seed is a world."""
 
 import dataclasses
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -21,9 +22,10 @@ def crosses(a, b, walls):
     """Whether the way from a to b crosses any wall."""
 
     def side(p, q, r):
-        return np.sign((q[..., 0] - p[..., 0]) * (r[..., 1] - p[..., 1]) - (
-            q[..., 1] - p[..., 1]
-        ) * (r[..., 0] - p[..., 0]))
+        return np.sign(
+            (q[..., 0] - p[..., 0]) * (r[..., 1] - p[..., 1])
+            - (q[..., 1] - p[..., 1]) * (r[..., 0] - p[..., 0])
+        )
 
     c, d = walls[:, :2], walls[:, 2:]
     return bool(((side(a, b, c) * side(a, b, d) < 0) & (side(c, d, a) * side(c, d, b) < 0)).any())
@@ -61,7 +63,6 @@ def test_a_drive_is_20_to_100_m_and_at_most_200_readings(world):
 @each_world
 def test_an_increment_of_odometry_is_the_true_motion_but_for_a_few_centimetres(world):
     ways = np.hypot(*world.odometry[1:, :2].T)
-    assert np.all(np.abs(ways - np.hypot(*world.odometry[1:, :2].T)) < 0.1)
     true = np.hypot(*np.diff(world.truth.poses[:, :2], axis=0).T)
     driven = np.diff(world.metres) > 0
     assert np.all(np.abs(ways - true)[driven] < 0.1)
@@ -84,16 +85,19 @@ def test_a_seed_is_a_world_and_every_iteration_yields_the_same(name):
     np.testing.assert_array_equal(one.truth.poses, two.truth.poses)
     for i in (0, 7, 3):
         np.testing.assert_array_equal(one.reading(i).scan.ranges, two.reading(i).scan.ranges)
-    assert other.floor.walls.shape != one.floor.walls.shape or (
-        other.floor.walls != one.floor.walls
-    ).any()
+    assert (
+        other.floor.walls.shape != one.floor.walls.shape
+        or (other.floor.walls != one.floor.walls).any()
+    )
 
 
 def test_a_world_does_not_change_with_the_number_of_worlds_nor_with_other_families():
     few = list(strata(FAMILIES["plain"], 5))
     assert few == sorted(few)
     first = next(draw_family(FAMILIES["plain"], 3))
-    np.testing.assert_array_equal(first.truth.poses, next(draw_family(Family("plain"), 3)).truth.poses)
+    np.testing.assert_array_equal(
+        first.truth.poses, next(draw_family(Family("plain"), 3)).truth.poses
+    )
 
 
 @each_world
@@ -152,9 +156,9 @@ def test_every_room_with_a_door_can_be_reached_and_ways_run_through_doors(plan, 
     goals = draw_goals(floor, rng)
     cells = draw_tour(floor, goals, rng, 60.0)
     assert cells[0] == cells[-1]
-    assert all(pair in floor.passages for pair in zip(cells, cells[1:], strict=False))
+    assert all(pair in floor.passages for pair in pairwise(cells))
     way = waypoints(floor, cells, goals)
-    for a, b in zip(way, way[1:], strict=False):
+    for a, b in pairwise(way):
         assert not crosses(a, b, floor.walls)
 
 
