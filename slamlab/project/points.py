@@ -1,8 +1,8 @@
 """The published scale: what a drive is worth, from 0 (odometry) to 100, continuous in between.
 
 Each measure is a gain over odometry on the same drive, and the package's own estimators on that
-drive are the marks: as good as odometry 0, as ``icp`` 55, as ``graph`` 85, and 100 for errors a fifth
-below those of ``graph``; straight lines between. So a hard drive is hard for the marks, too.
+drive are the marks: as good as odometry 0, as ``icp`` 55, as ``graph`` 85, and 100 for errors a
+fifth below those of ``graph``; straight lines between. A hard drive is hard for the marks, too.
 """
 
 from dataclasses import dataclass

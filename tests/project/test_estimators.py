@@ -1,4 +1,4 @@
-"""Estimators as students hand in, honest and not: ranked as their errors are, cheaters gain nothing.
+"""Estimators as students hand in: good ones rank as their errors do, cheaters gain nothing.
 
 What a sandbox has to keep from them is tested with the sandbox; here they are run as they are.
 """
