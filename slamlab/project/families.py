@@ -41,6 +41,10 @@ class Family:
     people : int, how many walk about
     kidnapped : bool, whether the robot is carried to another place on the way
     landmarks : int, point landmarks with ids in each cell, seen instead of a scan; 0 for a lidar
+
+    Raises
+    ------
+    ValueError : tours too short or too long
     """
 
     name: str
@@ -57,6 +61,10 @@ class Family:
     people: int = 0
     kidnapped: bool = False
     landmarks: int = 0
+
+    def __post_init__(self):
+        if not 20 <= self.metres[0] <= self.metres[1] <= 70:
+            raise ValueError(f"tours are from 20 to 70 m, so that drives stay under 100: {self}")
 
 
 FAMILIES = {

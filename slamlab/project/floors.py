@@ -59,10 +59,12 @@ def draw_floor(columns, rows, rng, alike=False, closed=0.0):
 
     Raises
     ------
-    ValueError : a letter that is none of the two, or no corridor
+    ValueError : a letter that is none of the two, no corridor, fewer than two rooms
     """
     if set(columns + rows) - set("rc") or "c" not in columns + rows:
         raise ValueError(f"a plan is made of r and c, with a c at least: {columns!r}, {rows!r}")
+    if columns.count("r") * rows.count("r") < 2:
+        raise ValueError(f"a plan has two rooms to drive between: {columns!r}, {rows!r}")
     x, y = _edges(columns, rng, alike), _edges(rows, rng, alike)
     cells = {
         (i, j): (x[i], y[j], x[i + 1], y[j + 1])

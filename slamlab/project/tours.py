@@ -107,7 +107,7 @@ def draw_tour(floor, goals, rng, metres, rooms=None, start=None, back=True):
     goals : dict, cell to (2,) [m]
     rng : numpy.random.Generator
     metres : float, length from which on no further room is visited [m]
-    rooms : list of cells to visit, or None for all rooms with a door
+    rooms : list of cells to visit; fewer than two, or None, for all rooms with a door
     start : cell, or None to draw a room
     back : bool, whether it ends where it began, by another way if there is one
 
@@ -115,7 +115,8 @@ def draw_tour(floor, goals, rng, metres, rooms=None, start=None, back=True):
     -------
     list of cells
     """
-    rooms = rooms or floor.open_rooms()
+    if rooms is None or len(rooms) < 2:
+        rooms = floor.open_rooms()
     if start is None:
         start = rooms[rng.integers(len(rooms))]
     cells, unseen = [start], []

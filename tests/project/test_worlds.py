@@ -1,6 +1,7 @@
 """Drawn worlds: the drive never goes through a wall, readings tell no truth, a seed is a world."""
 
 import dataclasses
+from functools import cache
 from itertools import pairwise
 
 import numpy as np
@@ -13,9 +14,19 @@ from slamlab.project.floors import draw_floor
 from slamlab.project.tours import draw_goals, draw_tour, waypoints
 
 ALL = [*FAMILIES.values(), LANDMARKS]
-WORLDS = [next(draw_family(family, seed=17, count=1)) for family in ALL]
 PLANS = {plan for family in ALL for plan in family.plans}
-each_world = pytest.mark.parametrize("world", WORLDS, ids=[f.name for f in ALL])
+
+
+@cache
+def drawn(family):
+    """A world of a family, the same for all tests."""
+    return next(draw_family(family, seed=17, count=1))
+
+
+@pytest.fixture(params=ALL, ids=lambda family: family.name)
+def world(request):
+    """A world of each family in turn."""
+    return drawn(request.param)
 
 
 def crosses(a, b, walls):
@@ -31,7 +42,6 @@ def crosses(a, b, walls):
     return bool(((side(a, b, c) * side(a, b, d) < 0) & (side(c, d, a) * side(c, d, b) < 0)).any())
 
 
-@each_world
 def test_the_drive_never_goes_through_a_wall_nor_touches_one(world):
     carried = np.flatnonzero((np.diff(world.metres) == 0) & far(world))
     for i, pose in enumerate(world.truth.poses):
@@ -52,7 +62,6 @@ def straight(motion):
     return abs(motion[2]) < 0.1
 
 
-@each_world
 def test_a_drive_is_20_to_100_m_and_at_most_200_readings(world):
     assert 20 < world.metres[-1] < 100
     assert len(world) <= MAX_READINGS
@@ -60,7 +69,6 @@ def test_a_drive_is_20_to_100_m_and_at_most_200_readings(world):
     assert np.all(np.diff(world.truth.times) > 0)
 
 
-@each_world
 def test_an_increment_of_odometry_is_the_true_motion_but_for_a_few_centimetres(world):
     ways = np.hypot(*world.odometry[1:, :2].T)
     true = np.hypot(*np.diff(world.truth.poses[:, :2], axis=0).T)
@@ -70,7 +78,7 @@ def test_an_increment_of_odometry_is_the_true_motion_but_for_a_few_centimetres(w
 
 
 def test_odometry_alone_is_lost():
-    world = WORLDS[0]
+    world = drawn(FAMILIES["plain"])
     pose = world.truth.poses[0]
     for motion in world.odometry:
         pose = compose(pose, motion)
@@ -100,7 +108,6 @@ def test_a_world_does_not_change_with_the_number_of_worlds_nor_with_other_famili
     )
 
 
-@each_world
 def test_a_reading_holds_no_truth_and_nothing_of_it_is_the_worlds(world):
     reading = world.reading(5)
     given = {field.name for field in dataclasses.fields(reading)}
@@ -112,7 +119,7 @@ def test_a_reading_holds_no_truth_and_nothing_of_it_is_the_worlds(world):
 
 def test_a_reading_is_made_only_when_it_is_asked_for(monkeypatch):
     asked = []
-    world = WORLDS[0]
+    world = drawn(FAMILIES["plain"])
     monkeypatch.setattr(type(world), "reading", lambda self, i: asked.append(i))
     readings = iter(world)
     next(readings)
@@ -121,7 +128,7 @@ def test_a_reading_is_made_only_when_it_is_asked_for(monkeypatch):
 
 
 def test_ranges_are_off_by_the_bias_of_the_family():
-    biased = WORLDS[[f.name for f in ALL].index("range-bias")]
+    biased = drawn(FAMILIES["range-bias"])
     true = dataclasses.replace(biased, bias=0.0)
     ratio = biased.reading(3).scan.ranges / true.reading(3).scan.ranges
     assert abs(biased.bias) == 0.01
@@ -129,7 +136,7 @@ def test_ranges_are_off_by_the_bias_of_the_family():
 
 
 def test_people_hide_walls_and_keep_off_the_robot():
-    world = WORLDS[[f.name for f in ALL].index("people")]
+    world = drawn(FAMILIES["people"])
     away = np.hypot(*(world.people - world.truth.poses[:, None, :2]).transpose(2, 0, 1))
     assert away.min() > 0.4
     empty = dataclasses.replace(world, people=world.people[:, :0])
@@ -141,7 +148,7 @@ def test_people_hide_walls_and_keep_off_the_robot():
 
 
 def test_landmarks_come_with_ids_instead_of_a_scan_and_only_where_no_wall_hides_them():
-    world = WORLDS[-1]
+    world = drawn(LANDMARKS)
     seen = [world.reading(i) for i in range(0, len(world), 5)]
     assert all(reading.scan is None for reading in seen)
     assert sum(len(reading.observations.ids) for reading in seen) > len(seen)
@@ -168,9 +175,17 @@ def test_rooms_that_are_alike_have_one_size():
     np.testing.assert_allclose(sizes, sizes[:1] * len(sizes))
 
 
-def test_a_plan_without_a_corridor_is_refused():
-    with pytest.raises(ValueError, match="with a c at least"):
-        draw_floor("rr", "rr", np.random.default_rng(0))
+@pytest.mark.parametrize(
+    ("plan", "told"), [("rr", "with a c at least"), ("rx", "made of r and c"), ("crc", "two rooms")]
+)
+def test_a_plan_that_cannot_be_driven_is_refused(plan, told):
+    with pytest.raises(ValueError, match=told):
+        draw_floor(plan, plan, np.random.default_rng(0))
+
+
+def test_tours_that_would_grow_too_long_are_refused():
+    with pytest.raises(ValueError, match="from 20 to 70 m"):
+        Family("endless", metres=(50.0, 500.0))
 
 
 def test_an_unseen_family_is_one_line():
