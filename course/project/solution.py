@@ -15,7 +15,7 @@ RECENT = 8  # keyframes in the local map
 OLD = 12  # keyframes back from which one is old enough to close a loop
 NEARBY = 2.5  # how far from an old keyframe a loop is looked for [m]
 STEP_SIGMA = np.array([0.03, 0.03, 0.03])  # odometry of one reading [m, m, rad]
-MATCH_SIGMA = np.array([0.006, 0.006, 0.002])  # matched motion of one reading [m, m, rad]
+MATCH_SIGMA = np.array([0.004, 0.004, 0.0013])  # matched motion of one reading [m, m, rad]
 LOOP_SIGMA = np.array([0.03, 0.03, 0.01])  # of a loop's tie [m, m, rad]
 POINT_SIGMA = 0.04  # of a point off its wall; too large for one, for neighbours err alike [m]
 

@@ -101,13 +101,15 @@ def marks(odometry, icp, graph):
     high = max(graph.gain, middle + NEXT_GAIN)
     gains = np.array([0.0, middle, high, high + BEYOND])
     better = max(graph.map - odometry.map, MAP_GAIN)
-    return gains, odometry.map + better * np.array(MARKS) / MARKS[2]
+    maps = odometry.map + better * np.array(MARKS) / MARKS[2]
+    maps[3] = min(maps[3], max(1.0, maps[2] + 0.01))  # a perfect map is worth all
+    return gains, maps
 
 
 def points_of(measures, scale):
     """Points of a drive, 0 to 100.
 
-    completeness · (0.8 · trajectory + 0.2 · map) − the cost of a false claim
+    completeness · (0.8 · trajectory + 0.2 · min(map, trajectory)) − the cost of a false claim
 
     Parameters
     ----------
@@ -120,7 +122,8 @@ def points_of(measures, scale):
     """
     gains, maps = scale
     track = np.interp(measures.gain, gains, MARKS)
-    mapped = np.interp(measures.map, maps, MARKS)
+    # a map is worth no more than the track it is drawn along: pieces of odometry's gain nothing
+    mapped = min(np.interp(measures.map, maps, MARKS), track)
     good = (1 - MAP_SHARE) * track + MAP_SHARE * mapped
     return float(max(0.0, measures.completeness * good - claim_cost(measures.nees)))
 
