@@ -6,11 +6,11 @@ from zlib import crc32
 import numpy as np
 
 from slamlab.geometry import compose
-from slamlab.project.families import strata
 from slamlab.project.floors import draw_floor
 from slamlab.project.furniture import furnish
 from slamlab.project.hidden_worlds import HiddenWorld
 from slamlab.project.tours import draw_goals, draw_tour, length, waypoints
+from slamlab.project.world_families import strata
 from slamlab.readings import Trajectory
 from slamlab.simulation.differential_drive import DifferentialDrive, Simulator, follow
 from slamlab.worlds.world import World

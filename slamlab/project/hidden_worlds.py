@@ -10,7 +10,7 @@ import numpy as np
 
 from slamlab.geometry import wrap
 from slamlab.models.observation import h
-from slamlab.project.families import Family
+from slamlab.project.world_families import Family
 from slamlab.readings import Observations, Reading, Trajectory
 from slamlab.worlds.world import World
 

@@ -8,9 +8,9 @@ from slamlab.project import drive_errors
 from slamlab.project.baselines import BASELINES
 from slamlab.project.drawing import WORLDS_PER_FAMILY, draw_family
 from slamlab.project.driving import Budget, Drive, drive
-from slamlab.project.families import FAMILIES
 from slamlab.project.hidden_worlds import HiddenWorld
 from slamlab.project.points import Measures, marks, measure, points_of
+from slamlab.project.world_families import FAMILIES
 
 
 @dataclass(frozen=True)

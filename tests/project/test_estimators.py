@@ -17,9 +17,9 @@ from course.project.template import MySlam as Template
 from slamlab.project.baselines import BASELINES
 from slamlab.project.drawing import draw_family, draw_world
 from slamlab.project.driving import Budget, drive
-from slamlab.project.families import FAMILIES, LANDMARKS, Family
 from slamlab.project.points import Measures, points_of
 from slamlab.project.scores import prepare
+from slamlab.project.world_families import FAMILIES, LANDMARKS, Family
 
 LOOP = Family("loop", plans=(("crrc", "crc"),))
 UNLIMITED = Budget(*[np.inf] * 3)

@@ -12,8 +12,8 @@ from slamlab.project import drive_errors, points
 from slamlab.project.baselines import BASELINES
 from slamlab.project.drawing import draw_world
 from slamlab.project.driving import Budget, drive
-from slamlab.project.families import Family
 from slamlab.project.scores import by_family, judge, prepare, score
+from slamlab.project.world_families import Family
 
 SMALL = Family("small", plans=(("crc", "rcr"),))
 START = np.array([2.0, -1.0, 0.7])

@@ -9,9 +9,9 @@ import pytest
 
 from slamlab.geometry import compose
 from slamlab.project.drawing import MAX_READINGS, draw_family, draw_world
-from slamlab.project.families import FAMILIES, LANDMARKS, Family, strata
 from slamlab.project.floors import draw_floor
 from slamlab.project.tours import draw_goals, draw_tour, waypoints
+from slamlab.project.world_families import FAMILIES, LANDMARKS, Family, strata
 
 ALL = [*FAMILIES.values(), LANDMARKS]
 PLANS = {plan for family in ALL for plan in family.plans}
