@@ -27,6 +27,7 @@ The course's own machinery:
 
 derivation       derivations line by line, each line checked by machine: ``derive``
 exercises        what each task asks, and the laws its answers are judged by
+project          worlds nobody has seen, and what a student's own SLAM is worth in them
 coursework       a student's folder: progress, reset, update
 parallel         many runs on processes or a Dask cluster
 grading          judge, sandbox, gradebook, late policy, similarity report

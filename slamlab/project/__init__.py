@@ -1,0 +1,11 @@
+"""The final project: a student's own SLAM, driven through rooms nobody has seen, and scored.
+
+Read in this order:
+
+- ``floors``, ``tours``, ``furniture``: a floor plan, a walk through it, what stands in it
+- ``world_families``: what worlds have in common; ``hidden_worlds``: HiddenWorld, its readings and
+  its truth; ``drawing``: draw_world, draw_family
+- ``student_estimator``: a student's class held at arm's length; ``driving``: drive, within a Budget
+- ``drive_errors``: relative errors, map score, NEES; ``points``: the published scale
+- ``baselines``: the package's estimators, which are its marks; ``scores``: arenas, judge, score
+"""

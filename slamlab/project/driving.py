@@ -1,0 +1,143 @@
+"""Driving: an estimator is fed a world's readings one at a time, and what it answers is kept."""
+
+import time
+from collections.abc import Callable
+from contextlib import contextmanager
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+
+from slamlab.exercises.drives import StudentError
+from slamlab.project.student_estimator import StudentEstimator
+
+USED_UP = (
+    "the {:g} s of CPU for all worlds are used up: what grows with every reading, a map to match "
+    "with or a graph to solve, has to be kept small"
+)
+TOO_LONG = "{} took {:.1f} s of CPU, more than the {:g} s that are allowed"
+
+
+@dataclass
+class Budget:
+    """The CPU seconds that one estimator may use: the same for all, and told beforehand.
+
+    Parameters
+    ----------
+    total : float, for all worlds together [s]
+    reading : float, for a single step [s]
+    ending : float, for ``trajectory()`` and ``map()`` at the end of a world [s]
+    clock : callable that gives CPU seconds
+    spent : float, what was used so far [s]
+    """
+
+    total: float = 50.0
+    reading: float = 1.0
+    ending: float = 5.0
+    clock: Callable[[], float] = time.process_time
+    spent: float = 0.0
+
+    def timed(self, function, limit, what):
+        """Call a function and count its time.
+
+        Parameters
+        ----------
+        function : callable without arguments
+        limit : float [s]
+        what : str, what it is, for the message
+
+        Returns
+        -------
+        what the function returns
+
+        Raises
+        ------
+        StudentError : it took too long, or all of the budget is spent
+        """
+        if self.spent > self.total:
+            raise StudentError("time", USED_UP.format(self.total))
+        start = self.clock()
+        try:
+            return function()
+        finally:
+            took = self.clock() - start
+            self.spent += took
+            if took > limit:
+                raise StudentError("time", TOO_LONG.format(what, took, limit)) from None
+            if self.spent > self.total:
+                raise StudentError("time", USED_UP.format(self.total)) from None
+
+
+@dataclass(frozen=True)
+class Drive:
+    """What an estimator answered in one world.
+
+    Parameters
+    ----------
+    online : (n, 3) the pose given right after each reading; NaN where there was none [m, m, rad]
+    covariances : (n, 3, 3) claimed beside it; NaN where none was
+    trajectory : (n, 3) all poses as believed at the end; NaN where there is none [m, m, rad]
+    points : (m, 2) its map [m]
+    mistakes : tuple of str, what went wrong, a sentence each
+    seconds : float of CPU
+    """
+
+    online: np.ndarray
+    covariances: np.ndarray
+    trajectory: np.ndarray
+    points: np.ndarray
+    mistakes: tuple[str, ...]
+    seconds: float
+
+    @property
+    def completeness(self):
+        """Share of the readings with a finite pose in the end [1]."""
+        return float(np.isfinite(self.trajectory).all(axis=1).mean())
+
+
+def drive(make, world, budget=None):
+    """Drive an estimator through a world; whatever it does wrong ends this world, no more.
+
+    Parameters
+    ----------
+    make : callable that makes the student's estimator, its class
+    world : sized iterable of Reading; each is made when it is asked for
+    budget : Budget, or None for a new one
+
+    Returns
+    -------
+    Drive
+    """
+    budget, n, mistakes = budget or Budget(), len(world), []
+    before, answered = budget.spent, 0
+    online, covariances = np.full((n, 3), np.nan), np.full((n, 3, 3), np.nan)
+    trajectory, points = online, np.empty((0, 2))
+    try:
+        estimator = budget.timed(lambda: StudentEstimator(make), budget.ending, "making it")
+        for reading in world:
+            step = budget.timed(partial(estimator.step, reading), budget.reading, "step")
+            online[answered], covariances[answered] = step
+            answered += 1
+    except StudentError as error:
+        mistakes.append(f"at reading {answered + 1} of {n}: {error.message}")
+    else:
+        # the map is asked for though the trajectory fails
+        with _kept(mistakes):
+            ask = partial(estimator.trajectory, n)
+            told = budget.timed(ask, budget.ending, "trajectory()")
+            trajectory = online if told is None else told
+        with _kept(mistakes):
+            points = budget.timed(estimator.map, budget.ending, "map()")
+    lost = int(np.isnan(trajectory[:answered]).any(axis=1).sum())
+    if lost:
+        mistakes.append(f"{lost} of {n} poses are not finite: was something divided by zero?")
+    spent = budget.spent - before
+    return Drive(online, covariances, trajectory, points, tuple(mistakes), spent)
+
+
+@contextmanager
+def _kept(mistakes):
+    try:
+        yield
+    except StudentError as error:
+        mistakes.append(error.message)

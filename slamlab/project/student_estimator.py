@@ -1,0 +1,106 @@
+"""A student's estimator, held at arm's length: what it answers is checked and turned into arrays.
+
+It is a class with ``step(reading)`` and ``pose``; it may offer ``covariance``, ``trajectory()`` and
+``map()``. Nothing here knows a truth, so it can run where the student's code runs.
+"""
+
+import numpy as np
+
+from slamlab.exercises.drives import StudentError, describe, numbers, shaped
+
+MAX_MAP_POINTS = 50_000
+HALF_OF_P = "covariance is not symmetric: is a term of P missing on one side?"
+
+
+class StudentEstimator:
+    """One object of a student's class; each call answers arrays or raises StudentError.
+
+    Parameters
+    ----------
+    make : callable, the class
+
+    Raises
+    ------
+    StudentError : it cannot be made, or lacks ``step`` or ``pose``
+    """
+
+    def __init__(self, make):
+        self._theirs = _called(make, "making the estimator")
+        for name, what in (("step", "a method step(reading)"), ("pose", "a pose (x, y, theta)")):
+            if not hasattr(self._theirs, name):
+                raise StudentError("missing", f"the estimator has no {name}: it needs {what}")
+
+    def step(self, reading):
+        """Hand it one reading.
+
+        Parameters
+        ----------
+        reading : Reading
+
+        Returns
+        -------
+        pose (3,), with NaN where it is not finite, and covariance (3, 3), NaN where none is claimed
+        """
+        _called(lambda: self._theirs.step(reading), "step")
+        pose = _finite(_called(lambda: self._theirs.pose, "pose"), "pose", (3,))
+        claimed = _called(lambda: getattr(self._theirs, "covariance", None), "covariance")
+        if callable(claimed):
+            claimed = _called(claimed, "covariance")
+        if claimed is None:
+            return pose, np.full((3, 3), np.nan)
+        P = _finite(claimed, "covariance", (3, 3))
+        if np.isfinite(P).all() and not np.allclose(P, P.T, rtol=1e-4, atol=1e-9):
+            raise StudentError("malformed", HALF_OF_P)
+        return pose, P
+
+    def trajectory(self, count):
+        """Ask for all poses as believed at the end.
+
+        Parameters
+        ----------
+        count : int, readings so far
+
+        Returns
+        -------
+        (count, 3), or None where it has no ``trajectory``
+        """
+        if not hasattr(self._theirs, "trajectory"):
+            return None
+        value = _called(self._theirs.trajectory, "trajectory")
+        poses = getattr(value, "poses", value)  # a Trajectory of the package's will do, too
+        return _finite(poses, "trajectory()", (count, 3))
+
+    def map(self):
+        """Ask for its map: (n, 2) points, none where it has no ``map``."""
+        if not hasattr(self._theirs, "map"):
+            return np.empty((0, 2))
+        value = _called(self._theirs.map, "map")
+        points = np.empty((0, 2)) if value is None else numbers(value, "map()")
+        if points.size == 0:
+            return np.empty((0, 2))
+        if points.ndim != 2 or points.shape[1] != 2:
+            raise StudentError("malformed", f"map() has shape {points.shape}, not (n, 2)")
+        if len(points) > MAX_MAP_POINTS:
+            raise StudentError(
+                "malformed",
+                f"map() has {len(points)} points, at most {MAX_MAP_POINTS} are allowed: keep one "
+                "of those that fall into the same cell of a grid",
+            )
+        return points[np.isfinite(points).all(axis=1)]
+
+
+def _called(function, what):
+    try:
+        return function()
+    except NotImplementedError:
+        raise StudentError("not attempted", f"{what}: not attempted yet") from None
+    except StudentError:
+        raise
+    except Exception as error:
+        raise StudentError("raised", f"{what} failed with {describe(error)}") from None
+
+
+def _finite(value, name, shape):
+    """An array of a shape, NaN for what is not finite."""
+    array = shaped(value, name, shape)
+    return np.where(np.isfinite(array), array, np.nan)
