@@ -19,7 +19,6 @@ TAGS = {
     "nbval-ignore-output",
     "nbval-skip",
     "raises-exception",
-    "remove-input",
 }
 SLIDES = {"slide", "subslide", "fragment", "notes", "skip", "-"}
 MAX_CELL_LINES = 30  # lines of a lesson's code cell
