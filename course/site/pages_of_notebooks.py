@@ -7,7 +7,8 @@ from course.site.questions import asks, question
 
 NOTE = "notes"
 PLACEHOLDER = re.compile(r"Run this cell [^.]*\.")  # words in place of a widget
-_LINK = re.compile(r"\]\((?:\.\./)?(?:(notebooks|exercises)/)?((?:ex)?\d\d_\w+)\.ipynb(#[\w-]+)?\)")
+_LINK = re.compile(r"\]\((?:\.\./)?(?:(notebooks|exercises)/)?((?:ex)?\d\d_\w+)\.ipynb(#[^)]+)?\)")
+_WITHIN = re.compile(r"\]\((#[^)]+)\)")
 _LESSON = re.compile(r"(?<!\[)\b([Ll]essons?) (\d\d)\b(?![^\[]*\])(?! ?[:·])")
 _GUIDE = re.compile(r"\]\(\.\./docs/(\w+)\.md")
 _H1 = re.compile(r"^# (?=\S)", re.MULTILINE)
@@ -57,18 +58,24 @@ def _linked(text, files):
     def to_page(found):
         kind, name, part = found.groups()
         kind = kind or ("exercises" if name.startswith("ex") else "notebooks")
-        return f"](../{kind}/{name}.ipynb{part or ''})"
+        return f"](../{kind}/{name}.ipynb{_anchor(part or '')})"
 
     def to_lesson(found):
         word, number = found.groups()
         name = files.get(number)
         return f"[{word} {number}](../notebooks/{name}.ipynb)" if name else found[0]
 
+    text = _WITHIN.sub(lambda found: f"]({_anchor(found[1])})", text)
     lines = [
         line if line.startswith(("#", "    ")) else _LESSON.sub(to_lesson, line)
         for line in _GUIDE.sub(r"](../guides/\1.md", _LINK.sub(to_page, text)).split("\n")
     ]
     return "\n".join(lines)
+
+
+def _anchor(part):
+    """JupyterLab's name of a heading (#Appendix:-words) as the site's (#appendix-words)."""
+    return re.sub(r"[^\w#-]", "", part.lower())
 
 
 def _tidy(cell):

@@ -1,6 +1,6 @@
 """Feedback page for the student: each task, its laws, the points, and what would gain the rest."""
 
-from datetime import datetime
+from datetime import UTC, datetime
 from pathlib import Path
 
 import jinja2
@@ -84,10 +84,10 @@ def title(mark: Mark, student=None) -> str:
 
 
 def _local(when, zone):
-    """A time on the clocks of a zone, with its name there."""
-    if not when or zone is None:
+    """A time on the clocks of a zone (UTC where none is told), with its name there."""
+    if not when:
         return when
-    local = datetime.fromisoformat(when).astimezone(zone)
+    local = datetime.fromisoformat(when).astimezone(zone or UTC)
     return f"{local:%A}, {local.day} {local:%B %Y, %H:%M %Z}"
 
 

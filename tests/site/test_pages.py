@@ -41,6 +41,7 @@ def test_a_page_has_one_heading_of_the_first_level():
     [
         ("[a](04_models_and_jacobians.ipynb)", "[a](../notebooks/04_models_and_jacobians.ipynb)"),
         ("[a](../exercises/ex04_m.ipynb#part)", "[a](../exercises/ex04_m.ipynb#part)"),
+        ("[a](#Deeper:-why-so?)", "[a](#deeper-why-so)"),
         ("[a](../docs/lecturing.md)", "[a](../guides/lecturing.md)"),
         ("See lesson 04.", "See [lesson 04](../notebooks/04_models_and_jacobians.ipynb)."),
         ("See lesson 77.", "See lesson 77."),
