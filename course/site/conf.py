@@ -21,6 +21,7 @@ html_title = project
 html_math_renderer = "katex"
 html_copy_source = False
 html_show_sourcelink = False
+html_show_search_summary = False  # is fetched, which pages opened as files may not
 html_static_path = ["_static"]
 html_css_files = ["katex/katex.min.css", "site.css"]
 html_js_files = [(name, {"defer": "defer"}) for name in ("progress.js", "scrolling.js")]

@@ -44,8 +44,8 @@ def look(request, browser, site):
         "request", lambda asked: asked.url.startswith(("file:", "data:")) or wrong.append(asked.url)
     )
 
-    def open_page(name):
-        page.goto((site / name).as_uri())
+    def open_page(name, asked=""):
+        page.goto((site / name).as_uri() + asked)
         page.wait_for_function(LOADED)
         return page
 
@@ -77,7 +77,7 @@ def test_a_page_is_sound_fits_and_can_be_read_by_all(look, name):
 
 @pytest.mark.parametrize("words", ["Jacobian", "ψ"])
 def test_the_search_finds(look, words):
-    page = look(f"search.html?q={words}")
+    page = look("search.html", f"?q={words}")
     page.locator("#search-results li").first.wait_for()
 
 
