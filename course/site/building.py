@@ -88,7 +88,7 @@ def katex_modules(work):
     for name in ("package.json", "package-lock.json"):
         shutil.copy(HERE / name, place)
     done = subprocess.run(
-        [npm, "ci", "--ignore-scripts", "--no-audit", "--no-fund"],
+        [npm, "ci", "--ignore-scripts", "--no-audit", "--no-fund", "--fetch-retries=1"],
         cwd=place,
         capture_output=True,
         text=True,
