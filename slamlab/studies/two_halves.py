@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from slamlab.estimators.dead_reckoning import DeadReckoning
 from slamlab.estimators.mak_slam import Q_arc
 from slamlab.evaluation import nees
 from slamlab.filters import ekf_localisation
@@ -120,10 +121,10 @@ def by_wheels(run):
     ----------
     run : LandmarkRun
     """
-    poses = [np.zeros(3)]
-    for reading in list(run)[1:]:
-        poses.append(compose(poses[-1], reading.odometry))
-    return np.array(poses)
+    wheels = DeadReckoning()
+    for reading in run:
+        wheels.step(reading)
+    return wheels.trajectory().poses
 
 
 def off(run, poses):
