@@ -9,11 +9,11 @@ at_most = 0.5
 """
 
 import math
-import tomllib
 from dataclasses import dataclass, field
 from datetime import datetime, timedelta
 
 from slamlab.exercises import catalogue
+from slamlab.grading import toml_files
 
 HIGHEST = {"per_day": 1, "at_most": 1, "grace_minutes": 366 * 24 * 60}
 """The settings of a penalty, and the most that each may be."""
@@ -100,12 +100,7 @@ def load(path):
     ------
     LatePolicyError
     """
-    try:
-        told = tomllib.loads(path.read_text("utf-8"))
-    except OSError as error:
-        raise LatePolicyError(f"{path}: {error.strerror}") from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise LatePolicyError(f"{path}: {error}") from None
+    told = toml_files.read(path, LatePolicyError)
     due = told.pop("due", None)
     if not isinstance(due, dict) or not due:
         raise LatePolicyError(

@@ -1,12 +1,12 @@
 """Course file: ``course.toml`` says once what every command of a term needs to know."""
 
-import tomllib
 from dataclasses import dataclass, field
 from datetime import date, datetime, time
 from pathlib import Path
 from zoneinfo import ZoneInfo
 
 from slamlab.exercises import catalogue
+from slamlab.grading import toml_files
 from slamlab.grading.late_policy import LatePolicy, LatePolicyError, check_penalty
 from slamlab.grading.sandbox import LEVELS
 
@@ -92,12 +92,7 @@ def load(file):
     ------
     CourseFileError
     """
-    try:
-        told = tomllib.loads(file.read_text("utf-8"))
-    except OSError as error:
-        raise CourseFileError(f"{file}: {error.strerror}") from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise CourseFileError(f"{file}: {error}") from None
+    told = toml_files.read(file, CourseFileError)
     try:
         return _course(told, file)
     except (ValueError, LatePolicyError) as error:

@@ -1,0 +1,23 @@
+"""TOML files that a lecturer writes: read, or told with their name why not."""
+
+import tomllib
+
+
+def read(path, refusal):
+    """Read a TOML file.
+
+    Parameters
+    ----------
+    path : Path
+    refusal : Exception's class, raised with a text that names the file
+
+    Returns
+    -------
+    dict
+    """
+    try:
+        return tomllib.loads(path.read_text("utf-8"))
+    except OSError as error:
+        raise refusal(f"{path}: {error.strerror}") from None
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise refusal(f"{path}: {error}") from None
