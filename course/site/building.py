@@ -1,6 +1,5 @@
 """Build the site: pages are prepared in a folder of their own, then set by Sphinx."""
 
-import json
 import shutil
 import subprocess
 import sys
@@ -106,5 +105,3 @@ def _ship_katex(modules, folder):
     shutil.copy(dist / "katex.min.css", folder)
     for font in (dist / "fonts").glob("*.woff2"):
         shutil.copy(font, folder / "fonts")
-    told = json.loads((dist.parent / "package.json").read_text(encoding="utf-8"))
-    (folder / "version.txt").write_text(told["version"], encoding="utf-8")
