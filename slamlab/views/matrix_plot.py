@@ -39,7 +39,7 @@ def correlation(rho, names, title=None, ax=None, size=(4.8, 4.2)):
     if own:
         _, ax = chart(None, None, None, size)
     ax.grid(False)
-    picture = ax.imshow(rho, cmap=_COLOUR_MAP, vmin=-1, vmax=1, interpolation="nearest")
+    ax.imshow(rho, cmap=_COLOUR_MAP, vmin=-1, vmax=1, interpolation="nearest")
     inner = edges[1:-1] - 0.5
     ax.hlines(inner, -0.5, edges[-1] - 0.5, color=COLOURS["guide"], linewidth=0.6)
     ax.vlines(inner, -0.5, edges[-1] - 0.5, color=COLOURS["guide"], linewidth=0.6)
