@@ -204,8 +204,9 @@ driven.step("multiply block by block", blockwise)
 # $$P_{\mathrm{rr}} \leftarrow A P_{\mathrm{rr}} A^{\mathsf T} + Q, \qquad P_{\mathrm ri} \leftarrow A P_{\mathrm ri},
 # \qquad P_{ij} \leftarrow P_{ij}. \tag{06.3}$$
 #
-# What robot and landmark have in common is carried along by $A$ and gets no noise, while
-# $P_{\mathrm{rr}}$ grows by $Q$. So their *correlation* falls: driving forgets, because noise comes in.
+# What robot and landmark have in common is carried along by $A$, and nothing is added to it, while
+# the robot's own doubt grows by $Q$. The map's blocks stay as they are: driving teaches nothing about the map, and
+# spoils nothing in it.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="06-drive"
 mak = MAK(np.zeros(3), P_doubt)
@@ -531,7 +532,7 @@ print(f"wheels {np.median(by_wheels):.2f} m; smaller in {np.sum(by_filter < by_w
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # While all landmarks are new, the filter drifts: a map of its own making cannot tell the robot where it is. In this run
-# it reaches {= own.max():.1f =} m. Over 20 runs it drifts less than the wheels in
+# its error reaches {= own.max():.1f =} m. Over 20 runs it drifts less than the wheels in
 # {= np.sum(by_filter < by_wheels) =}. It *knows* that it drifts, for its σ grows along with its error. And then, at
 # step {= own.argmax() + 1 =}, something happens that odometry has no part in.
 
@@ -594,8 +595,8 @@ views.show(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# {= np.sum(shrunk > 0) =} of {= len(shrunk) =} ellipses shrank within six steps, and so did those on the far side, which the
-# robot has not seen for forty. In the order in which the landmarks were found, they lost this share of their area:
+# {= np.sum(shrunk > 0) =} of {= len(shrunk) =} ellipses shrank within six steps, among them those on the far side, which
+# have long been out of sight. In the order in which the landmarks were found, they lost this share of their area:
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="06-shrink"
 print(" ".join(f"{share:.0%}" for share in shrunk))
@@ -722,6 +723,8 @@ views.explore(
     sight=(1.0, 8.0, 1.5),
     turn_noise=(0.2, 3.0, 1.8),
 )
+
+# %% slideshow={"slide_type": "fragment"} answers="06-honest"
 by_sight = {sight: list(driven_with(sight, 1.8)) for sight in (1.5, 4.0)}
 short, far_sighted = map(mean_nees, by_sight.values())
 better = {
@@ -732,9 +735,20 @@ better = {
     for sight, each in by_sight.items()
 }
 peak = SETTLED + short.argmax()
-off_before = np.median(
-    [np.hypot(*(way - one.truth.poses)[peak - 5, :2]) for one, way, *_ in by_sight[1.5]]
-)
+
+
+def off_at_closing(one, way, *_):
+    """How far off the robot is just before it sees one of its first landmarks again [m]."""
+    in_sight = [set(one.seen(pose)) for pose in one.truth.poses]
+    first = set.union(*in_sight[:10])
+    k = next(k for k in range(50, 101) if in_sight[k] & first)
+    return np.hypot(*(way - one.truth.poses)[k - 1, :2])
+
+
+at_closing = {
+    sight: np.median([off_at_closing(*each) for each in drives])
+    for sight, drives in by_sight.items()
+}
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # With a short sight and poor wheels, NEES is {= short.mean():.1f =} on average, and {= short.max():.0f =} at
@@ -742,9 +756,9 @@ off_before = np.median(
 # {= as_before.mean():.1f =}. The error itself is smaller than the wheels' in {= better[1.5] =} of the 12 runs with
 # the short sight, and in {= better[4.0] =} with the long one.
 #
-# No block is missing here. Look where the curve leaves the band: at step {= peak =}, when the loop closes. Until then the
-# robot has been off by {= off_before:.1f =} m (median), and now it meets its first landmarks at less than 1.5 m.
-# Over such an error a bearing does not follow a straight line.
+# No block is missing here. The peak is at step {= peak =}, as the loop closes. When the robot sees its first landmarks
+# again, it is off by {= at_closing[1.5]:.1f =} m (median), and they stand at most 1.5 m away. Over such an error a
+# bearing does not follow a straight line. With a sight of 4 m it is off by {= at_closing[4.0]:.2f =} m.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Are the Jacobians taken at the wrong place?
@@ -767,7 +781,7 @@ print(f"at the truth {nees_with('ideal'):.1f}")
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # It does not help here: over errors as large as this no straight line will do, wherever it touches the curve. What
 # helps is to keep the errors small. A farther sight does so in two ways, for more landmarks hold the
-# heading, and the loop closes earlier. In lesson 07 the errors are small, and there the place of the Jacobians does matter.
+# heading, and the loop closes earlier. Lesson 07 shows a case in which the place of the Jacobians does matter.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* The steps of a run hang together, so an excursion beyond the band is one event, not ten.
@@ -833,7 +847,7 @@ def told(k, lie):
 # %% slideshow={"slide_type": "subslide"}
 def one_lie(range_too_long_by):
     (mak, step), (honest, _) = told(closing - 1, range_too_long_by), told(closing - 1, 0.0)
-    fig, ax = views.axes(f"NIS of this sight: {step.nis:.1f}", size=(9, 6))
+    fig, ax = views.axes(f"NIS of this sight: {step.nis:.1f}", size=(8, 6))
     marks = Points("truth", source.landmarks[mak.ids])
     views.draw(ax, marks, marker="+", mew=1, markersize=7, label="true landmarks")
     moves = np.hstack([honest.landmarks(), mak.landmarks()])
@@ -871,7 +885,8 @@ carried = np.hypot(*(lied.landmarks() - honest.landmarks()).T)
 #
 # Nothing in (06.8) and (06.9) insists on a range and a bearing. They need an $h$ of the state, its Jacobian $H$ over the
 # *whole* state, and an $R$. A surveyor tells the robot where landmark $b$ of our story stands, to a centimetre. Then $h$ is
-# $p_b$ itself: $H$ has ones in $b$'s columns, and zeros everywhere else.
+# $p_b$ itself: $H$ has ones in $b$'s columns, and zeros everywhere else. (`correct` takes $H$ without its columns of
+# zeros, and is told which columns are left.)
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 place, R_PLAN = story.landmarks()[1] + [0.03, -0.04], np.eye(2) * 0.01**2
@@ -928,8 +943,8 @@ print("left:", story.ids, " P of robot and b unchanged:", np.array_equal(story.P
 # ## Deeper: may P start at zero?
 #
 # In this lesson it does: the map's frame begins where the robot stands, so nothing about its pose is in doubt. Smolec
-# warns of it (section 2.6): without some doubt on its diagonal $P$ becomes singular, so put some there, even if you believe the
-# start. Does anything go wrong with zero, and what does the doubt do?
+# warns of it (section 2.6): without some doubt on the diagonal of $P$ a singular matrix often turns up, so put some there, even if you
+# believe the start. Does anything go wrong with zero, and what does the doubt do?
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 P_DOUBT = np.diag([0.1, 0.1, np.radians(5)]) ** 2
@@ -953,7 +968,7 @@ print(f"distances between landmarks by up to {100 * np.abs(between[0] - between[
 # Nothing goes wrong with zero. What is inverted is $S = H P H^{\mathsf T} + R$, and $R$ alone keeps it regular. Only
 # those who invert $P$ itself, as NEES does, have to wait for the first steps.
 #
-# The doubt buys nothing here. Both maps have the same shape, but for centimetres; the second is shifted and turned as a
+# The doubt buys nothing here. Both maps have the same shape, but for a few centimetres; the second is shifted and turned as a
 # whole, and its claims grow with its errors. It is honest about a question that nobody asked: where the start lies in a
 # frame that begins there. Doubt belongs into $P$ when the frame is given from outside, say by a map that was
 # there before the robot.
@@ -1065,7 +1080,7 @@ for name, end in table.items():
     print(f"{name:28} {end.landmarks:6.2f} {end.robot:10.2f} {end.claimed:12.2f} {told_nees}")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# With (15) each update throws the robot and the map to near zero, and the error is as large as the loop. Without the update of
+# With (15) each update throws the robot and the map to near zero, and the error becomes as large as the loop. Without the update of
 # $P$ the filter listens to each sight as if it knew nothing. Its NEES is far *below* 3: it claims too little,
 # and its map errs {= never.landmarks / right_order.landmarks:.1f =} times as much.
 #
