@@ -125,7 +125,7 @@ sigma_apart, sigma_together = (np.sqrt(S[1, 1]) for S in expected(P_doubt))
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # The bearings of the 1000 robots scatter by {= sigma_seen:.3f =} rad. The filter that keeps
 # $P_{\mathrm ri}$ expects {= sigma_together:.3f =} rad, the other one {= sigma_apart:.3f =}. Move the sliders:
-# however lost the robots are, what they see stays the same, since each landmark is lost *with* its robot.
+# however lost the robots are, their innovations stay as small, since each landmark is lost *with* its robot.
 #
 # The filter without $P_{\mathrm ri}$ gets an innovation far smaller than it feared, and concludes that its pose
 # must be good. It has learned nothing of the kind. That is what became of lesson 05's careful student.
@@ -375,23 +375,12 @@ ask(
 )
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
-# The gain is $K = P H^{\mathsf T} S^{-1}$, so a row of $P H^{\mathsf T}$ says how much one part of the state learns.
-# We write the rows down for the robot, for landmark $i$, which is seen, and for any other landmark $j$.
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="06-unseen"
-H_r, H_p = sp.MatrixSymbol("H_r", 2, 3), sp.MatrixSymbol("H_p", 2, 2)
-P_jr, P_ji = sp.MatrixSymbol("P_jr", 2, 3), sp.MatrixSymbol("P_ji", 2, 2)
-columns = sp.BlockMatrix([[P_rr, P_ri], [P_ri.T, P_ii], [P_jr, P_ji]])
-H = sp.BlockMatrix([[H_r, H_p]])
-learned = derive("P Hᵀ", columns * H.T, "the columns of P for the robot and i; rows: robot, i, j")
-learned.step("multiply block by block", blockwise)
-
-# %% [markdown] slideshow={"slide_type": "subslide"}
-# The last row is that of a landmark nobody looked at:
+# The gain is $K = P H^{\mathsf T} S^{-1}$. $H$ has only two blocks that are not zero, so each row of the gain has two
+# terms. For a landmark $j$ that nobody looked at, lesson 05 has found (05.12):
 #
 # $$K_j = \left( P_{j\mathrm r} H_{\mathrm r}^{\mathsf T} + P_{ji} H_{\mathrm p}^{\mathsf T} \right) S^{-1}. \tag{06.8}$$
 #
-# It learns through what it shares with the robot, and through what it shares with the landmark in sight. Only a
+# So it learns through what it shares with the robot, and through what it shares with the landmark in sight. Only a
 # landmark that is related to neither learns nothing. With this gain the update is lesson 03's, for all
 # $3 + 2N$ numbers at once:
 #
@@ -629,6 +618,7 @@ def at_step(step):
     return fig
 
 
+# %% slideshow={"slide_type": "fragment"}
 views.explore(
     at_step,
     lambda step: (
@@ -638,9 +628,8 @@ views.explore(
     play="step",
     step=(1, 100, closing - 1),
 )
-early, late = (
-    np.abs(correlation(before.P)[rows, rows]).mean() for rows in (np.s_[3:13], np.s_[-10:])
-)
+rho = np.abs(correlation(before.P))
+early, late = rho[3:13, 3:13].mean(), rho[-10:, -10:].mean()
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # You begin just before the closing. The landmarks stand in the order in which they were found. The first
@@ -651,7 +640,7 @@ early, late = (
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=8
 # ## How far it sees, how well it counts
 #
-# Does the filter tell the truth about itself? NEES knows: it is 3 on average where $P$ is right, and larger where the
+# Does the filter tell the truth about itself? NEES tells: it is 3 on average where $P$ is right, and larger where the
 # filter is too sure. In the runs so far, the robot sees 2.5 m far, and its turns err by 0.7° a second.
 #
 # We now let it see less far, and give it worse wheels. The filter is told of both, exactly.
@@ -859,6 +848,7 @@ def one_lie(range_too_long_by):
     return fig
 
 
+# %% slideshow={"slide_type": "fragment"}
 views.explore(
     one_lie,
     lambda range_too_long_by: (
@@ -1058,11 +1048,11 @@ print(subprocess.run(command + words, capture_output=True, text=True).stdout)
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
 swung = sp.block_collapse(J_drive * P * J_drive.T)
 print("prediction, right − printed:", sp.block_collapse(driven.result - swung).blocks[0, 0])
-O_r, O_p = O(2, 3), O(2, 2)
+H_r, H_p = sp.MatrixSymbol("H_r", 2, 3), sp.MatrixSymbol("H_p", 2, 2)
 blocks = sp.BlockMatrix([[P_rr, P_ri, P_ri], [P_ri.T, P_ii, P_ii], [P_ri.T, P_ii, P_ii]])
 for name, formula in {
     "(18)": lambda: J_r * P_ri.T,
-    "(4.9)": lambda: sp.BlockMatrix([[O_r, O_p, H_r, H_p]]) * blocks,
+    "(4.9)": lambda: sp.BlockMatrix([[O(2, 3), O(2, 2), H_r, H_p]]) * blocks,
 }.items():
     try:
         print(name, formula().shape)
@@ -1084,5 +1074,5 @@ for name, end in table.items():
 # $P$ the filter listens to each sight as if it knew nothing. Its NEES is far *below* 3: it claims too little,
 # and its map errs {= never.landmarks / right_order.landmarks:.1f =} times as much.
 #
-# (18) has a trap. Between two landmarks the blocks are square, so $J P_{ij}$ and $J P_{ij}^{\mathsf T}$ both
-# multiply, and only one of them is right.
+# (18) would be right if $P_{\mathrm ri}$ named the block below the diagonal. Where all blocks are square, both
+# readings multiply, and no program complains about the wrong one.
