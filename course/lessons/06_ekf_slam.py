@@ -269,15 +269,16 @@ grown.step("multiply block by block", blockwise)
 #
 # $$P_{nn} = J_{\mathrm r} P_{\mathrm{rr}} J_{\mathrm r}^{\mathsf T} + J_z R J_z^{\mathsf T}. \tag{06.5}$$
 #
-# Beside it the rows follow one rule, whoever they belong to. The new landmark knows the others only through
-# the robot, so **its rows are the robot's rows, carried over by $J_{\mathrm r}$**:
+# The other new blocks follow one rule. The new landmark is tied to the others only through the robot, so **its rows
+# are the robot's rows, carried over by $J_{\mathrm r}$**:
 #
 # $$P_{n\mathrm r} = J_{\mathrm r} P_{\mathrm{rr}}, \qquad P_{ni} = J_{\mathrm r} P_{\mathrm ri}. \tag{06.6}$$
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Do 2000 robots agree?
 #
-# (06.6) says that errors which nobody ever compared go together. We test it on robots that really err.
+# (06.6) says that the errors of $i$ and $n$ go together, though no sight ever compared the two. We test it on
+# robots that really err.
 # Each has placed landmark $i$, drives on, and places $n$.
 
 # %% slideshow={"slide_type": "fragment"}
@@ -389,10 +390,12 @@ ask(
 # $3 + 2N$ numbers at once:
 #
 # $$x \leftarrow x + K v, \qquad P \leftarrow P - K S K^{\mathsf T}. \tag{06.9}$$
+#
+# Angles are wrapped, as ever: the bearing in $v$, and the heading in $x$.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* Three things usually go wrong when students write this. The bearing in $v$ is not wrapped;
-# the heading is not wrapped after the correction; the gain is applied to the robot and the landmark in sight only. The
+# *For the lecturer:* Three things usually go wrong when students write this. The bearing in $v$ is not wrapped; the
+# heading is not wrapped after the correction; the gain is applied to the robot and the landmark in sight only. The
 # exercise notices the first and the last. It lets the second pass, since headings that differ by $2\pi$ are the
 # same heading.
 
@@ -493,6 +496,22 @@ ask(
 )
 
 
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="06-drift"
+runs = [LandmarkRun(LOOP, np.random.default_rng(seed)) for seed in range(20)]
+drives = [broken_slam.drive(one, MAK(np.zeros(3), np.zeros((3, 3)))) for one in runs]
+steps_before = np.s_[:70]
+
+
+def rms_before(poses, one):
+    return np.sqrt(np.mean(np.sum((poses - one.truth.poses)[steps_before, :2] ** 2, axis=1)))
+
+
+by_filter = np.array([rms_before(poses, one) for (poses, _), one in zip(drives, runs, strict=True)])
+by_wheels = np.array([rms_before(two_halves.by_wheels(one), one) for one in runs])
+print(f"20 runs, 70 steps: median error {np.median(by_filter):.2f} m, ", end="")
+print(f"wheels {np.median(by_wheels):.2f} m; smaller in {np.sum(by_filter < by_wheels)} runs")
+
+
 # %% slideshow={"slide_type": "subslide"} answers="06-drift"
 def distance(poses):
     return np.hypot(*(poses - source.truth.poses)[:, :2].T)
@@ -508,26 +527,11 @@ views.show(
     f"{100 * own[-1]:.0f} cm, its σ with it; odometry's error goes on growing to {wheels[-1]:.1f} m.",
 )
 
-# %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"] answers="06-drift"
-runs = [LandmarkRun(LOOP, np.random.default_rng(seed)) for seed in range(20)]
-drives = [broken_slam.drive(one, MAK(np.zeros(3), np.zeros((3, 3)))) for one in runs]
-steps_before = np.s_[:70]
-
-
-def rms_before(poses, one):
-    return np.sqrt(np.mean(np.sum((poses - one.truth.poses)[steps_before, :2] ** 2, axis=1)))
-
-
-by_filter = np.array([rms_before(poses, one) for (poses, _), one in zip(drives, runs, strict=True)])
-by_wheels = np.array([rms_before(two_halves.by_wheels(one), one) for one in runs])
-print(f"20 runs, 70 steps: median error {np.median(by_filter):.2f} m, ", end="")
-print(f"wheels {np.median(by_wheels):.2f} m; smaller in {np.sum(by_filter < by_wheels)} runs")
-
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# While all landmarks are new, the filter drifts: a map of its own making cannot tell the robot where it is. In this run
-# its error reaches {= own.max():.1f =} m. Over 20 runs it drifts less than the wheels in
-# {= np.sum(by_filter < by_wheels) =}. It *knows* that it drifts, for its σ grows along with its error. And then, at
-# step {= own.argmax() + 1 =}, something happens that odometry has no part in.
+# While all landmarks are new, the filter drifts: a map of its own making cannot tell the robot where it is. In this
+# run its error reaches {= own.max():.1f =} m. In {= np.sum(by_filter < by_wheels) =} of 20 such runs it drifts less
+# than the wheels. It *knows* that it drifts, for its σ grows along with its error. And then, at step
+# {= own.argmax() + 1 =}, something happens that odometry has no part in.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=6
 # ## The loop closes
@@ -598,8 +602,9 @@ views.show(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# {= np.sum(shrunk > 0) =} of {= len(shrunk) =} ellipses shrank within six steps, among them those on the far side, which
-# have long been out of sight. In the order in which the landmarks were found, they lost this share of their area:
+# {= np.sum(shrunk > 0) =} of {= len(shrunk) =} ellipses shrank within six steps, among them those on the far side,
+# which have long been out of sight. In the order in which the landmarks were found, they lost this share of their
+# area:
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="06-shrink"
 print(" ".join(f"{share:.0%}" for share in shrunk))
@@ -646,16 +651,16 @@ rho = np.abs(correlation(before.P))
 early, late = rho[3:13, 3:13].mean(), rho[-10:, -10:].mean()
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# You begin just before the closing. The landmarks stand in the order in which they were found. The first
-# are pale: the correlations among the first five are {= early:.2f =} on average. Those among the last five are
-# {= late:.2f =}, since each was placed with the error that the robot had by then. Now play on: at the closing almost every block changes, even those of pairs which were never in
-# view together.
+# You begin just before the closing. The landmarks stand in the order in which they were found. The first are pale:
+# the correlations among the first five are {= early:.2f =} on average. Those among the last five are
+# {= late:.2f =}, since each was placed with the error that the robot had by then. Now play on: at the closing
+# almost every block changes, even those of pairs which were never in view together.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=8
 # ## How far it sees, how well it counts
 #
-# Does the filter tell the truth about itself? NEES tells: it is 3 on average where $P$ is right, and larger where the
-# filter is too sure. In the runs so far, the robot sees 2.5 m far, and its turns err by 0.7° a second.
+# Does the filter tell the truth about itself? NEES says so: it is 3 on average where $P$ is right, and larger where
+# the filter is too sure. In the runs so far, the robot sees 2.5 m far, and its turns err by 0.7° a second.
 #
 # We now let it see less far, and give it worse wheels. The filter is told of both, exactly.
 
@@ -758,12 +763,12 @@ views.explore(
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # With a short sight and poor wheels, NEES is {= short.mean():.1f =} on average, and {= short.max():.0f =} at
 # its peak. With the same wheels and a sight of 4 m it is {= far_sighted.mean():.1f =}; the first robot's was
-# {= as_before.mean():.1f =}. The error itself is smaller than the wheels' in {= better[1.5] =} of the 12 runs with
+# {= as_before.mean():.1f =}. The robot's error is smaller than the wheels' in {= better[1.5] =} of the 12 runs with
 # the short sight, and in {= better[4.0] =} with the long one.
 #
-# No block is missing here. The peak is at step {= peak =}, as the loop closes. When the robot sees its first landmarks
-# again, it is off by {= at_closing[1.5]:.1f =} m (median), and they stand at most 1.5 m away. Over such an error a
-# bearing does not follow a straight line. With a sight of 4 m it is off by {= at_closing[4.0]:.2f =} m.
+# No block is missing here. The peak is at step {= peak =}, as the loop closes. When the robot sees its first
+# landmarks again, it is off by {= at_closing[1.5]:.1f =} m (median), and they stand at most 1.5 m away. Over such
+# an error a bearing does not follow a straight line. With a sight of 4 m it is off by {= at_closing[4.0]:.2f =} m.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Are the Jacobians taken at the wrong place?
@@ -826,14 +831,14 @@ print(f"{'wheels alone':28} {wheels_last:17.2f}")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # The map errs {= wrong_order.landmarks / right_order.landmarks:.1f =} times as much, and NEES is
-# {= wrong_order.nees:.0f =} instead of {= right_order.nees:.1f =}. The map still looks like a map, and the robot is still
-# better than its wheels. Such a mistake survives unless somebody computes NEES.
+# {= wrong_order.nees:.0f =} instead of {= right_order.nees:.1f =}. The map still looks like a map, and the robot is
+# still better than its wheels. Such a mistake survives unless somebody computes NEES.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=2
 # ## One lie
 #
 # Everyone learns from every sight. What if a sight is false? We go back to the moment when the loop closes, and let
-# the sensor report the first old landmark farther away than it is.
+# the sensor report an old landmark farther away than it is.
 
 # %% slideshow={"slide_type": "fragment"}
 readings = list(source)
@@ -877,21 +882,22 @@ nis = [told(k, 0.0)[1].nis for k in range(1, 100)]
 carried = np.hypot(*(lied.landmarks() - honest.landmarks()).T)
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# One lie of 2 m carries {= np.sum(carried > 0.3) =} of the {= len(carried) =} landmarks off by more than 0.3 m, one of them by
-# {= carried.max():.1f =} m. The ellipses are as small as if the sight had been true, since the new $P$ in (06.9) does not depend
-# on $v$.
+# One lie of 2 m carries {= np.sum(carried > 0.3) =} of the {= len(carried) =} landmarks off by more than 0.3 m, one
+# of them by {= carried.max():.1f =} m. The ellipses are as small as if the sight had been true, since the new $P$
+# in (06.9) does not depend on $v$.
 #
-# But the filter could have known. $S$ is computed before anybody looks, and it says how large an innovation may be. Lesson
-# 03's $v^{\mathsf T} S^{-1} v$ (NIS) is 2 on average for an honest sight. In {= len(nis) =} steps of this run the oldest landmark
-# in sight had {= np.mean(nis):.1f =} on average, and at most {= max(nis):.0f =}. The lie of 2 m has {= lie_step.nis:.0f =}.
+# But the filter could have known. $S$ is computed before anybody looks, and it says how large an innovation may be.
+# Lesson 03's $v^{\mathsf T} S^{-1} v$ (NIS) is 2 on average for an honest sight. In {= len(nis) =} steps of this
+# run the oldest landmark in sight had {= np.mean(nis):.1f =} on average, and at most {= max(nis):.0f =}. The lie of
+# 2 m has {= lie_step.nis:.0f =}.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=2
 # ## News that no sensor brings
 #
-# Nothing in (06.8) and (06.9) insists on a range and a bearing. They need an $h$ of the state, its Jacobian $H$ over the
-# *whole* state, and an $R$. A surveyor tells the robot where landmark $b$ of our story stands, to a centimetre. Then $h$ is
-# $p_b$ itself: $H$ has ones in $b$'s columns, and zeros everywhere else. (`correct` takes $H$ without its columns of
-# zeros, and is told which columns are left.)
+# Nothing in (06.8) and (06.9) insists on a range and a bearing. They need an $h$ of the state, its Jacobian $H$
+# over the *whole* state, and an $R$. A surveyor tells the robot where landmark $b$ of our story stands, to a
+# centimetre. Then $h$ is $p_b$ itself: $H$ has ones in $b$'s columns, and zeros everywhere else. (`correct` takes
+# $H$ without its columns of zeros, and is told which columns are left.)
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 place, R_PLAN = story.landmarks()[1] + [0.03, -0.04], np.eye(2) * 0.01**2
@@ -903,11 +909,11 @@ for name, rows in parts.items():
     print(f"{name:5} moves {100 * moved:.1f} cm, σ from {100 * was:.1f} to {100 * is_now:.1f} cm")
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
-# The robot moves as well, though nobody saw anything. The more precise the news, the smaller is $R$. It may be
-# zero if the news is certain, as long as $S$ can be inverted.
+# The robot moves as well, though nobody saw anything. The more precise the news, the smaller is its $R$. If the
+# news is certain, $R$ is zero, and that will do as long as $S$ can be inverted.
 #
-# A landmark can also leave: a chair may have been moved. Its rows and columns of $x$ and $P$ are struck out, and that is
-# all. Nobody else changes, and what the landmark once taught the others stays with them.
+# A landmark can also leave: a chair may have been moved. Its rows and columns of $x$ and $P$ are struck out, and
+# that is all. Nobody else changes, and what the landmark once taught the others stays with them.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 P_left = story.P[np.ix_([0, 1, 2, 5, 6], [0, 1, 2, 5, 6])]
@@ -941,15 +947,15 @@ print("left:", story.ids, " P of robot and b unchanged:", np.array_equal(story.P
 #
 # The sections below this one are optional.
 #
-# **Exercise:** [06 · EKF-SLAM](../exercises/ex06_ekf_slam.ipynb). You write augment, update and the whole filter, tell
-# it that two of its landmarks are one, and keep it from believing lies.
+# **Exercise:** [06 · EKF-SLAM](../exercises/ex06_ekf_slam.ipynb). You write augment, update and the whole filter,
+# tell it that two of its landmarks are one, and keep it from believing lies.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Deeper: may P start at zero?
 #
-# In this lesson it does: the map's frame begins where the robot stands, so nothing about its pose is in doubt. Smolec
-# warns of it (section 2.6): without some doubt on the diagonal of $P$ a singular matrix often turns up, so put some there, even if you
-# believe the start. Does anything go wrong with zero, and what does the doubt do?
+# In this lesson it does: the map's frame begins where the robot stands, so nothing about its pose is in doubt.
+# Smolec warns of it (section 2.6): without some doubt on the diagonal of $P$ a singular matrix often turns up, so
+# put some there, even if you believe the start. Does anything go wrong with zero, and what does the doubt do?
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 P_DOUBT = np.diag([0.1, 0.1, np.radians(5)]) ** 2
@@ -973,16 +979,16 @@ print(f"distances between landmarks by up to {100 * np.abs(between[0] - between[
 # Nothing goes wrong with zero. What is inverted is $S = H P H^{\mathsf T} + R$, and $R$ alone keeps it regular. Only
 # those who invert $P$ itself, as NEES does, have to wait for the first steps.
 #
-# The doubt buys nothing here. Both maps have the same shape, but for a few centimetres; the second is shifted and turned as a
-# whole, and its claims grow with its errors. It is honest about a question that nobody asked: where the start lies in a
-# frame that begins there. Doubt belongs into $P$ when the frame is given from outside, say by a map that was
-# there before the robot.
+# The doubt buys nothing here. Both maps have the same shape, but for a few centimetres; the second is shifted and
+# turned as a whole, and its claims grow with its errors. It is honest about a question that nobody asked: where the
+# start lies in a frame that begins there. Doubt belongs in $P$ when the frame is given from outside, say by a map
+# that was there before the robot.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Deeper: how the package saves time
 #
-# `MAK` computes (06.9) more thriftily than it is written. $P$ is symmetric, so one triangle of it is kept. And a scan of
-# $m$ landmarks is a single update: with the Cholesky factor $L$ of $S = L L^{\mathsf T}$ and
+# `MAK` computes (06.9) more thriftily than it is written. $P$ is symmetric, so one triangle of it is kept. And a
+# scan of $m$ landmarks is a single update: with the Cholesky factor $L$ of $S = L L^{\mathsf T}$ and
 # $B = P H^{\mathsf T} L^{-\mathsf T}$ it is $P \leftarrow P - B B^{\mathsf T}$, for which neither a gain nor an
 # inverse is needed.
 
@@ -997,13 +1003,13 @@ print(f"P − B Bᵀ is the new P: {np.allclose(mak.P, P_then - step.B @ step.B.
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Deeper: a calm display
 #
-# The EKF note adds a step: after the update, a recursive filter smooths what is *shown*. Its formula is lost in our copy.
-# The plainest one keeps a share $\lambda$ of the old gap between the shown pose $s$ and the estimate:
+# The EKF note adds a step: after the update, a recursive filter smooths what is *shown*. Its formula is lost in our
+# copy. The plainest one keeps a share $\lambda$ of the old gap between the shown pose $s$ and the estimate:
 #
 # $$s \leftarrow s \oplus o, \qquad s \leftarrow \hat x + \lambda\,(s - \hat x), \tag{06.10}$$
 #
-# where $o$ is the motion told by the wheels. A landmark stands still, so it has only the second half. `MakSlam` offers both.
-# Is what is shown more accurate for some $\lambda > 0$, or only calmer?
+# where $o$ is the motion told by the wheels. A landmark stands still, so it has only the second half. `MakSlam`
+# offers both. Is what is shown more accurate for some $\lambda > 0$, or only calmer?
 
 
 # %% slideshow={"slide_type": "fragment"}
@@ -1027,8 +1033,8 @@ for share, (error, jump, landmark) in smoothed.items():
     print(f"landmarks off by {landmark:.1f} cm")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# It is calmer, and more accurate in none of these. The estimate is the best that can be made of the measurements so far; mixing
-# the old gap into it brings back what the last measurement has just refuted. For a display the calm may be worth
+# It is calmer, and more accurate in none of these. The estimate has made use of every measurement so far, and
+# mixing the old gap into it brings back what the last one has just refuted. For a display the calm may be worth
 # that; a controller should get the estimate.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
@@ -1048,8 +1054,8 @@ print(subprocess.run(command + words, capture_output=True, text=True).stdout)
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## In print
 #
-# Optional: what our two sources print of this lesson's formulas. (Smolec's program stands in figures only. What it does
-# is told by line numbers and prose, so the last row may do it an injustice.)
+# Optional: what our two sources print of this lesson's formulas. (Smolec's program stands in figures only. What it
+# does is told by line numbers and prose, so the last row may do it an injustice.)
 #
 # | place | printed | right | harm |
 # | --- | --- | --- | --- |
@@ -1085,9 +1091,9 @@ for name, end in table.items():
     print(f"{name:28} {end.landmarks:6.2f} {end.robot:10.2f} {end.claimed:12.2f} {told_nees}")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# With (15) each update throws the robot and the map to near zero, and the error becomes as large as the loop. Without the update of
-# $P$ the filter listens to each sight as if it knew nothing. Its NEES is far *below* 3: it claims too little,
-# and its map errs {= never.landmarks / right_order.landmarks:.1f =} times as much.
+# With (15) each update throws the robot and the map to near zero, and the error becomes as large as the loop.
+# Without the update of $P$ the filter listens to each sight as if it knew nothing. Its NEES is far *below* 3: it
+# claims too little, and its map errs {= never.landmarks / right_order.landmarks:.1f =} times as much.
 #
 # (18) would be right if $P_{\mathrm ri}$ named the block below the diagonal. Where all blocks are square, both
 # readings multiply, and no program complains about the wrong one.
