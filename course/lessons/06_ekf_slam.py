@@ -987,10 +987,10 @@ print(f"distances between landmarks by up to {100 * np.abs(between[0] - between[
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Deeper: how the package saves time
 #
-# `MAK` computes (06.9) more thriftily than it is written. $P$ is symmetric, so one triangle of it is kept. And a
+# `MAK` computes (06.9) with less work than it is written with. $P$ is symmetric, so one triangle of it is kept. And a
 # scan of $m$ landmarks is a single update: with the Cholesky factor $L$ of $S = L L^{\mathsf T}$ and
-# $B = P H^{\mathsf T} L^{-\mathsf T}$ it is $P \leftarrow P - B B^{\mathsf T}$, for which neither a gain nor an
-# inverse is needed.
+# $M = P H^{\mathsf T} L^{-\mathsf T}$ (`B` in the code) it is $P \leftarrow P - M M^{\mathsf T}$, for which neither a
+# gain nor an inverse is needed.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 mak = kept[60].marginal(kept[60].ids)
@@ -1093,7 +1093,7 @@ for name, end in table.items():
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # With (15) each update throws the robot and the map to near zero, and the error becomes as large as the loop.
 # Without the update of $P$ the filter listens to each sight as if it knew nothing. Its NEES is far *below* 3: it
-# claims too little, and its map errs {= never.landmarks / right_order.landmarks:.1f =} times as much.
+# is much too modest, and its map errs {= never.landmarks / right_order.landmarks:.1f =} times as much.
 #
 # (18) would be right if $P_{\mathrm ri}$ named the block below the diagonal. Where all blocks are square, both
 # readings multiply, and no program complains about the wrong one.
