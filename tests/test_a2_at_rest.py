@@ -19,6 +19,7 @@ def test_the_stored_statistics_say_what_the_lesson_says():
     near, far = kept["by_range"]["share"][0], kept["by_range"]["share"][-1]
     assert far > 3 * near, "no share of the range fits everywhere"
     assert kept["errors"]["rms"] > 1.3 * kept["errors"]["median"]
+    assert kept["errors"]["median"] == pytest.approx(0.0025, abs=0.0001), "the question says so"
     assert kept["by_slant"]["share"] == sorted(kept["by_slant"]["share"])
     for (low, high), values in zip(a2_at_rest.WINDOWS[1:], kept["steps"][1:], strict=True):
         step = np.median(np.diff(values))

@@ -52,6 +52,8 @@ def surfaces(scan, angles):
 def repeats(turns):
     """Compare each reading with the turn before, where that saw a smooth surface.
 
+    Equations (02.9) and (02.10).
+
     Parameters
     ----------
     turns : list of Scan, of a device that stands still
