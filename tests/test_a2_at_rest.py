@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from course.source import ROOT
+from course.source import ROOT, read
 from slamlab import sources
 from slamlab.simulation.range_scanners import RPLIDAR_A2
 from slamlab.sources import SourceError
@@ -29,8 +29,10 @@ def test_the_stored_statistics_say_what_the_lesson_says():
 
 
 def test_the_lesson_opens_no_recording():
-    lesson = (ROOT / "course" / "lessons" / "02_sensors_and_worlds.py").read_text("utf-8")
-    assert "sources.recording(" not in lesson
+    lesson = read(ROOT / "course" / "lessons" / "02_sensors_and_worlds.py")
+    assert not [
+        cell.id for cell in lesson.cells if cell.type == "code" and "recording(" in cell.text
+    ]
 
 
 def test_a_known_noise_is_found_again():

@@ -108,10 +108,12 @@ def four_walls(beam_in_degrees, sensor_x):
     ahead = np.array([np.cos(turn), np.sin(turn)])
     flown = World(list(FOUR_WALLS.values())).cast(shift, [turn])[0]
     meets = f"meets a wall after r = {flown:.2f} m" if flown < np.inf else "meets nothing"
-    fig, ax = views.axes(f"The beam {meets}", size=(8, 5))
-    views.draw(ax, Segments("walls", list(FOUR_WALLS.values())), lw=2.5)
-    views.draw(ax, Segments("scan", [[*shift, *(shift + min(flown, 4) * ahead)]]), linestyle="--")
-    views.draw(ax, Poses("robot", [[*shift, turn]]))
+    layers = [
+        Segments("walls", list(FOUR_WALLS.values())),
+        Segments("scan", [[*shift, *(shift + min(flown, 4) * ahead)]]),
+        Poses("robot", [[*shift, turn]]),
+    ]
+    fig, (ax,) = views.side_by_side({f"The beam {meets}": layers}, size=(8, 5))
     for name, wall in FOUR_WALLS.items():
         with np.errstate(divide="ignore"):
             r, tau = crossing(turn, *(np.array(wall) - [*shift, *shift]))
@@ -958,8 +960,8 @@ for number, bearings_empty in enumerate(real["empty"]["bearings"]):
 chance = guess.scan(worlds.room(), np.zeros(3), np.random.default_rng(7))
 lost = np.degrees(chance.angles[np.isnan(chance.ranges)]) % 360
 ax.plot(lost, [-3] * len(lost), "|", color=views.COLOURS["scan"])
-ax.set(xlim=(0, 360), yticks=(-3, 0, 5, 10, 15, 20))
-ax.set_yticklabels(["simulated", "0", "5", "10", "15", "20"])
+rows = {-3: "simulated", 0: "0", 5: "5", 10: "10", 15: "15", 20: "20"}
+ax.set(xlim=(0, 360), yticks=list(rows), yticklabels=list(rows.values()))
 views.show(fig, "Empty readings stand above each other in a few directions, turn after turn.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
