@@ -2,8 +2,8 @@
 # # 02 · Sensors and worlds: exercise
 #
 # **You will be able to** cast the ray of a lidar and the cone of an ultrasonic sensor, place what a
-# real device says in the world, simulate its noise, and find the size of that noise in readings of a
-# room in which people walk about.
+# real device says in the world, simulate its noise, and find the size of that noise in readings of
+# a room in which people walk about.
 #
 # **60 minutes. Before:** lesson [02](../notebooks/02_sensors_and_worlds.ipynb).
 #
@@ -12,9 +12,9 @@
 # promises, and tells you which law is broken. When you are stuck, `hint("02-ray-wall")` asks a
 # question that leads on. Cells marked `@attempt` show your functions at work.
 #
-# All lengths are in metres and all angles in radians, counter-clockwise from the x axis, unless a task
-# says otherwise. A pose is `[x, y, θ]`. Leave the arguments of a function as they are: whoever called
-# it still needs them.
+# All lengths are in metres and all angles in radians, counter-clockwise from the x axis, unless a
+# task says otherwise. A pose is `[x, y, θ]`. Leave the arguments of a function as they are: whoever
+# called it still needs them.
 
 # %%
 import numpy as np
@@ -25,19 +25,19 @@ from slamlab.checks import attempt, check
 # %% [markdown]
 # ## A beam and a wall
 #
-# A beam leaves the point $p$ in the direction $\varphi$. A wall is a row `[x1, y1, x2, y2]`: it goes
-# from $p_1 = (x_1, y_1)$ to $p_2 = (x_2, y_2)$ and ends there. In the lesson the sensor stood at the
-# origin; here it may stand anywhere.
+# A beam leaves the point $p$ in the direction $\varphi$. A wall is a row `[x1, y1, x2, y2]`: it
+# goes from $p_1 = (x_1, y_1)$ to $p_2 = (x_2, y_2)$ and ends there. In the lesson the sensor stood
+# at the origin; here it may stand anywhere.
 #
-# **Predict first.** Draw a beam that passes beside a wall, and one that flies away from it. What are
-# $r$ and $\tau$ of (02.1) in each case?
+# **Predict first.** Draw a beam that passes beside a wall, and one that flies away from it. What
+# are $r$ and $\tau$ of (02.1) in each case?
 #
-# **Your task.** How far does the beam fly until it meets the wall? Return `np.inf` where it does not:
-# the wall lies behind, or the beam passes beside it, or runs parallel to it.
+# **Your task.** How far does the beam fly until it meets the wall? Return `np.inf` where it does
+# not: the wall lies behind, or the beam passes beside it, or runs parallel to it.
 #
-# The wall has a length, of centimetres or of a hundred metres, and $\varphi$ may be any number, also
-# one beyond a whole turn. Beams and walls may run along x or y. A wall that lies on the beam's own line
-# counts as parallel. No beam just touches the end of a wall.
+# The wall has a length, of centimetres or of a hundred metres, and $\varphi$ may be any number,
+# also one beyond a whole turn. Beams and walls may run along x or y. A wall that lies on the beam's
+# own line counts as parallel. No beam just touches the end of a wall.
 
 
 # %% name="ray-wall"
@@ -106,25 +106,25 @@ def _():
 # ## The first echo
 #
 # An ultrasonic sensor has a **cone** in place of a beam. It hears everything that lies less than
-# `half` to either side of its axis $\varphi$, and it reports the nearest place of all, because its echo
-# is the first to come back. The lesson showed what this does to a door. Now compute it.
+# `half` to either side of its axis $\varphi$, and it reports the nearest place of all, because its
+# echo is the first to come back. The lesson showed what this does to a door. Now compute it.
 #
-# If you fire a thousand beams into the cone, you come close to the answer, but a thin post may stand
-# between two of them. The nearest place can be found exactly, because it is one of only three kinds.
-# A wall's places are $p_1 + \tau\,(p_2 - p_1)$ with $0 \le \tau \le 1$, as in the lesson, and their
-# distance from $p$ has one least value along the line.
+# If you fire a thousand beams into the cone, you come close to the answer, but a thin post may
+# stand between two of them. The nearest place can be found exactly, because it is one of only three
+# kinds. A wall's places are $p_1 + \tau\,(p_2 - p_1)$ with $0 \le \tau \le 1$, as in the lesson,
+# and their distance from $p$ has one least value along the line.
 #
 # **Predict first.** Draw a cone, and a wall whose nearest place to the sensor lies (1) between its
 # ends and in the cone, (2) between its ends and beside the cone, (3) at one end. Which place of
 # the wall is heard first in each case?
 #
-# **Your task.** How far is the nearest place of all walls that lies in the cone? Return `np.inf` where
-# there is none. A wall sends an echo from each of its places, at whatever slant it is hit.
+# **Your task.** How far is the nearest place of all walls that lies in the cone? Return `np.inf`
+# where there is none. A wall sends an echo from each of its places, at whatever slant it is hit.
 #
-# `half` lies between 1° and 80°, and $\varphi$ may be any number. There may be many walls, or none at
-# all (then `walls` has the shape (0, 4)). They may run along x or y, point straight at the sensor, cross
-# the whole cone, reach behind the sensor, or be as thin as a post. But each has a length, none comes
-# nearer to $p$ than 10 cm, and none just touches the rim of the cone.
+# `half` lies between 1° and 80°, and $\varphi$ may be any number. There may be many walls, or none
+# at all (then `walls` has the shape (0, 4)). They may run along x or y, point straight at the
+# sensor, cross the whole cone, reach behind the sensor, or be as thin as a post. But each has a
+# length, none comes nearer to $p$ than 10 cm, and none just touches the rim of the cone.
 
 
 # %% name="echo"
@@ -155,8 +155,8 @@ def echo(p, phi, half, walls):
 check("02-echo")
 
 # %% [markdown]
-# Here a door like that of the lesson is heard by your cone, in 91 directions. Choose another width of
-# the cone: when does the door close?
+# Here a door like that of the lesson is heard by your cone, in 91 directions. Choose another width
+# of the cone: when does the door close?
 
 
 # %% name="door"
@@ -191,19 +191,20 @@ def _():
 # ## What the device says
 #
 # An RPLIDAR reports **degrees**, counted **clockwise** from its front, and **millimetres**, where 0
-# means that nothing came back. Its front looks along its own x axis. It is mounted on the robot at the
-# pose `mount`, given in the robot's frame, and the robot stands at `pose` in the world. From frame to
-# frame, (02.5) leads.
+# means that nothing came back. Its front looks along its own x axis. It is mounted on the robot at
+# the pose `mount`, given in the robot's frame, and the robot stands at `pose` in the world. From
+# frame to frame, (02.5) leads.
 #
 # **Predict first.** The sensor sits on the robot's rear and looks backwards: `mount` is
-# $(-0.2, 0, \pi)$. The robot stands at the origin and looks along +y. Where in the world is a wall that
-# the sensor reports at 90° and 1000 mm?
+# $(-0.2, 0, \pi)$. The robot stands at the origin and looks along +y. Where in the world is a wall
+# that the sensor reports at 90° and 1000 mm?
 #
 # **Your task.** Return the points in the world, one row for each reading that came back.
 #
-# A scan may have any number of readings, even none, and it may be that none of them came back. Then there
-# are no rows, and an empty list will do as well. What came back may be as near as a millimetre or as far
-# as 40 m. A scan may begin at any angle, so the degrees need not ascend. Keep the order of the readings.
+# A scan may have any number of readings, even none, and it may be that none of them came back. Then
+# there are no rows, and an empty list will do as well. What came back may be as near as a
+# millimetre or as far as 40 m. A scan may begin at any angle, so the degrees need not ascend. Keep
+# the order of the readings.
 
 
 # %% name="to-points"
@@ -231,8 +232,8 @@ def to_points(degrees, millimetres, mount, pose):
 check("02-to-points")
 
 # %% [markdown]
-# A robot turns on the spot and scans a room five times, with its sensor more than 30 cm off its centre.
-# If all is right, five scans make one room.
+# A robot turns on the spot and scans a room five times, with its sensor more than 30 cm off its
+# centre. If all is right, five scans make one room.
 
 
 # %% name="five-scans"
@@ -255,18 +256,18 @@ def _():
 # %% [markdown]
 # ## Noise
 #
-# Let us simulate a simple sensor. Its range errs by a share of itself, so that the standard deviation
-# of a range $r$ is `error` times $r$. And some beams return nothing: each is lost with the probability
-# `dropouts`, whatever happens to the others.
+# Let us simulate a simple sensor. Its range errs by a share of itself, so that the standard
+# deviation of a range $r$ is `error` times $r$. And some beams return nothing: each is lost with
+# the probability `dropouts`, whatever happens to the others.
 #
 # **Predict first.** Let `error` be 0.01. How far off is a reading at 10 m typically? What is its
 # *variance*?
 #
-# **Your task.** Make true ranges noisy. Take all chance from the generator `rng`, so that the same seed
-# gives the same result. What was NaN already stays NaN.
+# **Your task.** Make true ranges noisy. Take all chance from the generator `rng`, so that the same
+# seed gives the same result. What was NaN already stays NaN.
 #
-# A scan may have any number of beams, even none. `error` may be 0, and `dropouts` anything from 0 to
-# 1, both included.
+# A scan may have any number of beams, even none. `error` may be 0, and `dropouts` anything from 0
+# to 1, both included.
 
 
 # %% name="noisy"
@@ -291,8 +292,9 @@ check("02-noise")
 # ## A busy room
 #
 # Now the way back: how large is a sensor's `error`, if all that we have is its readings? A sensor
-# stands still and scans $k$ times, which makes an array of shape $(k, n)$ with a row a scan and a column
-# a beam. Each column holds repeated readings of *one* wall, at a distance that you do not know.
+# stands still and scans $k$ times, which makes an array of shape $(k, n)$ with a row a scan and a
+# column a beam. Each column holds repeated readings of *one* wall, at a distance that you do not
+# know.
 #
 # In a quiet room this takes two lines: the spread of each column about its mean, as a share of that
 # mean.
@@ -315,14 +317,14 @@ def quiet_fit(scans):
 # - The sensor **rounds** what it reports to whole multiples of `step`, which is 1 to 8 cm. For near
 #   walls this is more than the noise, and all readings may be the same.
 #
-# The walls are 1 to 9 m away, and `error` lies between 0.002 and 0.03. There are 24 scans or more, and
-# twelve beams or more. No reading is missing.
+# The walls are 1 to 9 m away, and `error` lies between 0.002 and 0.03. There are 24 scans or more,
+# and twelve beams or more. No reading is missing.
 #
-# **Predict first.** Twenty readings of a wall at 5 m err by 5 cm, and one reading is of a person, at
-# 0.5 m. How large is the standard deviation of all 21, roughly?
+# **Predict first.** Twenty readings of a wall at 5 m err by 5 cm, and one reading is of a person,
+# at 0.5 m. How large is the standard deviation of all 21, roughly?
 #
-# **Your task.** Estimate `error` and `blocked` as well as you can, by any method. A few questions may
-# lead on:
+# **Your task.** Estimate `error` and `blocked` as well as you can, by any method. A few questions
+# may lead on:
 #
 # - How can a person be told from the wall, when the spread of the wall's readings is just what you are
 #   looking for? May you guess it, and do better in a second round?
@@ -331,10 +333,10 @@ def quiet_fit(scans):
 # - Which beams tell most about `error`, those of near walls or those of far ones? Does each of them
 #   deserve the same weight?
 #
-# We try forty sensors. An answer is judged by the factor by which `error` is off, and by the difference
-# of `blocked`. For the first three steps of the ladder the *median* over all sensors counts: a factor of
-# 1.35, 1.17 and 1.08 (and a difference of 0.04, 0.03 and 0.03). The last step wants 31 of the 40 to be
-# within a factor of 1.16 (and 0.06).
+# We try forty sensors. An answer is judged by the factor by which `error` is off, and by the
+# difference of `blocked`. For the first three steps of the ladder the *median* over all sensors
+# counts: a factor of 1.35, 1.17 and 1.08 (and a difference of 0.04, 0.03 and 0.03). The last step
+# wants 31 of the 40 to be within a factor of 1.16 (and 0.06).
 
 
 # %% name="busy-fit"
@@ -363,8 +365,8 @@ def busy_fit(scans, step):
 check("02-busy-room")
 
 # %% [markdown]
-# Here are sensors whose truth is known, so that you can try your method. Choose another number, more
-# people, or coarser steps, and look where your method goes wrong, and by how much.
+# Here are sensors whose truth is known, so that you can try your method. Choose another number,
+# more people, or coarser steps, and look where your method goes wrong, and by how much.
 
 
 # %% name="readings"
@@ -398,6 +400,7 @@ def _():
 # %% [markdown]
 # ## Done?
 #
-# Save the notebook. The cell below then says what the grader will say about it, though the grader draws
-# other inputs. The next lesson, [03 · The Kalman filter](../notebooks/03_kalman_filter.ipynb), asks what
-# such numbers are for: how much is a reading worth, compared with what one believed before?
+# Save the notebook. The cell below then says what the grader will say about it, though the grader
+# draws other inputs. The next lesson, [03 · The Kalman
+# filter](../notebooks/03_kalman_filter.ipynb), asks what such numbers are for: how much is a
+# reading worth, compared with what one believed before?

@@ -10,10 +10,10 @@
 # *Key:* a simulator is a claim about a device, and it can be tested like any other claim.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* Part one is geometry, part two is statistics; each fits a lecture of its own. If
-# time is short, leave out "Move a wall" and "Three sensors, one place". What the class will remember
-# is the end of part two, where the numbers of a real device give away how it works. Polls that work
-# well: the wall behind the sensor, the forgotten minus, the three errors of a wheel.
+# *For the lecturer:* Part one is geometry, part two is statistics; each fits a lecture of its own.
+# If time is short, leave out "Move a wall" and "Three sensors, one place". What the class will
+# remember is the end of part two, where the numbers of a real device give away how it works. Polls
+# that work well: the wall behind the sensor, the forgotten minus, the three errors of a wheel.
 
 # %% slideshow={"slide_type": "skip"} name="imports"
 from dataclasses import replace
@@ -215,16 +215,16 @@ views.explore(
 # Two beams that lie a small angle $\Delta\beta$ apart hit it $r\,\Delta\beta / \cos\iota$ apart.
 # With 400 beams this is {= 1000 * 3 * np.radians(0.9):.0f =} mm on a wall 3 m ahead, but
 # {= 100 * 8 * np.radians(0.9) / np.cos(np.radians(70)):.0f =} cm on one 8 m away that is seen 70°
-# off square on. Set the slider to 40 beams: some walls are left with two or three points, and nobody
-# could tell where they end. At the other end of the slider are Smolec's 3600.
+# off square on. Set the slider to 40 beams: some walls are left with two or three points, and
+# nobody could tell where they end. At the other end of the slider are Smolec's 3600.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=2
 # ## What a beam cannot see
 #
 # Even a perfect sensor sees little of a building. Most walls stand behind others, which is called
-# *occlusion*, or beyond the sensor's range. Here are four rooms off a corridor, whose doors face each
-# other: Smolec's *situation 1*. How much of all its walls is in sight from the middle of one room?
-# And where must the robot stand to see most? Think of a place before you move it there.
+# *occlusion*, or beyond the sensor's range. Here are four rooms off a corridor, whose doors face
+# each other: Smolec's *situation 1*. How much of all its walls is in sight from the middle of one
+# room? And where must the robot stand to see most? Think of a place before you move it there.
 
 
 # %% slideshow={"slide_type": "fragment"} name="sight"
@@ -265,19 +265,19 @@ views.explore(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# From the middle of a room, {= in_sight(0.1, 0.1)[1]:.0f =} % of the walls are in sight: those of the room
-# itself and, through its door, strips of what lies behind. The door, at $(0, 2)$, shows
+# From the middle of a room, {= in_sight(0.1, 0.1)[1]:.0f =} % of the walls are in sight: those of
+# the room itself and, through its door, strips of what lies behind. The door, at $(0, 2)$, shows
 # {= in_sight(0.1, 2.0)[1]:.0f =} %. We tried a place every half a metre, and none shows more than
-# {= max(in_sight(x, y)[1] for x in np.arange(-1.9, 8, 0.5) for y in np.arange(-1.9, 7.5, 0.5)):.0f =} %. This is what a map is for, and
-# why it needs poses.
+# {= max(in_sight(x, y)[1] for x in np.arange(-1.9, 8, 0.5) for y in np.arange(-1.9, 7.5, 0.5)):.0f =}
+# %. This is what a map is for, and why it needs poses.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=4
 # ## Sensor, robot, world
 #
 # A reading is made in the frame of the *sensor*. The sensor sits on the *robot*, seldom in its
 # middle, and the robot stands somewhere in the *world*. So two poses lie between a reading and the
-# map: the sensor's *mount* $b$, given in the robot's frame, and the robot's pose $x$. We go from the
-# inside out, and apply (01.3) twice:
+# map: the sensor's *mount* $b$, given in the robot's frame, and the robot's pose $x$. We go from
+# the inside out, and apply (01.3) twice:
 #
 # $$ p_{\mathrm r} = \begin{pmatrix} x_b \\ y_b \end{pmatrix} + \mathrm{Rot}(\theta_b)\,
 # p_{\mathrm s}, \qquad
@@ -296,8 +296,8 @@ print("both at once:        ", transform(compose(pose, mount), in_sensor)[0].rou
 print("the wrong way round: ", transform(compose(mount, pose), in_sensor)[0].round(3))
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# Check the first two lines by hand. The last one is a point, too, and no error message tells you that
-# it means nothing.
+# Check the first two lines by hand. The last one is a point, too, and no error message tells you
+# that it means nothing.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* Do it with your body. You are the robot, your outstretched left arm is the
@@ -337,16 +337,17 @@ views.explore(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# Every wall stands there several times, because the five scans were taken from five places. Move the
-# first slider to 0.20, and they fall on each other. Now the second slider: what would you see of a
-# wrong turn if the robot never moved?
+# Every wall stands there several times, because the five scans were taken from five places. Move
+# the first slider to 0.20, and they fall on each other. Now the second slider: what would you see
+# of a wrong turn if the robot never moved?
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=4
 # ## What the device says
 #
-# An RPLIDAR reports *degrees*, counted *clockwise* from its front, *millimetres*, and 0 for "nothing
-# came back". The course speaks of radians, counter-clockwise, metres and NaN. A program that converts
-# here and there will one day convert twice, so the package converts in one place, where readings enter:
+# An RPLIDAR reports *degrees*, counted *clockwise* from its front, *millimetres*, and 0 for
+# "nothing came back". The course speaks of radians, counter-clockwise, metres and NaN. A program
+# that converts here and there will one day convert twice, so the package converts in one place,
+# where readings enter:
 
 # %% slideshow={"slide_type": "fragment"} name="robot-frame" tags=["nbval-check-output", "code"]
 angles, ranges = robot_frame(angle_deg=[0.0, 90.0, 270.0], range_mm=[1500.0, 800.0, 0.0])
@@ -397,18 +398,18 @@ views.explore(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# Each mirrored scan looks like a room, only another one, and nobody would notice. After the turn the
-# two disagree, and they disagree by *twice* the turn. So test a driver with a robot that turns.
+# Each mirrored scan looks like a room, only another one, and nobody would notice. After the turn
+# the two disagree, and they disagree by *twice* the turn. So test a driver with a robot that turns.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=2
 # ## Move a wall, watch the scan
 #
-# This is Smolec's *situation 2*, and what a lidar at the origin sees of it. Drag a corner, or choose
-# it with Tab and move it with the arrow keys; a click into the rows lets you change numbers, or add a
-# wall. *Undo* takes it back.
+# This is Smolec's *situation 2*, and what a lidar at the origin sees of it. Drag a corner, or
+# choose it with Tab and move it with the arrow keys; a click into the rows lets you change numbers,
+# or add a wall. *Undo* takes it back.
 #
-# Predict: if you pull the corner $(-2.4, -3.2)$ to the right, will more of the bay in the lower left
-# come into sight, or less? And which points vanish when you add the pillar `-1 -1 0.2`?
+# Predict: if you pull the corner $(-2.4, -3.2)$ to the right, will more of the bay in the lower
+# left come into sight, or less? And which points vanish when you add the pillar `-1 -1 0.2`?
 
 
 # %% slideshow={"slide_type": "fragment"} name="editor"
@@ -433,9 +434,9 @@ editor = edit_world(
 # *This is a good place for a break.*
 #
 # So far our lidar has made no errors. A real one errs in three ways: its range is off by a random
-# amount, its beam flies a little beside the bearing that it reports, and some beams return nothing at
-# all. Before we look at a real device, let us make a **first guess**, with round numbers for an RPLIDAR
-# A2. The end of the lesson puts it to the test.
+# amount, its beam flies a little beside the bearing that it reports, and some beams return nothing
+# at all. Before we look at a real device, let us make a **first guess**, with round numbers for an
+# RPLIDAR A2. The end of the lesson puts it to the test.
 
 # %% slideshow={"slide_type": "fragment"} name="guess" tags=["nbval-check-output", "code"]
 guess = Scanner(beams=400, range_error=0.004, bearing_sigma=np.radians(0.1), dropouts=0.03)
@@ -447,8 +448,8 @@ print(f"lost: {100 * guess.dropouts:.0f} % of the beams")
 # ### What a bearing's error does to the range
 #
 # A tenth of a degree sounds like nothing. But a beam that flies a little aside meets the wall
-# elsewhere, and a wall that is seen at a slant is farther off there. How much farther per radian, as
-# a share of the range? We differentiate (02.4):
+# elsewhere, and a wall that is seen at a slant is farther off there. How much farther per radian,
+# as a share of the range? We differentiate (02.4):
 
 # %% slideshow={"slide_type": "fragment"} name="slope" tags=["nbval-check-output"]
 rho, iota = sp.symbols("rho iota", positive=True)
@@ -456,8 +457,8 @@ r_wall = rho / sp.cos(iota)
 sp.simplify(sp.diff(r_wall, iota) / r_wall)
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# So a small error of the bearing changes the range by $r \tan\iota$ times itself. If the range has an
-# error of its own, $c_1 r$, the two are independent, and their variances add:
+# So a small error of the bearing changes the range by $r \tan\iota$ times itself. If the range has
+# an error of its own, $c_1 r$, the two are independent, and their variances add:
 #
 # $$ \sigma^2 = (c_1\, r)^2 + (r \tan\iota\;\sigma_\beta)^2. \tag{02.6} $$
 
@@ -525,15 +526,15 @@ views.explore(
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=2
 # ## An infrared sensor: a voltage falls
 #
-# The robot of the MAK thesis carries a Sharp GP2D120. It sends out infrared light and looks from the
-# side, a few centimetres away, under which angle the spot on the wall appears. This is called
-# *triangulation*. The farther the wall, the less the angle still changes, and the sensor's voltage $U$
-# behaves roughly as
+# The robot of the MAK thesis carries a Sharp GP2D120. It sends out infrared light and looks, from a
+# few centimetres aside, at the angle under which the spot on the wall appears. This is called
+# *triangulation*. The farther the wall, the less the angle still changes, and the sensor's voltage
+# $U$ behaves roughly as
 #
 # $$ U = \frac{\kappa}{r}. \tag{02.7} $$
 #
-# Its noise $\sigma_U$ is always the same. What does it do to the range? Solve for $r$, differentiate,
-# and put (02.7) in again:
+# Its noise $\sigma_U$ is always the same. What does it do to the range? Solve for $r$,
+# differentiate, and put (02.7) in again:
 
 # %% slideshow={"slide_type": "fragment"} name="voltage" tags=["nbval-check-output"]
 U, kappa, sigma_U, r = sp.symbols("U kappa sigma_U r", positive=True)
@@ -573,9 +574,9 @@ views.show(fig, "The lidar sees most walls sharply, infrared only the near ones,
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # The lidar draws whatever is in sight beyond its least range of
 # {= 100 * RPLIDAR_A2.range_min:.0f =} cm. Of {= GP2D120.beams =} infrared readings only
-# {= back["infrared"] =} come back, from walls nearer than {= 100 * GP2D120.range_max:.0f =} cm, and even
-# these fray a little. The ultrasonic sensor draws arcs, because a whole fan of
-# directions hears the same nearest place: corners become round, and notches are filled.
+# {= back["infrared"] =} come back, from walls nearer than {= 100 * GP2D120.range_max:.0f =} cm, and
+# even these fray a little. The ultrasonic sensor draws arcs, because a whole fan of directions
+# hears the same nearest place: corners become round, and notches are filled.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=3
 # ## The door that sound does not see
@@ -640,10 +641,10 @@ views.explore(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# At 25° {= heard(25, 2)[2] =} of 91 directions hears through the door, and the wall comes out bent. At
-# 0°, where the sensor is a lidar, {= heard(0, 2)[2] =} do. From
-# {= next(cone for cone in range(40) if heard(cone, 2)[2] == 0) =}° on the door is shut: a robot that maps
-# by sound walls itself in. Drive nearer, and it opens again.
+# At 25° {= heard(25, 2)[2] =} of 91 directions hears through the door, and the wall comes out bent.
+# At 0°, where the sensor is a lidar, {= heard(0, 2)[2] =} do. From
+# {= next(cone for cone in range(40) if heard(cone, 2)[2] == 0) =}° on the door is shut: a robot
+# that maps by sound walls itself in. Drive nearer, and it opens again.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=4
 # ## Odometry is a sensor, too
@@ -664,9 +665,9 @@ views.explore(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# Three errors arise. Only whole ticks are counted. The wheel *slips*, and then it turns farther than it
-# travels, or less far. And the way of a tick is the wheel's circumference divided by the slots, which is
-# wrong if the wheel is larger than one believes.
+# Three errors arise. Only whole ticks are counted. The wheel *slips*, and then it turns farther
+# than it travels, or less far. And the way of a tick is the wheel's circumference divided by the
+# slots, which is wrong if the wheel is larger than one believes.
 
 # %% slideshow={"slide_type": "subslide"} name="ask-wheels"
 ask(
@@ -713,18 +714,19 @@ for name, errors in wheel_errors.items():
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # After sixteen times the way the ticks err by as little as before, slip by
-# {= wheel_errors["slip"][2][1] / wheel_errors["slip"][0][1]:.1f =} times as much, and the wrong wheel by
-# {= wheel_errors["wheels 1 % larger"][2][0] / wheel_errors["wheels 1 % larger"][0][0]:.0f =} times. The
-# last is a *bias*: it can be calibrated away, as lesson 01 said. A filter that takes all three for
-# independent noise is right about one of them.
+# {= wheel_errors["slip"][2][1] / wheel_errors["slip"][0][1]:.1f =} times as much, and the wrong
+# wheel by
+# {= wheel_errors["wheels 1 % larger"][2][0] / wheel_errors["wheels 1 % larger"][0][0]:.0f =} times.
+# The last is a *bias*: it can be calibrated away, as lesson 01 said. A filter that takes all three
+# for independent noise is right about one of them.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=3
 # ## A real lidar
 #
-# Now to a real RPLIDAR A2. Somebody let it stand in a room and recorded it three times:
-# {= len(real["turns"][0]) =}, {= len(real["turns"][1]) =} and {= len(real["turns"][2]) =} turns, and
-# published that. The recordings are not ours to give away. You get statistics of them, in a table that
-# comes with the course, and every number below is computed from this table, in front of you.
+# Now to a real RPLIDAR A2. Somebody let one stand in a room, recorded {= len(real["turns"][0]) =},
+# {= len(real["turns"][1]) =} and {= len(real["turns"][2]) =} turns, and published the recordings.
+# They are not ours to give away. You get statistics of them, in a table that comes with the course,
+# and every number below is computed from this table, in front of you.
 
 # %% slideshow={"slide_type": "fragment"} name="first-turn"
 walk = np.array(real["first_turn"]) * a2_at_rest.CELL
@@ -742,31 +744,33 @@ views.show(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# On the left you see a room some {= np.ptp(walk[np.abs(walk[:, 1]) < 2, 0]):.0f =} m wide, open at the
-# top to a hallway that ends {= walk[:, 1].max():.0f =} m away. (Points are rounded to {= 100 * a2_at_rest.CELL:.0f =} cm.)
-# At a first look the two scans are of one kind.
+# On the left you see a room some {= np.ptp(walk[np.abs(walk[:, 1]) < 2, 0]):.0f =} m wide, open at
+# the top to a hallway that ends {= walk[:, 1].max():.0f =} m away. (Points are rounded to
+# {= 100 * a2_at_rest.CELL:.0f =} cm.) At a first look the two scans are of one kind.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### The number of points a turn
 #
-# The simulated device has {= RPLIDAR_A2.beams =} beams, always in the same directions. How many has the
-# real one?
+# The simulated device has {= RPLIDAR_A2.beams =} beams, always in the same directions. How many has
+# the real one?
 
 # %% slideshow={"slide_type": "fragment"} name="points-a-turn" tags=["nbval-check-output", "code"]
 for number, sizes in enumerate(real["turns"], 1):
     print(f"recording {number}: {sizes[0]} points in the first turn, {sizes[-1]} in the last")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# The device measures at a steady rate, and in each recording its motor is still gaining speed, so that
-# fewer and fewer measurements fit into a turn. Neither the number of beams nor their directions are
-# fixed. Whoever compares beam 17 with beam 17 of the next turn compares two different places.
+# The device measures at a steady rate, and in each recording its motor is still gaining speed, so
+# that fewer and fewer measurements fit into a turn. Neither the number of beams nor their
+# directions are fixed. Whoever compares beam 17 with beam 17 of the next turn compares two
+# different places.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=4
 # ## How large is the noise?
 #
-# The truth is unknown, but the device stands still. So we can compare each reading $r$ with what the
-# turn *before* said of its bearing. There it lies a share $\tau$ of the way between two readings $r_1$
-# and $r_2$; if these belong to one smooth surface, a straight line between them will do:
+# The truth is unknown, but the device stands still. So we can compare each reading $r$ with what
+# the turn *before* said of its bearing. There it lies a share $\tau$ of the way between two
+# readings $r_1$ and $r_2$; if these belong to one smooth surface, a straight line between them will
+# do:
 #
 # $$ \Delta r = r - \bigl((1 - \tau)\, r_1 + \tau\, r_2\bigr). \tag{02.9} $$
 #
@@ -779,26 +783,26 @@ for number, sizes in enumerate(real["turns"], 1):
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Two answers
 #
-# The package does so for {= real["errors"]["readings"] =} readings (`a2_at_rest.repeats`). Their size
-# can be told in two ways: by the root of the mean square, or by the *median* of their amounts. For a
-# bell curve the median is $0.674\,\sigma$, so that 1.483 times the median is $\sigma$ again.
+# The package does so for {= real["errors"]["readings"] =} readings (`a2_at_rest.repeats`). Their
+# size can be told in two ways: by the root of the mean square, or by the *median* of their amounts.
+# For a bell curve the median is $0.674\,\sigma$, so that 1.483 times the median is $\sigma$ again.
 
 # %% slideshow={"slide_type": "fragment"} name="two-answers" tags=["nbval-check-output", "code"]
 print(f"by the mean square: σ = {100 * real['errors']['rms']:.2f} % of r")
 print(f"by the median:      σ = {100 * real['errors']['median']:.2f} % of r")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# The first number is where our guess of 0.4 % comes from. If all errors came from one bell curve, as
-# wide everywhere, the two would agree. They do not: most readings are better than the mean
-# square says, and some are far worse. (Errors beyond 3 %, such as those of people who walk through a
-# beam, are left out of the first number.) Which are the worse ones?
+# The first number is where our guess of 0.4 % comes from. If all errors came from one bell curve,
+# as wide everywhere, the two would agree. They do not: most readings are better than the mean
+# square says, and some are far worse. (Errors beyond 3 %, such as those of people who walk through
+# a beam, are left out of the first number.) Which are the worse ones?
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Those at a slant
 #
-# By (02.6) a reading at a slant is worse. Is it true of the real device? Take ranges of 2 to 4 m only,
-# sort them by incidence, and compare with (02.6): $c_1$ from the readings that look square on, and
-# $\sigma_\beta = 0.1°$ from our guess.
+# By (02.6) a reading at a slant is worse. Is it true of the real device? Take ranges of 2 to 4 m
+# only, sort them by incidence, and compare with (02.6): $c_1$ from the readings that look square
+# on, and $\sigma_\beta = 0.1°$ from our guess.
 
 # %% slideshow={"slide_type": "fragment"} name="by-slant" tags=["nbval-check-output", "code"]
 tan, share = (np.array(real["by_slant"][name]) for name in ("slant", "share"))
@@ -809,7 +813,8 @@ for low, *both in zip(a2_at_rest.SLANTS[:-1], 100 * share, 100 * predicted, stri
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # The real device gets worse at a slant. Up to 60°, (02.6) is off by
 # {= 100 * abs(share / predicted - 1)[:4].max():.0f =} % at most; beyond, the device is worse than
-# predicted. Less light comes back from a slanted wall, too, and these data cannot tell the two apart.
+# predicted. Less light comes back from a slanted wall, too, and these data cannot tell the two
+# apart.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## Does the noise grow like the range?
@@ -885,14 +890,14 @@ views.explore(
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # The guess fits at {= np.interp(0.004, share_class[4:], r_class[4:]):.1f =} m and nowhere else. At
 # {= r_class[0]:.1f =} m the real device is {= 0.004 / share_class[0]:.1f =} times better, and at
-# {= r_class[-1]:.1f =} m {= share_class[-1] / 0.004:.1f =} times worse. The data sheet's 0.75 % lies
-# above all marks: it is a promise, not a description.
+# {= r_class[-1]:.1f =} m {= share_class[-1] / 0.004:.1f =} times worse. The data sheet's 0.75 %
+# lies above all marks: it is a promise, not a description.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Find it by least squares
 #
-# Divide (02.11) by $r^2$. The square of the share, $\sigma^2/r^2 = c_1^2 + c_2^2\, r^2$, is a straight
-# line over $r^2$, and a line can be fitted:
+# Divide (02.11) by $r^2$. The square of the share, $\sigma^2/r^2 = c_1^2 + c_2^2\, r^2$, is a
+# straight line over $r^2$, and a line can be fitted:
 
 # %% slideshow={"slide_type": "fragment"} name="least-squares" tags=["nbval-check-output", "code"]
 squares = np.polyfit(r_class**2, share_class**2, 1, w=1 / share_class**2)
@@ -907,10 +912,10 @@ print(f"from {off.min():.2f} to {off.max():.2f} times the real σ")
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=2
 # ## The fingerprint
 #
-# By (02.8) noise that grows with $r^2$ is what a sensor makes that measures $1/r$. If the A2 is one, and
-# counts $1/r$ in whole steps of some size, then $r$ comes in steps, too. A small step of $1/r$ is a step
-# of $r$ that is $r^2$ times as large. We can look for these steps: which values of $r$, in millimetres,
-# ever occur?
+# By (02.8) noise that grows with $r^2$ is what a sensor makes that measures $1/r$. If the A2 is
+# one, and counts $1/r$ in whole steps of some size, then $r$ comes in steps, too. A small step of
+# $1/r$ is a step of $r$ that is $r^2$ times as large. We can look for these steps: which values of
+# $r$, in millimetres, ever occur?
 
 # %% slideshow={"slide_type": "fragment"} name="fingerprint" tags=["nbval-check-output", "code"]
 for (low, high), values in zip(a2_at_rest.WINDOWS, real["steps"], strict=True):
@@ -918,25 +923,25 @@ for (low, high), values in zip(a2_at_rest.WINDOWS, real["steps"], strict=True):
     print(f"{low:4.1f} m: {values[:5]} …  step {step:2.0f} mm, step / r² = {step / r**2:.2f} mm/m²")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# At 11 m a range is {= np.diff(real["steps"][3]).min() =} or {= np.diff(real["steps"][3]).max() =} mm
-# from the next, and nothing in between *ever* occurs in {= sum(map(len, real["turns"])) =} turns. At 7 m
-# the step is {= np.median(np.diff(real["steps"][2])):.0f =} mm, at 4.6 m
+# At 11 m a range is {= np.diff(real["steps"][3]).min() =} or {= np.diff(real["steps"][3]).max() =}
+# mm from the next, and nothing in between *ever* occurs in {= sum(map(len, real["turns"])) =}
+# turns. At 7 m the step is {= np.median(np.diff(real["steps"][2])):.0f =} mm, at 4.6 m
 # {= np.median(np.diff(real["steps"][1])):.0f =} mm: each time about
-# {= np.median(np.diff(real["steps"][3])) / 11.2**2:.1f =} mm/m² times $r^2$. (At 3 m it drowns in the
-# whole millimetres of the recording.) The device measures $1/r$. It triangulates, as the infrared sensor does.
-# We needed no data sheet; the numbers told us.
+# {= np.median(np.diff(real["steps"][3])) / 11.2**2:.1f =} mm/m² times $r^2$. (At 3 m it drowns in
+# the whole millimetres of the recording.) The device measures $1/r$. It triangulates, as the
+# infrared sensor does. We needed no data sheet; the numbers told us.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* This is the one moment of detective work, so give it time. Let the class compute
-# the step at 11 m from that at 7 m before you run the cell. Can the method be trusted? The
+# *For the lecturer:* This is the one moment of detective work, so give it time. Let the class
+# compute the step at 11 m from that at 7 m before you run the cell. Can the method be trusted? The
 # simulated `RPLIDAR_A2` has no steps, and its neighbouring values are mostly a millimetre apart, at
 # 7 m as at 3 m.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=2
 # ## Readings that never come
 #
-# {= 100 * real["empty"]["readings"]:.1f =} % of the real device's readings are empty, and so our guess
-# drops 3 % of its beams, each by chance.
+# {= 100 * real["empty"]["readings"]:.1f =} % of the real device's readings are empty, and so our
+# guess drops 3 % of its beams, each by chance.
 
 # %% slideshow={"slide_type": "fragment"} name="ask-empty"
 ask(
@@ -965,19 +970,19 @@ ax.set(xlim=(0, 360), yticks=list(rows), yticklabels=list(rows.values()))
 views.show(fig, "Empty readings stand above each other in a few directions, turn after turn.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# They stand in columns. The slanted line is the edge of a person who walks by. So most empties are no
-# failures; they say "nothing here that I can see", and that is knowledge. A **dropout** is an empty
-# reading where there *is* a surface. Where the turns before and after both saw one,
-# {= 100 * real["empty"]["lost"][1]:.1f =} % of the readings are empty; where only the turn before is
-# asked, people included, it is {= 100 * real["empty"]["lost"][0]:.1f =} %. The truth lies between the two,
-# far below 3 %.
+# They stand in columns. The slanted line is the edge of a person who walks by. So most empties are
+# no failures; they say "nothing here that I can see", and that is knowledge. A **dropout** is an
+# empty reading where there *is* a surface. Where the turns before and after both saw one,
+# {= 100 * real["empty"]["lost"][1]:.1f =} % of the readings are empty; where only the turn before
+# is asked, people included, it is {= 100 * real["empty"]["lost"][0]:.1f =} %. The truth lies
+# between the two, far below 3 %.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=3
 # ## What the simulator has, and what it lacks
 #
-# From now on we use the preset `RPLIDAR_A2`. It comes from a finer fit than ours, over all ranges and
-# slants at once. A claim about a device has to be tested, so we set preset and guess into simulated
-# rooms of all sizes and treat their scans as we treated the real ones:
+# From now on we use the preset `RPLIDAR_A2`. It comes from a finer fit than ours, over all ranges
+# and slants at once. A claim about a device has to be tested, so we set preset and guess into
+# simulated rooms of all sizes and treat their scans as we treated the real ones:
 
 
 # %% slideshow={"slide_type": "fragment"} name="bench"
@@ -1007,8 +1012,8 @@ views.show(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# The preset follows the real device; at worst, its σ is {= apart:.2f =} times the real one. The guess
-# is level. On which side would a filter suffer that believed in the guess?
+# The preset follows the real device; at worst, its σ is {= apart:.2f =} times the real one. The
+# guess is level. On which side would a filter suffer that believed in the guess?
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### A list of what is missing
@@ -1053,14 +1058,14 @@ views.show(
 # room](../exercises/ex02_sensors_and_worlds.ipynb), 60 minutes.
 #
 # **Next:** every reading is a little wrong, and so is every belief about the robot. How much weight
-# does each deserve? [03 · The Kalman filter](03_kalman_filter.ipynb) derives it. What stands below is
-# optional.
+# does each deserve? [03 · The Kalman filter](03_kalman_filter.ipynb) derives it. What stands below
+# is optional.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Deeper: a round pillar
 #
-# Table legs and pillars are circles. Let the centre lie $\xi$ *along* the beam and $\eta$ *beside* it,
-# and let $\varrho$ be the radius. The point at range $r$ is on the circle where
+# Table legs and pillars are circles. Let the centre lie $\xi$ *along* the beam and $\eta$ *beside*
+# it, and let $\varrho$ be the radius. The point at range $r$ is on the circle where
 #
 # $$ (r - \xi)^2 + \eta^2 = \varrho^2. \tag{02.12} $$
 
@@ -1081,8 +1086,8 @@ for story, x, y in [("from outside", 0, 0.3), ("from inside", 3.1, 0.3), ("passi
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Deeper: a world is a text file
 #
-# Four numbers are a wall, three a circle, and `#` begins a comment. So you can measure your own room,
-# write it down, read it with `worlds.load`, and see what a lidar sees of it.
+# Four numbers are a wall, three a circle, and `#` begins a comment. So you can measure your own
+# room, write it down, read it with `worlds.load`, and see what a lidar sees of it.
 
 # %% slideshow={"slide_type": "fragment"} name="world-file" tags=["nbval-check-output"]
 MY_ROOM = """
