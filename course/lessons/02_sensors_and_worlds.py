@@ -783,9 +783,10 @@ for number, sizes in enumerate(real["turns"], 1):
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Two answers
 #
-# The package does so for {= real["errors"]["readings"] =} readings (`a2_at_rest.repeats`). Their
-# size can be told in two ways: by the root of the mean square, or by the *median* of their amounts.
-# For a bell curve the median is $0.674\,\sigma$, so that 1.483 times the median is $\sigma$ again.
+# The package does so for {= real["errors"]["readings"] =} readings (`a2_at_rest.repeats`). There are
+# two ways to tell $\sigma$ from what is left: by the root of the mean square, or by the *median* of the
+# absolute values. For a bell curve this median is $0.674\,\sigma$, so 1.483 times the median is
+# $\sigma$ again.
 
 # %% slideshow={"slide_type": "fragment"} name="two-answers" tags=["nbval-check-output", "code"]
 print(f"by the mean square: σ = {100 * real['errors']['rms']:.2f} % of r")
