@@ -15,12 +15,16 @@ __all__ = ["Unavailable", "Visit", "chromium", "jupyterlab"]
 EXTENSION = ROOT / "labextension" / "share" / "jupyter"
 IDLE = ".jp-Notebook-ExecutionIndicator[data-status=idle]"  # out of sight on a narrow page
 
-# what was never in sight is not laid out
+# what was never in sight is not laid out, and further cells come with those before them
 LOOK_THROUGH = """async () => {
-    for (const cell of document.querySelectorAll(".jp-Cell")) {
+    const seen = new Set();
+    const next = () => [...document.querySelectorAll(".jp-Cell")].find((cell) => !seen.has(cell));
+    for (let cell; (cell = next());) {
+        seen.add(cell);
         cell.scrollIntoView();
         for (let frame = 0; frame < 2; frame++) await new Promise(requestAnimationFrame);
     }
+    return seen.size;
 }"""
 
 # how many cells still wait or run, once that is another number than before
@@ -87,8 +91,13 @@ class Visit:
         return self.page.locator(".lm-TabBar-tab.jp-mod-dirty").count() > 0
 
     def look_through(self):
-        """Scroll through the notebook, so that all of it is laid out."""
-        self.page.evaluate(LOOK_THROUGH)
+        """Scroll through the notebook, so that all of it is laid out.
+
+        Returns
+        -------
+        int, the number of cells
+        """
+        return self.page.evaluate(LOOK_THROUGH)
 
     def serious_faults(self):
         """Faults of accessibility in the notebook's own area, serious or critical, by axe-core.
