@@ -179,7 +179,7 @@ views.explore(
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="04-bias"
 # The end points bend round the start like a banana. The ellipse is straight, as a tangent is: it is
 # too long, far too thin, and in the wrong place. Move $\sigma$ of the heading down to 0.1 rad, and the two
-# agree. Then change the distance: the picture grows, but it hardly gets better or worse.
+# agree. Then lengthen the drive: the same bend, enlarged, leaves the ellipse sooner.
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"] answers="04-bias"
 print("σ of θ   inside   their average is off f(x̂) by")
@@ -668,11 +668,12 @@ def spoiled(factor, landmarks):
     """Errors of 100 robots whose ∂β/∂y is multiplied by a factor, and what they believe."""
     (right, _), (wrong, believed) = (small_errors.localised(k, landmarks) for k in (1, factor))
     steps = np.arange(1, 21)
-    fig, ax = views.chart("sights", "place [m]", f"∂β/∂y times {factor:.2f}", (8, 4))
+    title = f"∂β/∂y times {factor:.2f}".replace("-", "−")
+    fig, ax = views.chart("sights", "place [m]", title, (8, 4))
     ax.plot(steps, right, color=views.COLOURS["corrected"], label="error, right H")
     ax.plot(steps, wrong, "--", color=views.COLOURS["naive"], label="error, spoiled H")
     ax.plot(steps, believed, "-.", color=views.COLOURS["limit"], label="σ believed with spoiled H")
-    ax.set_ylim(0, None)
+    ax.set(ylim=(0, None), xticks=[1, 5, 10, 15, 20])
     views.legend(ax)
     return fig
 
@@ -862,7 +863,7 @@ sigma_claimed = np.sqrt(0.05**2 + (3.0 * 0.1) ** 2)  # (12) with A of §4.1, 3 m
 # | --- | --- | --- | --- |
 # | Smolec (4) | $x + \cos\theta$ | $x + d\cos\theta$ | every step is 1 m long |
 # | Smolec (5) | $-\Delta y \sin\theta$, $\Delta x \cos\theta$ | $-\Delta y$, $\Delta x$ | at 150° the ellipse leans to the wrong side |
-# | Smolec (12) with $A$ of §4.1 | $x + \Delta x$ | $A = I$ for *given* steps | claims $\sigma$ = {= sigma_claimed:.2f =} m where it is 0.05 m |
+# | Smolec (12) with $A$ of §4.1 | $x + \Delta x$ | $A = I$ for *given* steps | 3 m to the north: claims $\sigma_x$ = {= sigma_claimed:.2f =} m where it is 0.05 m |
 # | degrees in the state | (04.5) | $\times\, \pi/180$ | 5° and 3 m: {= 3 * 5 =} m to the side, not {= 3 * np.radians(5):.2f =} m |
 #
 # $A$ of Smolec's §4.1 and of the EKF note is right, with a step *along the estimated heading*: a model and
@@ -885,7 +886,8 @@ meant = sp.Matrix([Dx, Dy, dtheta])
 Q_8, Q = c * meant * meant.T, W * sp.diag(sp.Symbol("C_d"), sp.Symbol("C_θ")) * W.T
 print("rank of what (8) means:", Q_8.rank(), " of W C Wᵀ:", Q.rank())
 print("its variance of the heading, driving straight on:", Q_8[2, 2].subs(dtheta, 0))
-compare("Smolec (9), R", sp.diag(r * c, 0), sp.diag((k * r) ** 2, 0))
+b, s = sp.symbols("b sigma_beta", positive=True)
+compare("Smolec (9), R", sp.diag(r * c, b * beta), sp.diag((k * r) ** 2, s**2))
 C_step = noise.C_odometry([0.1, 0], 0.05, 0.05, turn_per_metre=0.05)
 true_sigma = np.degrees(np.sqrt(50 * C_step[1, 1]))  # 50 steps of 10 cm
 
@@ -894,7 +896,7 @@ true_sigma = np.degrees(np.sqrt(50 * C_step[1, 1]))  # 50 steps of 10 cm
 # | --- | --- | --- | --- |
 # | Smolec (6)–(8) | $C$ is 3 × 3, $W$ is 3 × 1; rank one | (04.7) | 5 m straight on: $\sigma_\theta$ = 0°, where wheels that pick up 0.05 rad a metre give {= true_sigma:.1f =}° |
 # | EKF note | noise by $\Delta x, \Delta y, \Delta t$ | $\Delta\theta$ for $\Delta t$ | the same rank of one |
-# | Smolec (9) | $r c$; "variance 1 cm → $c$ = 0.01" | $(k r)^2$ | 1 % of 4 m: {= 100 * np.sqrt(4 * 0.01):.0f =} cm in a program that counts metres, {= np.sqrt(4000 * 0.01) / 10:.1f =} cm in one that counts millimetres |
+# | Smolec (9) | $r c$, $\beta b$; "variance 1 cm → $c$ = 0.01" | (04.15) | 1 % of 4 m: {= 100 * np.sqrt(4 * 0.01):.0f =} cm in a program that counts metres, {= np.sqrt(4000 * 0.01) / 10:.1f =} cm in one that counts millimetres |
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### In print: new landmarks
@@ -905,6 +907,8 @@ J_10 = sp.Matrix([[1, 0, -sp.sin(theta)], [0, 1, sp.cos(theta)]])
 J_11 = sp.Matrix([[sp.cos(turned), -sp.sin(turned)], [sp.sin(turned), sp.cos(turned)]])
 compare("Smolec (10), J_r", J_10, g.jacobian(pose))
 compare("Smolec (11), J_z", J_11, g.jacobian(sight))
+fits = E(p_n * p_n.T) == J_r * P_rr * J_r.T + J_z * R_ * J_z.T, E(x_error * p_n.T) == P_rr * J_r.T
+print("Smolec (16), (17): equal", *fits)
 try:
     J_r * P_ri.T
 except sp.ShapeError:
