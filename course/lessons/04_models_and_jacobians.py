@@ -5,7 +5,7 @@
 # mean, test one that you find in a book or in a program before you trust it, and say where even a
 # right one fails.
 #
-# **68 minutes,** in two parts. **Before:** lesson [00](00_start_here.ipynb) for the symbols, lesson
+# **60 minutes,** in two parts. **Before:** lesson [00](00_start_here.ipynb) for the symbols, lesson
 # [03](03_kalman_filter.ipynb) for covariances and the update; partial derivatives.
 #
 # *Key:* a model says what happens. Its Jacobian says what happens to a small error.
@@ -32,7 +32,7 @@ from slamlab.models.differences import slopes
 from slamlab.studies import small_errors
 from slamlab.studies.agreeing_poses import share_inside
 
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=8
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=7
 # ## What a small error becomes
 #
 # The cart of lesson 03 obeyed a matrix. A robot in the plane does not: it drives where it heads, so
@@ -199,7 +199,7 @@ for heading_sigma in (0.1, 0.3, 0.6):
 # *For the lecturer:* Let somebody find the σ at which they would no longer sign for the ellipse.
 # Then ask which of the two, a longer drive or a vaguer heading, is the more dangerous.
 
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=6
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## The motion and its Jacobian A
 #
 # A matrix of numbers holds at one pose only. A filter needs $A$ at every step, so we derive it once,
@@ -245,7 +245,7 @@ A_steps.step("with the step's own Δx and Δy", by_hand, given={dx: f[0] - x, dy
 # sine. All lines follow, and (04.5) still holds. Then take the minus before `dy` away: the machine
 # refuses that line, and shows a point where the two differ.
 
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=6
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## Wheels err, too: W and Q
 #
 # Real wheels slip, so the control has an error $\tilde u$ as well, with a covariance $C$. The tangent of
@@ -299,7 +299,7 @@ views.explore(
 # way, $W$ along it: two errors at right angles. A filter that trusts its wheels believes in the dashed
 # ellipse. Set either slider to zero to see the other error alone.
 
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=8
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=7
 # ## Part two: what the robot sees, and H
 #
 # So much for moving; this is a good place for a break. Now the robot looks. It sees a landmark at
@@ -466,7 +466,7 @@ for name, bearing in {"subtracted": v[1], "wrapped": wrap(v[1])}.items():
 # *For the lecturer:* This fault shows only when a landmark passes behind the robot; tests with everything
 # in front stay green. Ask who has had such a bug in a compass or a clock.
 
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=7
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=6
 # ## A new landmark
 #
 # A landmark that is seen for the first time goes into the map where pose and sight put it. That is $h$
@@ -557,7 +557,7 @@ views.explore(
 # the lever is gone. Make the heading vaguer at 10 m, and you meet the banana again. The next section
 # computes the ellipse.
 
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=6
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## Whom a new landmark knows
 #
 # Let $n$ be the new landmark. To first order its error is made of the robot's error and of the sight's
@@ -611,7 +611,7 @@ print("P_ni =", E(p_n * p_i.T))
 # *For the lecturer:* A picture for it: everyone who copies from the same neighbour has the same mistakes,
 # though they never met.
 
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=4
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=3
 # ## Trust nothing: three ways to the same matrix
 #
 # A derivation can be mistyped, a program can be mistyped, and differences depend on their step size. That
@@ -630,17 +630,23 @@ ways = {
     "J_z": (g.jacobian(sight), jacobians.J_z(X, Z), slopes(lambda z: models.g(X, z), Z)),
 }
 
+
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
-for name, (formula, code, slope) in ways.items():
+def hold(name, formula, code, slope, at=at):
+    """Print by how much a derivation differs from the code and from the slopes of the model."""
     value = np.array(formula.subs(at).evalf(), dtype=float)
     off = [abs(value - other).max() for other in (code, slope)]
     print(f"{name:3}  derivation − code {off[0]:.6f}   derivation − slopes {off[1]:.6f}")
+
+
+for name, three in ways.items():
+    hold(name, *three)
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # Zeros all the way down. Such a test costs a line for each matrix, it needs no idea of what the right
 # answer is, and it finds any entry that is wrong there. Make it your habit.
 
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=6
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## What one wrong sign does
 #
 # Suppose we had not tested. In the row of the bearing of $H_{\mathrm r}$, somebody has lost the minus
@@ -679,26 +685,28 @@ def spoiled(factor, landmarks):
 
 
 # %% slideshow={"slide_type": "fragment"} answers="04-sign"
+def last(factor, landmarks):
+    """Median error and believed σ after the last sight."""
+    return [each[-1] for each in small_errors.localised(factor, landmarks)]
+
+
 views.explore(
     spoiled,
     lambda factor, landmarks: (
-        f"Median errors, landmarks seen: {landmarks}. With the right H the error falls to "
-        f"{small_errors.localised(1, landmarks)[0][-1]:.2f} m; with one entry times {factor:.2f} to "
-        f"{small_errors.localised(factor, landmarks)[0][-1]:.2f} m, while the filter believes in "
-        f"{small_errors.localised(factor, landmarks)[1][-1]:.2f} m."
+        f"Median errors fall to {last(1, landmarks)[0]:.2f} m with the right H; with one entry "
+        f"spoiled to {last(factor, landmarks)[0]:.2f} m, {last(factor, landmarks)[1]:.2f} m believed."
     ),
     factor=(-1.0, 1.0, -1.0),
     landmarks=(1, 3, 3),
 )
-right, (wrong, believed) = small_errors.localised(1, 3)[0], small_errors.localised(-1, 3)
-forgiven = small_errors.localised(0.5, 3)[0]
+(right, _), (wrong, believed), (forgiven, _) = last(1, 3), last(-1, 3), last(0.5, 3)
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="04-sign"
-# With the wrong sign the median error is {= 100 * wrong[-1]:.0f =} cm after 20 sights, with the right $H$
-# {= 100 * right[-1]:.0f =} cm. And the filter believes in {= 100 * believed[-1]:.0f =} cm: it is sure of
+# With the wrong sign the median error is {= 100 * wrong:.0f =} cm after 20 sights, with the right $H$
+# {= 100 * right:.0f =} cm. And the filter believes in {= 100 * believed:.0f =} cm: it is sure of
 # something wrong, for no measurement ever enters $P$ (lesson 03).
 #
-# Move the factor. At one half the error is {= 100 * forgiven[-1]:.0f =} cm, nearly as good as right: the
+# Move the factor. At one half the error is {= 100 * forgiven:.0f =} cm, nearly as good as right: the
 # next sight mends what the last one missed. A wrong *size* may be forgiven; a wrong *sign* sends the robot the
 # wrong way. Neither shows in the believed $\sigma$. Only a test finds it.
 
@@ -766,14 +774,8 @@ W_steered
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 command, car = np.array([0.8, -0.3]), (0.5, 0.25)  # V and γ; B and T
 there = at | dict(zip((V, gamma, B, T), (*command, *car), strict=True))
-by_x = slopes(lambda x: models.f_steered(x, command, *car), X)
 by_u = slopes(lambda u: models.f_steered(X, u, *car), command)
-for name, formula, code, slope in [
-    ("A", f_steered.jacobian(pose), jacobians.A_steered(X, command, *car), by_x),
-    ("W", W_steered, jacobians.W_steered(X, command, *car), by_u),
-]:
-    value = np.array(formula.subs(there).evalf(), dtype=float)
-    print(name, [f"{abs(value - other).max():.6f}" for other in (code, slope)])
+hold("W", W_steered, jacobians.W_steered(X, command, *car), by_u, there)
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Deeper: Jacobians that undo each other
@@ -804,10 +806,8 @@ print(sp.simplify(H_r.subs(placed) + H_p.subs(placed) * g.jacobian(pose)))
 # %% slideshow={"slide_type": "fragment"}
 def compare(place, printed, derived):
     """Print what a printed formula has too much: entry by entry, nothing where they are equal."""
-    off = (printed - derived).applyfunc(sp.simplify)
-    rows, columns = off.shape
-    entries = [(i, k) for i in range(rows) for k in range(columns) if off[i, k] != 0]
-    words = [f"row {i + 1}, column {k + 1}: {off[i, k]}" for i, k in entries]
+    off = (printed - derived).applyfunc(sp.simplify).todok()
+    words = [f"row {i + 1}, column {k + 1}: {entry}" for (i, k), entry in off.items()]
     print(f"{place:18}", "; ".join(words) or "equal")
 
 
@@ -832,7 +832,7 @@ bad = np.mean(abs(wrap(arctans - around)) > 1e-6)
 # | --- | --- | --- | --- |
 # | Smolec (1) | $\tan^{-1}\frac{p_y - y}{p_x - x}$ | atan2 | {= 100 * bad:.0f =} % of all directions come out 180° off: what lies behind is seen ahead |
 # | MAK (2.29) | the same, from object to robot | $p - x$, atan2 | read as atan2, each bearing is 180° off |
-# | Smolec (2) | $+(p_x - x)/r^2$ | $-(p_x - x)/r^2$ | {= 100 * wrong[-1]:.0f =} cm off after 20 sights, {= 100 * right[-1]:.0f =} cm with the right sign |
+# | Smolec (2) | $+(p_x - x)/r^2$ | $-(p_x - x)/r^2$ | {= 100 * wrong:.0f =} cm off after 20 sights, {= 100 * right:.0f =} cm with the right sign |
 # | Smolec (3) | minus columns of (2) | right once (2) is | else the wrong sign comes twice |
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
@@ -851,11 +851,10 @@ A_deg = f.subs(theta, deg * sp.pi / 180).jacobian([x, y, deg]).subs(deg, 180 * t
 compare("degrees, A", A[:2, :], A_deg[:2, :])
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-west = {theta: np.radians(150), d: 3.0}
-for name, each in {"derived": A, "(5)": A_5}.items():
-    there = np.array(each.subs(west), dtype=float)
-    told = there @ P @ there.T
-    print(f"{name:8} correlation of x and y {told[0, 1] / np.sqrt(told[0, 0] * told[1, 1]):+.1f}")
+west = A_5.subs({theta: np.radians(150), d: 3.0}), A.subs({theta: np.radians(150), d: 3.0})
+told = [np.array(each * sp.Matrix(P) * each.T, dtype=float) for each in west]
+correlations = [each[0, 1] / np.sqrt(each[0, 0] * each[1, 1]) for each in told]
+print("correlation of x and y, heading 150°: (5) {:+.1f}, derived {:+.1f}".format(*correlations))
 sigma_claimed = np.sqrt(0.05**2 + (3.0 * 0.1) ** 2)  # (12) with A of §4.1, 3 m to the north
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
@@ -874,16 +873,14 @@ sigma_claimed = np.sqrt(0.05**2 + (3.0 * 0.1) ** 2)  # (12) with A of §4.1, 3 m
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 c, k, dt = sp.symbols("c k Δt", positive=True)
-C_8, W_6 = (
-    sp.diag(c * dx**2, c * dy**2, c * dt**2),
-    sp.Matrix([dt * sp.cos(theta), dt * sp.sin(theta), dtheta]),
-)
+C_8 = sp.diag(c * dx**2, c * dy**2, c * dt**2)
+W_6 = sp.Matrix([dt * sp.cos(theta), dt * sp.sin(theta), dtheta])
 try:
     W_6 * C_8 * W_6.T
 except sp.ShapeError:
     print("Smolec (8), Q: refused,", W_6.shape, "times", C_8.shape)
 meant = sp.Matrix([Dx, Dy, dtheta])
-Q_8, Q = c * meant * meant.T, W * sp.diag(sp.Symbol("C_d"), sp.Symbol("C_θ")) * W.T
+Q_8, Q = c * meant * meant.T, W * sp.diag(k, c) * W.T
 print("rank of what (8) means:", Q_8.rank(), " of W C Wᵀ:", Q.rank())
 print("its variance of the heading, driving straight on:", Q_8[2, 2].subs(dtheta, 0))
 b, s = sp.symbols("b sigma_beta", positive=True)
@@ -915,27 +912,18 @@ except sp.ShapeError:
     print("Smolec (18), P_ni: refused,", J_r.shape, "times", P_ri.T.shape)
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-where, z, rng = np.array([0, 0, 0.4]), np.array([5.0, 0.8]), np.random.default_rng(4)
-P_where, R_z, values = (
-    np.diag([0.15, 0.15, 0.08]) ** 2,
-    noise.R(5, 0.02, 0.02),
-    {theta: 0.4, beta: 0.8},
-)
+where, z, R_z = np.array([0, 0, 0.4]), np.array([5.0, 0.8]), noise.R(5, 0.02, 0.02)
+P_where, values = np.diag([0.15, 0.15, 0.08]) ** 2, {theta: 0.4, beta: 0.8}
 J10, J11 = (np.array(each.subs(values), dtype=float) for each in (J_10, J_11))
-errors = {}
-for name, P_there, Jr, Jz in [
-    ("J_r of (10)", P_where, J10, jacobians.J_z(where, z)),
-    ("J_z of (11), at SLAM's start", np.zeros((3, 3)), jacobians.J_xr(where, z), J11),
-]:
-    marks = small_errors.placed(where, P_there, z, R_z, rng) - models.g(where, z)
-    errors[name] = nees(marks, small_errors.new_landmark(P_there, Jr, Jz, R_z)).mean()
-    print(f"{name}: squared error {errors[name]:.0f} in units of P_nn; 2 is right")
+pairs = (P_where, J10, jacobians.J_z(where, z)), (0 * P_where, jacobians.J_xr(where, z), J11)
+nees_10, nees_11 = (small_errors.landmark_nees(where, z, R_z, *each) for each in pairs)
+print(f"(10): NEES {nees_10:.0f}; (11), where SLAM starts with P = 0: {nees_11:.0f}; 2 is right")
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # | place | printed | right | harm |
 # | --- | --- | --- | --- |
-# | Smolec (10) | $-\sin\theta$, $\cos\theta$ | $-r\sin\varphi$, $r\cos\varphi$ | errors {= np.sqrt(errors["J_r of (10)"] / 2):.1f =} times as large as believed |
-# | Smolec (11) | no $r$ | $r$ in the second column | {= np.sqrt(errors["J_z of (11), at SLAM's start"] / 2):.1f =} times, where SLAM starts |
+# | Smolec (10) | $-\sin\theta$, $\cos\theta$ | $-r\sin\varphi$, $r\cos\varphi$ | errors {= np.sqrt(nees_10 / 2):.1f =} times as large as believed |
+# | Smolec (11) | no $r$ | $r$ in the second column | {= np.sqrt(nees_11 / 2):.1f =} times, where SLAM starts |
 # | Smolec (16)–(18) | $P_{ni} = J_{\mathrm r} P_{\mathrm ri}^{\mathsf T}$ | $J_{\mathrm r} P_{\mathrm ri}$ | shapes do not fit; (16) and (17) are right |
 #
 # A filter with such an ellipse refuses its own landmark when it sees it again, or bends its pose to it.

@@ -7,6 +7,7 @@ def slopes(f, x, step=1e-6):
     """Jacobian ∂f/∂x by central differences: move one component of x a little, see what f does.
 
     Column j is (f(x + δ e_j) − f(x − δ e_j)) / 2δ; where f holds an angle, it must not jump there.
+    Equation (04.2).
 
     Parameters
     ----------

@@ -1,8 +1,9 @@
-"""What small errors become (lesson 04): robots that drive, landmarks placed, H with a wrong entry."""
+"""What small errors become (lesson 04): robots drive, landmarks are placed, H has a wrong entry."""
 
 import numpy as np
 
 from slamlab import models
+from slamlab.evaluation import nees
 from slamlab.geometry import wrap
 from slamlab.models import jacobians
 
@@ -60,6 +61,23 @@ def new_landmark(P, J_r, J_z, R):
     (2, 2) [m²]
     """
     return J_r @ P @ J_r.T + J_z @ R @ J_z.T
+
+
+def landmark_nees(x, z, R, P, J_r, J_z):
+    """Mean NEES of landmarks placed by a sight, with the covariance that two Jacobians claim.
+
+    Parameters
+    ----------
+    x, P : (3,), (3, 3) believed pose and its covariance [m, m, rad]
+    z, R : (2,), (2, 2) range, bearing and their covariance [m, rad]
+    J_r, J_z : (2, 3), (2, 2) Jacobians of g, right or wrong
+
+    Returns
+    -------
+    float, 2 where they are right
+    """
+    errors = placed(x, P, z, R, np.random.default_rng(4)) - models.g(x, z)
+    return nees(errors, new_landmark(P, J_r, J_z, R)).mean()
 
 
 def localised(factor, landmarks, robots=100, steps=20):
