@@ -81,8 +81,8 @@ views.show(
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### A tangent
 #
-# Call the motion $f$. It is no matrix, but errors are small, and a smooth function, seen from
-# near, is its tangent. With the error $\tilde x = x - \hat x$,
+# Call the motion $f$. It is no matrix, but our errors are small, and seen from near a smooth function
+# looks like its tangent. With the error $\tilde x = x - \hat x$,
 #
 # $$f(\hat x + \tilde x) \approx f(\hat x) + A\,\tilde x. \tag{04.1}$$
 #
@@ -101,7 +101,7 @@ views.show(
 # ### The matrix of our drive
 #
 # The definition (04.2) can be carried out without any calculus: move one component of the start by
-# a millionth, see what $f$ makes of it, divide. `slopes` does so for one column after the other.
+# a millionth, see by how much the end moves, and divide. `slopes` does so, column by column.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 A_here = slopes(lambda x: models.f_odometry(x, u), x_hat)
@@ -179,7 +179,7 @@ views.explore(
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="04-bias"
 # The end points bend round the start like a banana. The ellipse is straight, as a tangent is: it is
 # too long, far too thin, and in the wrong place. Move $\sigma$ of the heading down to 0.1 rad, and the two
-# agree. Then lengthen the drive: the same bend, enlarged, leaves the ellipse sooner.
+# agree. Then lengthen the drive: the bend grows with it, and ever fewer robots are inside.
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"] answers="04-bias"
 print("σ of θ   inside   their average is off f(x̂) by")
@@ -189,8 +189,8 @@ for heading_sigma in (0.1, 0.3, 0.6):
     print(f"{heading_sigma:3} rad {share_inside(b, ends_then):8.0%} {off:13.2f} m")
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="04-bias"
-# At 0.6 rad the robots are on average half a metre nearer to the start than the filter believes.
-# Nothing in (04.3) tells it, for a tangent knows nothing of the curve it leaves.
+# At 0.6 rad the robots end on average {= off:.2f =} m short of where the filter believes. Nothing in
+# (04.3) tells it so, for a tangent knows nothing of the curve that it touches.
 #
 # **A Jacobian is a promise about small errors.** An EKF must never let its heading get this unsure.
 # Samples (lesson 11) need no tangent, and in the exercise you will do better than (04.3), too.
@@ -343,7 +343,7 @@ H_steps.step("the root is r again: give it its name", in_r, given={r: root})
 #
 # The roman subscript stands for the robot. The row of the range is the unit vector that points from the
 # landmark to the robot: a step that way is the whole change of the range, a turn changes nothing. In the
-# row of the bearing, the $-1$ says that who turns left sees the whole world turn right.
+# row of the bearing, the $-1$ says that whoever turns left sees the whole world turn right.
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
@@ -368,9 +368,9 @@ for p in ([2.0, 1.0], [4.0, 2.0]):
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="04-far"
 # Units explain it. The row of the range has none, metres per metre; the row of the bearing is in
-# radians per metre, so something must be divided by metres. By its bearing, a far landmark says little
-# about where you are, and as much as a near one about where you look. Its range says as much about where
-# you are as that of a near one.
+# radians per metre, hence the second $r$ below. So the **bearing** of a far landmark says little about
+# where you are, though as much as that of a near one about where you look. The **range** of a far landmark
+# says as much about where you are as that of a near one.
 #
 # **Try** a sensor that measures the square of the range, `root**2`, in the derivation above. Every line
 # follows.
@@ -457,7 +457,7 @@ for name, bearing in {"subtracted": v[1], "wrapped": wrap(v[1])}.items():
 # Subtracted, the innovation throws the robot almost once round; wrapped, it moves the heading by
 # {= abs(np.degrees(correction[2])):.1f =}°. So every filter that works has
 #
-# $$v_\beta = \operatorname{wrap}(z_\beta - h_\beta(\hat x, p)) \in [-\pi, \pi), \tag{04.12}$$
+# $$v_\beta = \operatorname{wrap}(z_\beta - h_\beta(\hat x, p)) \in (-\pi, \pi], \tag{04.12}$$
 #
 # though no derivation says it: slopes know nothing of the jump. And all angles are in **radians**, for
 # only then is the slope of the sine a cosine.
@@ -603,13 +603,10 @@ print("P_ni =", E(p_n * p_i.T))
 # P_{\mathrm rn} &= P_{\mathrm{rr}} J_{\mathrm r}^{\mathsf T} \\
 # P_{ni} &= J_{\mathrm r} P_{\mathrm ri} \end{aligned} \tag{04.17}$$
 #
-# A new landmark is born as a relative of the robot, and of all that the robot is related to. Who sets
+# A new landmark is born as a relative of the robot, and of all that the robot is related to. Whoever sets
 # $P_{\mathrm rn}$ and $P_{ni}$ to zero makes the filter forget that its whole map shares errors. Lesson
-# 07 shows what that costs.
-
-# %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* A picture for it: everyone who copies from the same neighbour has the same mistakes,
-# though they never met.
+# 07 shows what that costs. (Two students who copied from the same neighbour make the same mistakes, though
+# they have never met.)
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=3
 # ## Trust nothing: three ways to the same matrix
@@ -643,8 +640,8 @@ for name, three in ways.items():
     hold(name, *three)
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# Zeros all the way down. Such a test costs a line for each matrix, it needs no idea of what the right
-# answer is, and it finds any entry that is wrong there. Make it your habit.
+# Zeros all the way down. Such a test costs a line for each matrix and needs no idea of what the right
+# answer is, and no entry that is wrong at this pose escapes it. Make it your habit.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## What one wrong sign does
@@ -702,13 +699,13 @@ views.explore(
 (right, _), (wrong, believed), (forgiven, _) = last(1, 3), last(-1, 3), last(0.5, 3)
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="04-sign"
-# With the wrong sign the median error is {= 100 * wrong:.0f =} cm after 20 sights, with the right $H$
-# {= 100 * right:.0f =} cm. And the filter believes in {= 100 * believed:.0f =} cm: it is sure of
-# something wrong, for no measurement ever enters $P$ (lesson 03).
+# With the wrong sign the median error is {= 100 * wrong:.1f =} cm after 20 sights, with the right $H$
+# {= 100 * right:.1f =} cm. And the filter believes in {= 100 * believed:.1f =} cm: it is sure of
+# something wrong, for no innovation enters $P$ (lesson 03).
 #
-# Move the factor. At one half the error is {= 100 * forgiven:.0f =} cm, nearly as good as right: the
+# Move the factor. At one half the error is {= 100 * forgiven:.1f =} cm, nearly as good as right: the
 # next sight mends what the last one missed. A wrong *size* may be forgiven; a wrong *sign* sends the robot the
-# wrong way. Neither shows in the believed $\sigma$. Only a test finds it.
+# wrong way. Neither can be read off the believed $\sigma$. Only a test finds it.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Literature
@@ -729,8 +726,8 @@ views.explore(
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=1
 # ## What you can do now
 #
-# You can derive a Jacobian, read it with units and pictures, test it in three ways, and say what it cannot
-# promise: large errors.
+# You can derive a Jacobian, read it with units and pictures, test it in three ways, and say where it fails:
+# at large errors.
 #
 # **What comes next:** [lesson 05](05_two_easy_halves.ipynb) puts $A$ and $H$ to work. Where am I in a known
 # map, and where are the landmarks if I know where I am?
@@ -791,8 +788,8 @@ print(sp.simplify(H_p.subs(placed) * g.jacobian(sight)))
 print(sp.simplify(H_r.subs(placed) + H_p.subs(placed) * g.jacobian(pose)))
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# That is a fourth test, and one that needs no computer: who has one right Jacobian and doubts the other
-# multiplies the two.
+# That is a fourth test, and one that needs no computer: whoever has one right Jacobian and doubts the
+# other multiplies the two.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## In print
@@ -832,7 +829,7 @@ bad = np.mean(abs(wrap(arctans - around)) > 1e-6)
 # | --- | --- | --- | --- |
 # | Smolec (1) | $\tan^{-1}\frac{p_y - y}{p_x - x}$ | atan2 | {= 100 * bad:.0f =} % of all directions come out 180° off: what lies behind is seen ahead |
 # | MAK (2.29) | the same, from object to robot | $p - x$, atan2 | read as atan2, each bearing is 180° off |
-# | Smolec (2) | $+(p_x - x)/r^2$ | $-(p_x - x)/r^2$ | {= 100 * wrong:.0f =} cm off after 20 sights, {= 100 * right:.0f =} cm with the right sign |
+# | Smolec (2) | $+(p_x - x)/r^2$ | $-(p_x - x)/r^2$ | {= 100 * wrong:.1f =} cm off after 20 sights, {= 100 * right:.1f =} cm with the right sign |
 # | Smolec (3) | minus columns of (2) | right once (2) is | else the wrong sign comes twice |
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
