@@ -304,7 +304,8 @@ views.explore(
 #
 # So much for moving; this is a good place for a break. Now the robot looks. It sees a landmark at
 # $p = (p_x, p_y)$ and measures a range $r$ and a bearing $\beta$. Pythagoras gives the range. The
-# bearing is the landmark's direction in the world, less the robot's own heading:
+# bearing is the landmark's direction in the world, less the robot's own heading. Together they are
+# the observation model:
 #
 # $$h(x, p) = \begin{bmatrix} \sqrt{(p_x - x)^2 + (p_y - y)^2} \\
 # \operatorname{atan2}(p_y - y,\ p_x - x) - \theta \end{bmatrix} \tag{04.8}$$
@@ -673,9 +674,13 @@ def spoiled(factor, landmarks):
     steps = np.arange(1, 21)
     title = f"∂β/∂y times {factor:.2f}".replace("-", "−")
     fig, ax = views.chart("sights", "place [m]", title, (8, 4))
-    ax.plot(steps, right, color=views.COLOURS["corrected"], label="error, right H")
-    ax.plot(steps, wrong, "--", color=views.COLOURS["naive"], label="error, spoiled H")
-    ax.plot(steps, believed, "-.", color=views.COLOURS["limit"], label="σ believed with spoiled H")
+    lines = {
+        "error, right H": (right, "corrected", "-"),
+        "error, spoiled H": (wrong, "naive", "--"),
+    }
+    lines |= {"σ believed with spoiled H": (believed, "limit", "-.")}
+    for name, (values, colour, dash) in lines.items():
+        ax.plot(steps, values, dash, color=views.COLOURS[colour], label=name)
     ax.set(ylim=(0, None), xticks=[1, 5, 10, 15, 20])
     views.legend(ax)
     return fig
@@ -820,14 +825,11 @@ compare(
     "Smolec (2), H", sp.Matrix([H[0, :], H[1, :].multiply_elementwise(sp.Matrix([[1, -1, 1]]))]), H
 )
 compare("Smolec (3), H", -H[:, :2], H_p.applyfunc(in_r))
-around = np.radians(np.arange(-179, 180, 2))
-arctans = np.arctan(np.sin(around) / np.cos(around))
-bad = np.mean(abs(wrap(arctans - around)) > 1e-6)
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # | place | printed | right | harm |
 # | --- | --- | --- | --- |
-# | Smolec (1) | $\tan^{-1}\frac{p_y - y}{p_x - x}$ | atan2 | {= 100 * bad:.0f =} % of all directions come out 180° off: what lies behind is seen ahead |
+# | Smolec (1) | $\tan^{-1}\frac{p_y - y}{p_x - x}$ | atan2 | 180° off for all that lies behind: it is seen ahead |
 # | MAK (2.29) | the same, from object to robot | $p - x$, atan2 | read as atan2, each bearing is 180° off |
 # | Smolec (2) | $+(p_x - x)/r^2$ | $-(p_x - x)/r^2$ | {= 100 * wrong:.1f =} cm off after 20 sights, {= 100 * right:.1f =} cm with the right sign |
 # | Smolec (3) | minus columns of (2) | right once (2) is | else the wrong sign comes twice |
