@@ -8,7 +8,7 @@ from sympy.printing.latex import LatexPrinter
 
 # blue of Okabe and Ito, 5.2 : 1 on white; the style sheet has their lighter blue for a dark page
 COLOUR = "#0072b2"
-SUBSCRIPT = re.compile(r"_\{[a-z]{1,2}\}")
+SUBSCRIPT = re.compile(r"_\{[a-z0-9]{1,2}\}")
 
 
 def marked_latex(change):
