@@ -29,7 +29,10 @@ class Scan:
             return (self.ranges > self.range_min) & (self.ranges < self.range_max)
 
     def points(self):
-        """The scan as a point cloud: (k, 2) points hit, in the robot's frame [m], in beam order."""
+        """The scan as a point cloud: (k, 2) points hit, in the robot's frame [m], in beam order.
+
+        Equation (02.3).
+        """
         r, a = self.ranges[self.valid], self.angles[self.valid]
         return np.column_stack([r * np.cos(a), r * np.sin(a)])
 

@@ -2,7 +2,7 @@
 # # 02 · Sensors and worlds: exercise
 #
 # **You will be able to** cast the ray of a lidar and the cone of an ultrasonic sensor, place what a
-# real device says in the world, simulate its noise, and find the size of that noise in recordings of
+# real device says in the world, simulate its noise, and find the size of that noise in readings of
 # a room in which people walk about.
 #
 # **60 minutes. Before:** lesson [02](../notebooks/02_sensors_and_worlds.ipynb).
@@ -12,8 +12,9 @@
 # promises, and tells you which law is broken. When you are stuck, `hint("02-ray-wall")` asks a
 # question that leads on. Cells marked `@attempt` show your functions at work.
 #
-# Metres and radians, counter-clockwise from +x, unless a task says otherwise. A pose is `[x, y, θ]`.
-# A function may not change its arguments: whoever called it still needs them.
+# All lengths are in metres and all angles in radians, counter-clockwise from the x axis, unless a
+# task says otherwise. A pose is `[x, y, θ]`. Leave the arguments of a function as they are: whoever
+# called it still needs them.
 
 # %%
 import numpy as np
@@ -24,18 +25,19 @@ from slamlab.checks import attempt, check
 # %% [markdown]
 # ## A beam and a wall
 #
-# A beam leaves the point **p** in the direction φ. A wall is a row `[x1, y1, x2, y2]`: it goes from
-# (x1, y1) to (x2, y2) and ends there.
+# A beam leaves the point $p$ in the direction $\varphi$. A wall is a row `[x1, y1, x2, y2]`: it
+# goes from $p_1 = (x_1, y_1)$ to $p_2 = (x_2, y_2)$ and ends there. In the lesson the sensor stood
+# at the origin; here it may stand anywhere.
 #
-# **Predict first.** A wall stands behind the sensor. What does the formula for the crossing of two
-# lines say about it, and what must a sensor say?
+# **Predict first.** Draw a beam that passes beside a wall, and one that flies away from it. What
+# are $r$ and $\tau$ of (02.1) in each case?
 #
-# **Your task.** How far does the beam fly until it meets the wall? `np.inf` where it does not: the
-# wall lies behind, or the beam passes beside it, or runs parallel to it.
+# **Your task.** How far does the beam fly until it meets the wall? Return `np.inf` where it does
+# not: the wall lies behind, or the beam passes beside it, or runs parallel to it.
 #
-# The wall has a length, of centimetres or of a hundred metres, and φ may be any number, also beyond
-# a whole turn. Beams and walls may run along x or y, and a wall that lies on the beam's own line is
-# parallel to it, too. No beam just touches the end of a wall.
+# The wall has a length, of centimetres or of a hundred metres, and $\varphi$ may be any number,
+# also one beyond a whole turn. Beams and walls may run along x or y. A wall that lies on the beam's
+# own line counts as parallel. No beam just touches the end of a wall.
 
 
 # %% name="ray-wall"
@@ -62,8 +64,8 @@ def ray_wall(p, phi, wall):
 check("02-ray-wall")
 
 # %% [markdown]
-# A beam that crosses three walls reports the nearest, and one that meets nothing within
-# `range_max` reports NaN. With your `ray_wall` that takes two lines, and they are ready. Move the
+# A beam that crosses three walls reports the nearest, and one that meets nothing within `range_max`
+# reports NaN. With your `ray_wall` this takes two lines, and we have written them for you. Move the
 # sensor about in Smolec's second situation, and watch what it cannot see.
 
 
@@ -85,7 +87,7 @@ def _():
     def draw(x, y, range_max):
         ranges = scan(np.array([x, y]), directions, walls, range_max)
         ends = np.column_stack([x + ranges * np.cos(directions), y + ranges * np.sin(directions)])
-        fig, ax = views.axes(f"{np.isfinite(ranges).sum()} of 180 beams came back", size=(6, 4.5))
+        fig, ax = views.axes(f"{np.isfinite(ranges).sum()} of 180 beams came back", size=(8, 5.4))
         views.draw(ax, layers.Segments("walls", walls))
         views.draw(ax, layers.Points("scan", ends), markersize=6)
         views.draw(ax, layers.Poses("robot", [[x, y, 0]]))
@@ -103,26 +105,26 @@ def _():
 # %% [markdown]
 # ## The first echo
 #
-# An ultrasonic sensor has no beam but a **cone**: it hears all that is less than `half` away from
-# its axis φ, to either side, and reports the nearest place of all, because its echo is the first to
-# come back. The lesson showed what this does to a door. Now compute it.
+# An ultrasonic sensor has a **cone** in place of a beam. It hears everything that lies less than
+# `half` to either side of its axis $\varphi$, and it reports the nearest place of all, because its
+# echo is the first to come back. The lesson showed what this does to a door. Now compute it.
 #
-# Fire a thousand beams into the cone, and you come close to the answer, but a thin post may stand
-# between two of them. The nearest place can be found exactly, for there are only three kinds of it.
-# A wall's places are $\mathbf{a} + s\,\mathbf{w}$ with $0 \le s \le 1$, as in the lesson, and their
-# distance from **p** has one least value along the line.
+# If you fire a thousand beams into the cone, you come close to the answer, but a thin post may
+# stand between two of them. The nearest place can be found exactly, because it is one of only three
+# kinds. A wall's places are $p_1 + \tau\,(p_2 - p_1)$ with $0 \le \tau \le 1$, as in the lesson,
+# and their distance from $p$ has one least value along the line.
 #
 # **Predict first.** Draw a cone, and a wall whose nearest place to the sensor lies (1) between its
 # ends and in the cone, (2) between its ends and beside the cone, (3) at one end. Which place of
 # the wall is heard first in each case?
 #
-# **Your task.** How far is the nearest place of all walls that lies in the cone? `np.inf` where there
-# is none. A wall sends an echo from each of its places, at whatever slant it is hit.
+# **Your task.** How far is the nearest place of all walls that lies in the cone? Return `np.inf`
+# where there is none. A wall sends an echo from each of its places, at whatever slant it is hit.
 #
-# `half` lies between 1° and 80°, and φ may be any number. There may be many walls, or none at all
-# (`walls` has the shape (0, 4) then). They may run along x or y, point straight at the sensor, cross
-# the whole cone, reach behind the sensor, or be as thin as a post; but each has a length, none comes
-# nearer to **p** than 10 cm, and none just touches the rim of the cone.
+# `half` lies between 1° and 80°, and $\varphi$ may be any number. There may be many walls, or none
+# at all (then `walls` has the shape (0, 4)). They may run along x or y, point straight at the
+# sensor, cross the whole cone, reach behind the sensor, or be as thin as a post. But each has a
+# length, none comes nearer to $p$ than 10 cm, and none just touches the rim of the cone.
 
 
 # %% name="echo"
@@ -153,8 +155,8 @@ def echo(p, phi, half, walls):
 check("02-echo")
 
 # %% [markdown]
-# The door of the lesson, heard by your cone in 91 directions. Choose another width of the cone: when
-# does the door close?
+# Here a door like that of the lesson is heard by your cone, in 91 directions. Choose another width
+# of the cone: when does the door close?
 
 
 # %% name="door"
@@ -172,7 +174,7 @@ def _():
         half = np.radians(cone_in_degrees / 2)
         ranges = np.array([echo(p, phi, half, walls) for phi in directions])
         ends = p + ranges[:, None] * np.column_stack([np.cos(directions), np.sin(directions)])
-        fig, ax = views.axes(f"a cone of {cone_in_degrees:.0f}°", size=(6, 4.2))
+        fig, ax = views.axes(f"a cone of {cone_in_degrees:.0f}°", size=(8, 5))
         views.draw(ax, layers.Segments("walls", walls))
         views.draw(ax, layers.Points("scan", ends[np.isfinite(ranges)]), markersize=7)
         views.draw(ax, layers.Poses("robot", [[*p, np.pi / 2]]))
@@ -188,20 +190,21 @@ def _():
 # %% [markdown]
 # ## What the device says
 #
-# An RPLIDAR reports rows of **degrees**, counted **clockwise** from its front, and
-# **millimetres**; 0 mm means that nothing came back. Its front looks along its own +x. It is
-# mounted on the robot at the pose `mount`, given in the robot's frame; the robot stands at `pose`
-# in the world.
+# An RPLIDAR reports **degrees**, counted **clockwise** from its front, and **millimetres**, where 0
+# means that nothing came back. Its front looks along its own x axis. It is mounted on the robot at
+# the pose `mount`, given in the robot's frame, and the robot stands at `pose` in the world. From
+# frame to frame, (02.5) leads.
 #
-# **Predict first.** The sensor sits on the robot's rear and looks backwards: mount = [−0.2, 0, π].
-# The robot stands at the origin and looks along +y. Where in the world is a wall that the sensor
-# reports at 90° and 1000 mm?
+# **Predict first.** The sensor sits on the robot's rear and looks backwards: `mount` is
+# $(-0.2, 0, \pi)$. The robot stands at the origin and looks along +y. Where in the world is a wall
+# that the sensor reports at 90° and 1000 mm?
 #
-# **Your task.** The points in the world, one row for each reading that came back.
+# **Your task.** Return the points in the world, one row for each reading that came back.
 #
-# A scan may have any number of readings, also none, and perhaps none of them came back: then there
-# are no rows (an empty list will do as well). What came back may be as near as a millimetre or as far
-# as 40 m. A scan may begin at any angle, so the degrees need not ascend: keep the rows' order.
+# A scan may have any number of readings, even none, and it may be that none of them came back. Then
+# there are no rows, and an empty list will do as well. What came back may be as near as a
+# millimetre or as far as 40 m. A scan may begin at any angle, so the degrees need not ascend. Keep
+# the order of the readings.
 
 
 # %% name="to-points"
@@ -229,8 +232,8 @@ def to_points(degrees, millimetres, mount, pose):
 check("02-to-points")
 
 # %% [markdown]
-# A robot turns on the spot and scans a room five times, with its sensor 30 cm off its centre. If
-# all is right, five scans make one room.
+# A robot turns on the spot and scans a room five times, with its sensor more than 30 cm off its
+# centre. If all is right, five scans make one room.
 
 
 # %% name="five-scans"
@@ -240,7 +243,7 @@ def _():
     from slamlab.worlds import room
 
     mount, degrees = np.array([0.3, 0.1, 0.5]), np.arange(0.0, 360.0, 2.0)
-    fig, ax = views.axes("Five scans, turned on the spot", size=(6, 4.5))
+    fig, ax = views.axes("Five scans, turned on the spot", size=(8, 5.4))
     for turn in (0.0, 0.4, 0.8, 1.2, 1.6):
         pose = np.array([0.5, 0.2, turn])
         eye = compose(pose, mount)
@@ -253,17 +256,18 @@ def _():
 # %% [markdown]
 # ## Noise
 #
-# A real range errs by a share of itself: its standard deviation is `error * r`. And some beams
-# return nothing: each is lost with the probability `dropouts`, whatever the others do.
+# Let us simulate a simple sensor. Its range errs by a share of itself, so that the standard
+# deviation of a range $r$ is `error` times $r$. And some beams return nothing: each is lost with
+# the probability `dropouts`, whatever happens to the others.
 #
-# **Predict first.** error = 0.01. How far off is a reading at 10 m typically? What is its
+# **Predict first.** Let `error` be 0.01. How far off is a reading at 10 m typically? What is its
 # *variance*?
 #
-# **Your task.** Noisy ranges, all chance from the generator `rng`: with the same seed the same
-# result. What was NaN already stays NaN.
+# **Your task.** Make true ranges noisy. Take all chance from the generator `rng`, so that the same
+# seed gives the same result. What was NaN already stays NaN.
 #
-# A scan may have any number of beams, also none; `error` may be 0, and `dropouts` anything from 0 to
-# 1, both included.
+# A scan may have any number of beams, even none. `error` may be 0, and `dropouts` anything from 0
+# to 1, both included.
 
 
 # %% name="noisy"
@@ -287,12 +291,13 @@ check("02-noise")
 # %% [markdown]
 # ## A busy room
 #
-# Now the way back: how large is a sensor's `error`, if all that one has is its readings? A sensor
-# stands still and scans k times, which makes an array of shape (k, n): a row a scan, a column a beam.
-# Each column holds repeated readings of *one* wall, at a distance that you do not know.
+# Now the way back: how large is a sensor's `error`, if all that we have is its readings? A sensor
+# stands still and scans $k$ times, which makes an array of shape $(k, n)$ with a row a scan and a
+# column a beam. Each column holds repeated readings of *one* wall, at a distance that you do not
+# know.
 #
-# In a quiet room that is a matter of one line, the standard deviation of each column as a share of
-# its mean:
+# In a quiet room this takes two lines: the spread of each column about its mean, as a share of that
+# mean.
 
 
 # %% name="quiet-fit"
@@ -303,35 +308,35 @@ def quiet_fit(scans):
 
 
 # %% [markdown]
-# This room is not quiet, and the sensor is cheap:
+# Our room is not quiet, and the sensor is cheap:
 #
 # - **People** walk about. Each reading is blocked with the probability `blocked`, from 0 to 0.4, and
-#   then it is anywhere between the sensor and the wall, each distance being as likely.
-# - Otherwise the reading is $r\,(1 + \text{error} \cdot q)$, where r is the distance of the beam's
-#   wall and q a standard normal number.
+#   then it is anywhere between the sensor and the wall, every distance being equally likely.
+# - Otherwise the reading is $r + \varepsilon$, where $r$ is the distance of the beam's wall, and the
+#   noise $\varepsilon$ is normal with the standard deviation `error` times $r$.
 # - The sensor **rounds** what it reports to whole multiples of `step`, which is 1 to 8 cm. For near
-#   walls that is more than the noise, and all readings may be the same.
+#   walls this is more than the noise, and all readings may be the same.
 #
-# The walls are 1 to 9 m away, and `error` lies between 0.002 and 0.03. There are 24 scans or more, and
-# twelve beams or more; no reading is missing.
+# The walls are 1 to 9 m away, and `error` lies between 0.002 and 0.03. There are 24 scans or more,
+# and twelve beams or more. No reading is missing.
 #
-# **Predict first.** Twenty readings of a wall at 5 m err by 5 cm, and one person is read at 0.5 m. How
-# large is the standard deviation of all 21, roughly?
+# **Predict first.** Twenty readings of a wall at 5 m err by 5 cm, and one reading is of a person,
+# at 0.5 m. How large is the standard deviation of all 21, roughly?
 #
-# **Your task.** Estimate `error` and `blocked`, as well as you can. Any method goes. A few questions
-# that may lead on:
+# **Your task.** Estimate `error` and `blocked` as well as you can, by any method. A few questions
+# may lead on:
 #
-# - How can a person be told from the wall, when the spread of the wall's readings is what you look
-#   for? May you guess it, and do better in a second round?
-# - A number that is rounded to steps errs by up to half a step, each error being as likely. What is
-#   the variance of such an error, and what is the variance of noise and rounding together?
-# - Which beams tell most of `error`: those of near walls or those of far ones? Does each of them
+# - How can a person be told from the wall, when the spread of the wall's readings is just what you are
+#   looking for? May you guess it, and do better in a second round?
+# - A number that is rounded to steps errs by up to half a step, every error being equally likely. What
+#   is the variance of such an error, and what is the variance of noise and rounding together?
+# - Which beams tell most about `error`, those of near walls or those of far ones? Does each of them
 #   deserve the same weight?
 #
-# Forty sensors are tried. An answer is judged by the factor that `error` is off, and by the
-# difference of `blocked`. In the middle of all sensors the first three steps of the ladder allow a
-# factor of 1.35, 1.17 and 1.08 (and 0.04, 0.03, 0.03); the last one wants 31 of the 40 to be
-# within a factor of 1.16 (and 0.06).
+# We try forty sensors. An answer is judged by the factor by which `error` is off, and by the
+# difference of `blocked`. For the first three steps of the ladder the *median* over all sensors
+# counts: a factor of 1.35, 1.17 and 1.08 (and a difference of 0.04, 0.03 and 0.03). The last step
+# wants 31 of the 40 to be within a factor of 1.16 (and 0.06).
 
 
 # %% name="busy-fit"
@@ -360,8 +365,8 @@ def busy_fit(scans, step):
 check("02-busy-room")
 
 # %% [markdown]
-# To try your method, here is a sensor whose truth is known. Choose another number, more people, or
-# coarser steps, and look where your method goes wrong, and by how much.
+# Here are sensors whose truth is known, so that you can try your method. Choose another number,
+# more people, or coarser steps, and look where your method goes wrong, and by how much.
 
 
 # %% name="readings"
@@ -395,7 +400,7 @@ def _():
 # %% [markdown]
 # ## Done?
 #
-# Save the notebook. The cell below then says what the grader will say about it;
-# the grader draws other inputs. The next lesson, [03 · The Kalman
-# filter](../notebooks/03_kalman_filter.ipynb), asks what such numbers are for: how much a reading
-# is worth against what one believed before.
+# Save the notebook. The cell below then says what the grader will say about it, though the grader
+# draws other inputs. The next lesson, [03 · The Kalman
+# filter](../notebooks/03_kalman_filter.ipynb), asks what such numbers are for: how much is a
+# reading worth, compared with what one believed before?

@@ -1,927 +1,418 @@
-# %% [markdown] slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=1
 # # 02 · Sensors and worlds
 #
-# **You will be able to** compute what a range sensor sees of a world, bring its readings from the
-# device's units and frame into the world's, say how wrong they are and why, and hold a simulated
-# sensor against recordings of the real one.
+# **You will be able to** compute what a range sensor sees of a world, carry its readings into the
+# world's frame, say how wrong they are and why, and hold a simulated sensor against a real one.
 #
-# **60 minutes** (20 for rays, 20 for frames, noise and three sensors, 20 for the real device).
-# **Before:** lesson 01; 2×2 linear systems; standard deviation.
+# **60 minutes** in two parts: what a sensor sees (23), and how it errs (37). **Before:** lesson
+# [01](01_why_slam.ipynb); two linear equations in two unknowns; the standard deviation.
 #
-# Sources: Smolec, chapter 3; Tuček, chapter 2; MAK thesis, chapter 6; the EKF note.
-#
-# *Key:* a simulator is a claim about a device. It can be tested like any other.
+# *Key:* a simulator is a claim about a device, and it can be tested like any other claim.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* Three parts that stand alone: rays and walls (geometry), frames and noise
-# (what every driver gets wrong once), the real device (statistics). If time is short, leave out
-# circles and the text file. The last part is the one they will remember: bring it.
+# *For the lecturer:* Part one is geometry, part two is statistics; each fits a lecture of its own.
+# If time is short, leave out "Move a wall" and "Three sensors, one place". What the class will
+# remember is the end of part two, where the numbers of a real device give away how it works. Polls
+# that work well: the wall behind the sensor, the forgotten minus, the three errors of a wheel.
 
-# %% slideshow={"slide_type": "skip"}
-import contextlib
-import tempfile
-import time
+# %% slideshow={"slide_type": "skip"} name="imports"
 from dataclasses import replace
-from itertools import pairwise
-from pathlib import Path
 
 import numpy as np
 import sympy as sp
 
-from slamlab import sources, views, worlds
+from slamlab import views, worlds
+from slamlab.checks import ask
+from slamlab.devices.rplidar.revolutions import robot_frame
 from slamlab.geometry import between, compose, transform
 from slamlab.layers import Points, Poses, Segments
 from slamlab.readings import Scan
-from slamlab.simulation import GP2D120, RPLIDAR_A2, ULTRASONIC, Scanner
-from slamlab.simulation import DifferentialDrive, Simulator
-from slamlab.worlds import World
+from slamlab.simulation import (
+    GP2D120,
+    RPLIDAR_A2,
+    ULTRASONIC,
+    DifferentialDrive,
+    Scanner,
+    Simulator,
+)
+from slamlab.studies import a2_at_rest
 from slamlab.views.editor import edit_world
-from slamlab.worlds.files import WorldFileError
+from slamlab.worlds import World
 
-# %% [markdown] slideshow={"slide_type": "slide"}
+real = a2_at_rest.stored()  # statistics of a real lidar, for part two
+
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## One beam, one wall
 #
-# A lidar measures how far a beam flies until it meets something. In a simulator somebody has to
-# compute that.
+# A lidar sends out a beam of light and measures how far it flies until it meets something. A
+# simulated lidar has no light, so we have to compute where beam and wall meet.
 #
-# **Question.** The beam leaves the point **p** in the direction **u**; the wall goes from **a** to
-# **b**. Where do they meet?
+# Put the origin into the sensor. The beam flies in the direction $\varphi$, along the unit vector
+# $n = (\cos\varphi, \sin\varphi)^{\mathsf T}$, and after a range $r$ it is at the point $r\,n$. The
+# wall goes from $p_1$ to $p_2$, and a share $\tau$ of this way leads to $p_1 + \tau\,(p_2 - p_1)$.
+# Beam and wall meet where the two are the same point:
 #
-# A point on the beam is p + t·u, a point on the wall a + s·w with w = b − a. They meet where the
-# two are equal, which is two equations, one for x and one for y, in two unknowns:
+# $$ r\,n = p_1 + \tau\,(p_2 - p_1). \tag{02.1} $$
 
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-t, s = sp.symbols("t s", real=True)
-p, a = sp.Matrix(sp.symbols("p_x p_y")), sp.Matrix(sp.symbols("a_x a_y"))
-u, w = sp.Matrix(sp.symbols("u_x u_y")), sp.Matrix(sp.symbols("w_x w_y"))
-sp.Eq(p + t * u, a + s * w, evaluate=False)
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# ### Two equations, two unknowns
+#
+# We know the beam and the wall, and look for $r$ and $\tau$. Written for $x$ and for $y$, (02.1) is
+# a linear system. With the unknowns on the left, its matrix is
+
+# %% slideshow={"slide_type": "fragment"} name="system" tags=["nbval-check-output"]
+phi, x_1, y_1, x_2, y_2 = sp.symbols("varphi x_1 y_1 x_2 y_2", real=True)
+n, p_1, p_2 = sp.Matrix([sp.cos(phi), sp.sin(phi)]), sp.Matrix([x_1, y_1]), sp.Matrix([x_2, y_2])
+M = sp.Matrix.hstack(n, p_1 - p_2)
+sp.Eq(sp.MatMul(M, sp.Matrix(sp.symbols("r tau"))), p_1, evaluate=False)
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# Unknowns to the left, with d = a − p for the way to the wall's beginning:
+# Such a system has one solution unless its determinant is zero. The first line below is $r$, and
+# the second is $\tau$; below the fraction bar stands, up to its sign, the determinant:
 
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-d = sp.Matrix(sp.symbols("d_x d_y"))
-M = sp.Matrix.hstack(u, -w)
-sp.Eq(sp.MatMul(M, sp.Matrix([t, s])), d, evaluate=False)
+# %% slideshow={"slide_type": "fragment"} name="solution" tags=["nbval-check-output"]
+r_and_tau = (M.inv() * p_1).applyfunc(sp.simplify)
+r_and_tau
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# A 2×2 system is solved by its determinant:
+# %% slideshow={"slide_type": "subslide"} name="ask-meet"
+ask(
+    "02-meet",
+    "A beam is a ray: it flies forwards only. A wall is a segment: it ends. But (02.1) knows only "
+    "two *lines*. **A wall stands behind the sensor, across the beam's line. What does the "
+    "formula say?**",
+    {
+        "the determinant is zero": "this happens when beam and wall are parallel; these two lines do "
+        "cross.",
+        "r is below zero": "to reach the crossing, the beam would have to fly backwards.",
+        "τ is below 0 or above 1": "then the lines would cross beyond the ends of the wall. Here they "
+        "cross between them, but behind the sensor.",
+        "nothing unusual: r is its distance": "the size is right, the sign is not; a sensor that "
+        "ignores it sees through the back of its head.",
+    },
+    right="r is below zero",
+)
 
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
--M.det()
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-sp.simplify(M.inv() * d).applyfunc(sp.factor)
-
-# %% [markdown] slideshow={"slide_type": "slide"}
-# The first line is t, how far the beam flies (|u| = 1, so t is in metres). The second is s, where
-# on the wall: 0 at its beginning, 1 at its end.
-#
-# **Predict:** here are four walls round a sensor at the origin with its beam at 25°. For which does
-# the formula give a t below zero, an s outside 0 to 1, a determinant of zero?
-
-# %% slideshow={"slide_type": "fragment"}
-beam = np.radians(25)
-four = {
+# %% slideshow={"slide_type": "fragment"} name="four-walls" answers="02-meet"
+FOUR_WALLS = {
     "in the way": (2.0, -0.5, 1.5, 2.5),
     "behind": (-1.5, 0.5, -0.5, -1.5),
     "beside": (2.8, -1.5, 2.6, 0.3),
-    "parallel": (0.0, 0.8, 2 * np.cos(beam), 0.8 + 2 * np.sin(beam)),
+    "parallel": (0.0, 0.8, 2 * np.cos(np.radians(25)), 0.8 + 2 * np.sin(np.radians(25))),
 }
-layers = [Segments("walls", list(four.values())), Poses("robot", [[0, 0, beam]])]
-fig, (ax,) = views.side_by_side({"Four walls and one beam": layers}, size=(6, 4))
-flight = [[0, 0, 3.6 * np.cos(beam), 3.6 * np.sin(beam)]]
-views.draw(ax, Segments("scan", flight), linestyle="--")
-for name, wall in four.items():
-    ax.annotate(name, wall[2:], xytext=(6, 4), textcoords="offset points")
-ax.margins(0.15)
-views.show(fig, "A beam: one wall crosses it, the others lie behind, beside, along.")
+crossing = sp.lambdify((phi, x_1, y_1, x_2, y_2), list(r_and_tau))
+
+
+def four_walls(beam_in_degrees, sensor_x):
+    """The four walls, what the formula says of each, and how far the beam really flies."""
+    turn, shift = np.radians(np.float64(beam_in_degrees)), np.array([sensor_x, 0])
+    ahead = np.array([np.cos(turn), np.sin(turn)])
+    flown = World(list(FOUR_WALLS.values())).cast(shift, [turn])[0]
+    meets = f"meets a wall after r = {flown:.2f} m" if flown < np.inf else "meets nothing"
+    layers = [
+        Segments("walls", list(FOUR_WALLS.values())),
+        Segments("scan", [[*shift, *(shift + min(flown, 4) * ahead)]]),
+        Poses("robot", [[*shift, turn]]),
+    ]
+    fig, (ax,) = views.side_by_side({f"The beam {meets}": layers}, size=(8, 5))
+    for name, wall in FOUR_WALLS.items():
+        with np.errstate(divide="ignore"):
+            r, tau = crossing(turn, *(np.array(wall) - [*shift, *shift]))
+        told = f"{name}\nr = {r:.2f}, τ = {tau:.2f}" if abs(r) < 99 else f"{name}\nno crossing"
+        ax.annotate(told, wall[2:], xytext=(7, 0), textcoords="offset points", va="center")
+    ax.margins(0.12)
+    return fig
+
+
+# %% slideshow={"slide_type": "subslide"} name="four-walls-picture" answers="02-meet"
+views.explore(
+    four_walls,
+    "A beam and four walls, beside each its r and τ: only the wall in the way is met.",
+    beam_in_degrees=(-180, 180, 25),
+    sensor_x=(-1.0, 3.0, 0.0),
+)
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** only the wall "in the way" is met. The other three are ways in which the *lines* cross,
-# or do not, while beam and wall never touch.
-
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-def meet(place, direction, wall):
-    """t and s of the point where the beam's line crosses the wall's line."""
-    a, b = np.array(wall[:2]), np.array(wall[2:])
-    u = np.array([np.cos(direction), np.sin(direction)])
-    system = np.column_stack([u, a - b])
-    if abs(np.linalg.det(system)) < 1e-12:
-        return np.inf, np.nan
-    return np.linalg.solve(system, a - place)
-
-
-for name, wall in four.items():
-    print("{:12} t = {:5.2f}   s = {:5.2f}".format(name, *meet(np.zeros(2), beam, wall)))
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# So the beam meets the wall when **t ≥ 0** and **0 ≤ s ≤ 1**; a determinant of zero means parallel.
-# Smolec asks instead whether the crossing lies in the same quadrant as the beam. That is t ≥ 0 in
-# other words, except for a beam along an axis, which lies in no quadrant.
-
-# %% [markdown] slideshow={"slide_type": "slide"}
-# ## All beams, all walls
+# The wall behind has $r < 0$, and the one beside the beam has $\tau > 1$. The parallel one has no
+# crossing: its determinant is zero. The beam meets a wall where
 #
-# A scan has hundreds of beams, and a beam that crosses three walls reports one.
+# $$ r \ge 0 \quad\text{and}\quad 0 \le \tau \le 1. \tag{02.2} $$
 #
-# **Predict:** which of the three? And what is left of a beam that crosses none?
+# Turn the beam until it meets "behind" or "beside", and watch which of the numbers changes.
 
-
-# %% slideshow={"slide_type": "fragment"}
-def scan_by_loops(place, directions, walls):
-    """Every beam against every wall, the nearest wins: as one writes it first."""
-    ranges = np.full(len(directions), np.inf)
-    for i, phi in enumerate(directions):
-        u_x, u_y = np.cos(phi), np.sin(phi)
-        for a_x, a_y, b_x, b_y in walls:
-            w_x, w_y, d_x, d_y = b_x - a_x, b_y - a_y, a_x - place[0], a_y - place[1]
-            determinant = u_x * w_y - u_y * w_x
-            if determinant != 0:
-                t = (d_x * w_y - d_y * w_x) / determinant
-                s = (d_x * u_y - d_y * u_x) / determinant
-                if t >= 0 and 0 <= s <= 1:
-                    ranges[i] = min(ranges[i], t)
-    return ranges
-
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# Smolec's simulator is such a pair of loops, with 3600 beams 0.1° apart. The package's `World.cast`
-# does the same. **Predict:** the largest difference between the two, and how many times faster the
-# package is on 3600 beams and some 20 walls.
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-bare_room = World(worlds.room().walls)
-turn = np.radians(np.arange(0.05, 360, 0.1))
-by_loops = scan_by_loops((0, 0), turn, bare_room.walls)
-difference = abs(by_loops - bare_room.cast((0, 0), turn)).max()
-print(f"{len(turn)} beams, {len(bare_room.walls)} walls: largest difference {difference:.9f} m")
-
-
-# %% slideshow={"slide_type": "fragment"}
-def seconds(task, rounds=3):
-    """The shortest of a few runs [s]."""
-    taken = []
-    for _ in range(rounds):
-        begin = time.perf_counter()
-        task()
-        taken.append(time.perf_counter() - begin)
-    return min(taken)
-
-
-loops = seconds(lambda: scan_by_loops((0, 0), turn, bare_room.walls))
-package = seconds(lambda: bare_room.cast((0, 0), turn), rounds=20)
-print(f"loops {1000 * loops:.0f} ms, package {1000 * package:.2f} ms: {loops / package:.0f} times")
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# The same numbers, hundreds of times sooner. Two ideas do it. Seen from the sensor, a wall fills an
-# interval of directions, and only beams inside it can meet it: the others are never asked. And what
-# is left is one list of (wall, beam) pairs that NumPy works off at once.
-
-# %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* The factor depends on the machine; expect some hundreds. Ask what the
-# loops cost with twice the walls (twice), and the package (hardly more: near walls hide the others,
-# and each asks only the beams that can meet it). `python -m benchmarks.raycast` measures it.
-
-# %% [markdown] slideshow={"slide_type": "slide"}
-# ## A round pillar
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=5
+# ## Many beams, many walls
 #
-# Table legs and pillars are circles: centre c, radius R. A point of the beam lies on the circle
-# when its distance from c is R. Let m be how far c lies *along* the beam, h how far *beside* it:
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-m, h, R = sp.symbols("m h R", positive=True)
-on_circle = sp.Eq((t - m) ** 2 + h**2, R**2)
-on_circle
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# **Predict:** how many solutions? Which one does a lidar report from outside, which from inside
-# (say, in a round tower)? When is there none?
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-sp.solve(on_circle, t)
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-tower = World(circles=[(3.0, 0.0, 0.5)])
-for story, x, y in [("from outside", 0, 0.3), ("from inside", 3.1, 0.3), ("passing by", 0, 0.7)]:
-    by_formula = [3 - x - np.sqrt(0.25 - y**2 + 0j), 3 - x + np.sqrt(0.25 - y**2 + 0j)]
-    print(f"{story:13} roots {np.round(by_formula, 3)}, cast {tower.cast((x, y), [0.0])[0]:.3f}")
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# The nearest root that is not behind: the first from outside, the second from inside. Complex roots
-# mean that the beam passes by.
-
-# %% [markdown] slideshow={"slide_type": "slide"}
-# ## A scan, as the sensor knows it
+# A scan has hundreds of beams, and each of them asks every wall. The nearest answer wins: what
+# stands behind it is hidden. In the package this is `World.cast`. It first finds the
+# interval of directions that each wall fills, because only the beams inside it can meet the wall.
 #
-# A scan is a list of ranges over angles. It becomes a picture by x = r cos β, y = r sin β.
+# What the sensor delivers is a list of ranges $r$, one for each bearing $\beta$. With
 #
-# **Predict:** what does a *straight* wall look like when you plot r over β?
-
-# %% slideshow={"slide_type": "fragment"}
-room = worlds.room()
-NOTHING = {"range_error": 0.0, "range_curvature": 0.0, "bearing_sigma": 0.0, "dropouts": 0.0}
-ideal = replace(RPLIDAR_A2, **NOTHING)
-seen = ideal.scan(room, np.zeros(3), np.random.default_rng(0))
-fig, (left, right) = views.panels(["polar: r over β", "Cartesian"], (10, 4), shared=False)
-left.plot(np.degrees(seen.angles), seen.ranges, ".", color=views.COLOURS["scan"], markersize=3)
-left.set(aspect="auto", xlabel="bearing β [degrees]", ylabel="range r [m]")
-views.draw(right, Segments("walls", room.outline()))
-views.draw(right, Points("scan", seen.points()), markersize=5)
-views.draw(right, Poses("robot", [[0, 0, 0]]))
-views.show(fig, "Left, ranges over angles in arcs and jumps; right, the same as points on walls.")
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** left, every straight wall is an arc, r = d / cos(β − α), lowest where the sensor looks at
-# it square on; where two walls meet, two arcs meet in a point. Where something hides what is behind
-# it, r *jumps*. On the right, only parts of walls have points on them: what is behind the table is
-# not known.
-
-# %% [markdown] slideshow={"slide_type": "slide"}
-# ## Sensor, robot, world
+# $$ p_{\mathrm s} = (r \cos\beta,\; r \sin\beta)^{\mathsf T}, \tag{02.3} $$
 #
-# A reading is made in the frame of the **sensor**. The sensor sits on the **robot**, seldom in its
-# middle. The robot stands somewhere in the **world**. Each step is a pose: the sensor's `mount` on
-# the robot, the robot's `pose` in the world.
+# where $\mathrm s$ stands for the sensor's frame, the list becomes a picture.
+
+# %% slideshow={"slide_type": "subslide"} name="ask-arc"
+ask(
+    "02-arc",
+    "A robot stands beside a long straight wall and plots the bare list: $r$ upwards, over $\\beta$. "
+    "**What does the wall look like?**",
+    {
+        "a straight line": "straight is the wall in x and y. At a slant the range grows faster "
+        "and faster.",
+        "level: the wall's distance does not change": "the distance of the wall is the "
+        "shortest of its ranges; every other beam flies farther.",
+        "an arc, lowest where the sensor looks at it square on": "to either side the beams hit "
+        "the wall at a slant, farther off.",
+        "an arc, highest where the sensor looks at it square on": "square on, the way to the wall "
+        "is shortest, so the arc is lowest there.",
+    },
+    right="an arc, lowest where the sensor looks at it square on",
+)
+
+
+# %% slideshow={"slide_type": "fragment"} name="polar" answers="02-arc"
+def ideal(beams):
+    """A lidar that makes no errors."""
+    return Scanner(beams=beams, range_error=0.0)
+
+
+def two_pictures(beams, heading_in_degrees):
+    """A scan of the room, as ranges over bearings and as points in the sensor's frame."""
+    pose = np.array([0, 0, np.radians(heading_in_degrees)])
+    seen = ideal(beams).scan(worlds.room(), pose, np.random.default_rng(0))
+    fig, (left, right) = views.panels(["r over β", "x and y"], (10, 4.6), shared=False)
+    left.plot(np.degrees(seen.angles), seen.ranges, ".", color=views.COLOURS["scan"], markersize=3)
+    left.set(aspect="auto", xlabel="bearing β [degrees]", ylabel="range r [m]", ylim=(0, 6.5))
+    views.draw(right, Points("scan", seen.points()), markersize=5)
+    views.draw(right, Poses("robot", [[0, 0, 0]]))
+    right.set(aspect="equal", adjustable="box", xlim=(-6, 6), ylim=(-6, 6))
+    return fig
+
+
+# %% slideshow={"slide_type": "subslide"} name="polar-picture" answers="02-arc"
+views.explore(
+    two_pictures,
+    "Left ranges over bearings, in arcs and jumps; right the same readings as points along walls.",
+    beams=(40, 3600, 400),
+    heading_in_degrees=(-180, 180, 0),
+)
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# On the left every straight wall is an arc. Where two walls meet, two arcs meet; where something
+# hides what is behind it, $r$ *jumps*. Turn the robot, and the left picture slides sideways, while
+# the right one turns the other way: in its own frame the robot never turns.
+
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# ### Sparse and dense
 #
-# **Predict:** the sensor sits 20 cm ahead of the robot's centre and looks to the left (+90°). The
-# robot stands at (2, 1) and looks along +y. A reading says: 3 m, straight ahead. Where is the wall?
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-mount, pose = np.array([0.2, 0.0, np.pi / 2]), np.array([2.0, 1.0, np.pi / 2])
-in_sensor = np.array([[3.0, 0.0]])
-in_robot = transform(mount, in_sensor)
-in_world = transform(pose, in_robot)
-print("in the robot's frame:", in_robot[0].round(3), "  in the world:", in_world[0].round(3))
-print("at once:", transform(compose(pose, mount), in_sensor)[0].round(3))
-print("the wrong way round:", transform(compose(mount, pose), in_sensor)[0].round(3))
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# From the inside out: first the mount, then the pose. `compose(pose, mount)` is where the sensor
-# itself stands in the world; turned round, it is nowhere.
-
-# %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* Do it with the body: you are the robot, your outstretched left arm the sensor.
-# A mount forgotten by 20 cm shows in no single scan; turn on the spot, and walls become doubled.
-
-# %% [markdown] slideshow={"slide_type": "slide"}
-# ## What the device says
+# A straight wall at the distance $\rho$ whose normal points in the direction $\alpha$ is seen at
+# the bearing $\beta$ under the *angle of incidence* $\iota = \beta - \alpha$, counted from square
+# on. Its range is
 #
-# An RPLIDAR reports **degrees**, counted **clockwise** from its front, **millimetres**, and 0 for
-# "nothing came back". Tuček's programs take its front for +y. `slamlab` knows metres, radians,
-# counter-clockwise, front +x, NaN for nothing. All that is converted in **one** place:
-
-
-# %% slideshow={"slide_type": "fragment"}
-def from_device(degrees, millimetres):
-    """A Scan from an RPLIDAR's rows: clockwise degrees to radians, mm to m, 0 to NaN."""
-    ranges = np.where(millimetres > 0, millimetres / 1000, np.nan)
-    return Scan(np.radians(-degrees), ranges)
-
-
-def as_device(scan):
-    """What the device would have said: the way back, for the experiment below."""
-    return np.degrees(-scan.angles) % 360, np.nan_to_num(1000 * scan.ranges)
-
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# **Predict:** somebody forgets the minus. What is wrong with a *single* scan then? Would you notice
-# it on the screen? And what happens when the robot turns on the spot by 40° and scans again?
-
-# %% slideshow={"slide_type": "fragment"}
-views_of_room = [(np.zeros(3), "map"), (np.array([0, 0, np.radians(40)]), "naive")]
-fig, panels = views.panels(["clockwise, converted", "the minus forgotten"], (10, 4.5))
-for panel, sign in zip(panels, (1, -1), strict=True):
-    for stands, colour in views_of_room:
-        degrees, mm = as_device(ideal.scan(room, stands, np.random.default_rng(0)))
-        points = transform(stands, from_device(sign * degrees, mm).points())
-        label = "first scan" if colour == "map" else "turned by 40°"
-        views.draw(panel, Points(colour, points), label=label, markersize=4)
-    views.draw(panel, Poses("robot", [[0, 0, 0]]))
-views.legend(panels[0], loc="upper left")
-views.show(fig, "Left, two scans lie on each other; right, both are mirrored and do not agree.")
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** one mirrored scan looks like a room, only another one: nobody notices. After a turn the
-# two disagree by 80°, twice the turn, because the map turns the wrong way. Test a driver with a
-# robot that turns.
-
-# %% [markdown] slideshow={"slide_type": "slide"}
-# ## Noise
+# $$ r = \frac{\rho}{\cos\iota}. \tag{02.4} $$
 #
-# A lidar is wrong in three ways: its range errs by a share of the range, its beam flies a little
-# beside the direction reported, and some beams return nothing. Here is a **first guess** of an
-# RPLIDAR A2; the last part of the lesson holds it against the real one.
+# Two beams that lie a small angle $\Delta\beta$ apart hit it $r\,\Delta\beta / \cos\iota$ apart.
+# With 400 beams this is {= 1000 * 3 * np.radians(0.9):.0f =} mm on a wall 3 m ahead, but
+# {= 100 * 8 * np.radians(0.9) / np.cos(np.radians(70)):.0f =} cm on one 8 m away that is seen 70°
+# off square on. Set the slider to 40 beams: some walls are left with two or three points, and
+# nobody could tell where they end. At the other end of the slider are Smolec's 3600.
 
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-guess = Scanner(beams=400, range_error=0.004, bearing_sigma=np.radians(0.1), dropouts=0.03)
-print(f"range  σ = {100 * guess.range_error:.2f} % of r")
-print(f"bearing σ = {np.degrees(guess.bearing_sigma):.2f}°")
-print(f"dropouts {100 * guess.dropouts:.0f} %, {guess.beams} beams a turn")
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# **Question.** A tenth of a degree sounds like nothing. What does it do to the *range* of a wall
-# that is seen at a slant? The range of a straight wall at distance δ, seen ι away from square on:
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-delta, iota = sp.symbols("delta iota", positive=True)
-r_wall = delta / sp.cos(iota)
-sp.Eq(sp.Symbol("dr/dβ"), sp.diff(r_wall, iota))
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-sp.simplify(sp.diff(r_wall, iota) / r_wall)
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# So dr = r tan ι dβ: at a grazing angle, a beam a little off meets the wall much farther out. The
-# two errors are independent, their variances add: σ² = (e r)² + (r tan ι σ_β)².
-#
-# **Predict** from that the spread at ι = 80° (tan 80° ≈ 5.7), as a share of r. Then let the sensor
-# look down a corridor 400 times without moving.
-
-# %% slideshow={"slide_type": "fragment"}
-rng, hall = np.random.default_rng(2), worlds.corridor()
-far = replace(guess, range_max=20.0)
-at_rest = np.array([far.scan(hall, np.zeros(3), rng).ranges for _ in range(400)])
-r_true = hall.cast((0, 0), far.angles)
-beside = hall.cast((0, 0), far.angles + 1e-6)
-slant = np.arctan(abs(beside - r_true) / 1e-6 / r_true)
-shares = np.nanstd(at_rest, axis=0) / r_true
-grid = np.radians(np.linspace(0, 84, 100))
-law = np.hypot(guess.range_error, np.tan(grid) * guess.bearing_sigma)
-
-# %% slideshow={"slide_type": "fragment"}
-predicted = {"predicted": 100 * law}
-labels = "angle of incidence ι [degrees]", "σ / r [%]", "400 readings of each beam"
-fig, ax = views.curves(np.degrees(grid), predicted, *labels)
-ax.plot(np.degrees(slant), 100 * shares, ".", color=views.COLOURS["scan"], label="simulated")
-ax.set(ylim=(0, 2), xlim=(0, 85))
-views.legend(ax)
-views.show(fig, "The spread of each beam lies on the predicted curve, which rises at a slant.")
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** the marks lie on the curve: 0.4 % square on, more than twice that beyond 80°. The few far
-# above it are beams that pass close to an edge: they meet now the near surface, now the one behind
-# it. No Gaussian describes those.
-
-# %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* This is why a filter that trusts "σ = 1 % of r" everywhere is fooled by
-# corridors: nearly all it sees there is seen at a slant. Ask what the picture would look like for a
-# wall at 8 m instead of 2 (the same: all is in shares of r).
-
-# %% [markdown] slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=2
 # ## What a beam cannot see
 #
-# Even without noise most of a building is out of sight: behind something (*occlusion*), or beyond
-# the range. Smolec's situation 1: four rooms off a corridor, their doors face each other.
-#
-# **Predict:** how much of all the walls does a robot see from the middle of one room? And where
-# does it see most?
+# Even a perfect sensor sees little of a building. Most walls stand behind others, which is called
+# *occlusion*, or beyond the sensor's range. Here are four rooms off a corridor, whose doors face
+# each other: Smolec's *situation 1*. How much of all its walls is in sight from the middle of one
+# room? And where must the robot stand to see most? Think of a place before you move it there.
 
-# %% slideshow={"slide_type": "fragment"}
+
+# %% slideshow={"slide_type": "fragment"} name="sight"
 flat = worlds.situation_1()
-steps = np.linspace(0, 1, 60)[:, None, None]
-samples = ((1 - steps) * flat.walls[:, :2] + steps * flat.walls[:, 2:]).reshape(-1, 2)
-metres = np.tile(np.hypot(*(flat.walls[:, 2:] - flat.walls[:, :2]).T) / 60, 60)
+ends = [(wall[:2], wall[2:]) for wall in flat.walls]
+places = [np.linspace(p, q, round(np.hypot(*(q - p)) / 0.05)) for p, q in ends]
+places = np.vstack(places)  # every 5 cm along the walls
 
 
 def in_sight(x, y):
-    """The places on the walls that a sensor at (x, y) sees, with the share they are of all."""
-    way = samples - [x, y]
+    """Which of the places on the walls a sensor at (x, y) sees, and their share of all."""
+    way = places - [x, y]
     distance = np.hypot(*way.T)
     free = flat.cast((x, y), np.arctan2(way[:, 1], way[:, 0])) > distance - 1e-6
-    fig, ax = views.axes(f"{metres[free].sum() / metres.sum():.0%} of the walls in sight")
+    return free, 100 * free.mean()
+
+
+# %% slideshow={"slide_type": "-"} name="sight-drawing"
+def draw_sight(x, y):
+    """The building, and what is in sight of it."""
+    free, share = in_sight(x, y)
+    fig, ax = views.axes(f"{share:.0f} % of the walls in sight", size=(8, 5.4))
     views.draw(ax, Segments("walls", flat.outline()))
-    views.draw(ax, Points("in sight", samples[free]), markersize=6)
+    views.draw(ax, Points("in sight", places[free]), markersize=6)
     views.draw(ax, Poses("robot", [[x, y, 0]]))
     return fig
 
 
+# %% slideshow={"slide_type": "-"} name="sight-picture"
 views.explore(
-    in_sight,
-    "From the middle of a room one sees its own walls and a strip through each door.",
+    draw_sight,
+    lambda x, y: (
+        f"From ({x:.1f} m, {y:.1f} m) {in_sight(x, y)[1]:.0f} % of the walls are in sight: near ones, "
+        "and strips behind doors."
+    ),
     x=(-1.9, 7.9, 0.1),
     y=(-1.9, 7.4, 0.1),
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** orange is in sight: the room itself, and through its door a strip of the corridor, the
-# door across, and the far wall of the room behind. Move into the door (x = 0, y = 2) and on through
-# the corridor: nowhere does one place show everything. That is what a *map* is for, and why it
-# needs poses.
+# From the middle of a room, {= in_sight(0.1, 0.1)[1]:.0f =} % of the walls are in sight: those of
+# the room itself and, through its door, strips of what lies behind. The door, at $(0, 2)$, shows
+# {= in_sight(0.1, 2.0)[1]:.0f =} %. We tried a place every half a metre, and none shows more than
+# {= max(in_sight(x, y)[1] for x in np.arange(-1.9, 8, 0.5) for y in np.arange(-1.9, 7.5, 0.5)):.0f =}
+# %. This is what a map is for, and why it needs poses.
 
-# %% [markdown] slideshow={"slide_type": "slide"}
-# ## An infrared sensor: the voltage tells
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=4
+# ## Sensor, robot, world
 #
-# The robot of the MAK thesis carries a GP2D120 on a servo. It sends infrared light and looks under
-# which angle the spot on the wall appears (*triangulation*): its voltage is about V = k / r.
+# A reading is made in the frame of the *sensor*. The sensor sits on the *robot*, seldom in its
+# middle, and the robot stands somewhere in the *world*. So two poses lie between a reading and the
+# map: the sensor's *mount* $b$, given in the robot's frame, and the robot's pose $x$. We go from
+# the inside out, and apply (01.3) twice:
 #
-# **Predict:** the voltage is noisy by the same σ_V always. How does the error of r grow with r?
+# $$ p_{\mathrm r} = \begin{pmatrix} x_b \\ y_b \end{pmatrix} + \mathrm{Rot}(\theta_b)\,
+# p_{\mathrm s}, \qquad
+# p = \begin{pmatrix} x \\ y \end{pmatrix} + \mathrm{Rot}(\theta)\, p_{\mathrm r}. \tag{02.5} $$
+#
+# Both at once are one step with the pose of the sensor in the world, which is $x \oplus b$.
 
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-k, V, r, s_V = sp.symbols("k V r sigma_V", positive=True)
-slope = sp.diff(k / V, V)
-sp.Eq(sp.Symbol("sigma_r"), sp.Abs(slope.subs(V, k / r)) * s_V)
+# %% slideshow={"slide_type": "subslide"} name="mounted" tags=["nbval-check-output", "code"]
+mount = np.array([0.2, 0.0, np.pi / 2])  # 20 cm ahead of the middle, looks to the left
+pose = np.array([2.0, 1.0, np.pi / 2])  # at (2, 1), looks along +y
+in_sensor = np.array([[3.0, 0.0]])  # 3 m, straight ahead
+in_robot = transform(mount, in_sensor)
+print("in the robot's frame:", in_robot[0].round(3))
+print("in the world:        ", transform(pose, in_robot)[0].round(3))
+print("both at once:        ", transform(compose(pose, mount), in_sensor)[0].round(3))
+print("the wrong way round: ", transform(compose(mount, pose), in_sensor)[0].round(3))
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# With the **square** of the range. For k = 0.12 V·m and 15 mV of noise:
+# Check the first two lines by hand. The last one is a point, too, and no error message tells you
+# that it means nothing.
 
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-for distance in (0.05, 0.10, 0.20, 0.28):
-    derived, preset = distance**2 * 0.015 / 0.12, GP2D120.model.sigma(distance)
-    print(f"{distance:.2f} m: derived {1000 * derived:5.2f} mm, GP2D120 {1000 * preset:5.2f} mm")
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Do it with your body. You are the robot, your outstretched left arm is the
+# sensor; let the class say where the wall is when you turn. Then show the figure with five scans.
 
-# %% [markdown] slideshow={"slide_type": "slide"}
-# ## Three sensors, one place
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# ### A forgotten mount
 #
-# An **ultrasonic** sensor hears the first echo, whatever the direction: a cone of 25°, and the
-# nearest surface in it wins. Now all three look at the MAK thesis' arena of cardboard boxes, from
-# the same place.
-#
-# **Predict** each picture: which sensor sees most, which nothing but its own neighbourhood, and
-# what becomes of the corners in the third?
-
-# %% slideshow={"slide_type": "fragment"}
-arena, stands = worlds.arena(), np.array([-0.12, -0.2, np.radians(100)])
-devices = {"lidar": RPLIDAR_A2, "infrared": GP2D120, "ultrasonic": ULTRASONIC}
-layers = {}
-for title, device in devices.items():
-    points = device.scan(arena, stands, np.random.default_rng(1)).points()
-    title = f"{title}: {len(points)} of {device.beams} readings"
-    hits = Points("scan", transform(stands, points))
-    layers[title] = [Segments("walls", arena.outline()), hits, Poses("robot", [stands])]
-fig, panels = views.side_by_side(layers, size=(11, 3.8))
-for panel in panels:
-    panel.lines[0].set_markersize(6)
-views.show(fig, "The lidar sees most walls sharply, infrared only the near ones, sound round arcs.")
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** the lidar draws what is in sight, but nothing nearer than 0.2 m. The infrared sensor sees
-# only what is nearer than 0.28 m, sharply at 10 cm, fraying farther out. The ultrasonic sensor
-# draws arcs: a whole fan of directions reports the same nearest place, so corners come out round
-# and notches are filled.
-
-# %% [markdown] slideshow={"slide_type": "slide"}
-# ## The door that sound does not see
-#
-# A room as in situation 1, an ultrasonic sensor in front of its door, which is 1 m wide.
-#
-# **Predict:** how wide may the cone be, for the door to be seen from 2 m away? (The cone of 25° is
-# 2 · 2 m · tan 12.5° ≈ 0.9 m wide there.) Then move the slider.
+# A single scan looks right whatever mount you believe in; the whole picture is just shifted. So let
+# the robot turn on the spot and lay five scans on one table. Its sensor sits 20 cm ahead of the
+# middle, but the program believes that it sits *in* the middle:
 
 
-# %% slideshow={"slide_type": "fragment"}
-ROOM_WITH_DOOR = World(
-    [
-        *[(-2, -1, 3, -1), (3, -1, 3, 2), (-2, 2, -2, -1), (-2, 3.5, 3, 3.5)],
-        *[(3, 2, 0.5, 2), (-0.5, 2, -2, 2)],  # between these two: the door
-    ]
-)
-
-
-def by_sound(cone_in_degrees):
-    """What an ultrasonic scanner with that cone draws in front of a door."""
-    device = replace(ULTRASONIC, cone=np.radians(cone_in_degrees), beams=91)
-    before_door = np.array([0.2, 0.0, np.pi / 2])
-    echoes = device.scan(ROOM_WITH_DOOR, before_door, np.random.default_rng(0)).points()
-    heard = Points("scan", transform(before_door, echoes))
-    layers = [Segments("walls", ROOM_WITH_DOOR.walls), heard, Poses("robot", [before_door])]
-    fig, (ax,) = views.side_by_side({f"cone {cone_in_degrees:.0f}°": layers}, size=(6, 4.2))
-    ax.lines[0].set_markersize(7)
+# %% slideshow={"slide_type": "fragment"} name="five-scans"
+def five_scans(believed_ahead, believed_turn_in_degrees):
+    """Five scans from five headings, placed with a mount that may be wrong."""
+    true, rng = np.array([0.2, 0.0, 0.0]), np.random.default_rng(0)
+    believed = np.array([believed_ahead, 0.0, np.radians(believed_turn_in_degrees)])
+    fig, ax = views.axes("Five scans of one room, turned on the spot", size=(8, 5.2))
+    for turn in np.radians([0, 70, 140, 210, 280]):
+        stands = np.array([0.5, 0.2, turn])
+        seen = ideal(400).scan(worlds.room(), compose(stands, true), rng).points()
+        placed = transform(compose(stands, believed), seen)
+        views.draw(ax, Points("scan", placed), markersize=4)
     return fig
 
 
+# %% slideshow={"slide_type": "-"} name="five-scans-picture"
 views.explore(
-    by_sound,
-    lambda cone_in_degrees: (
-        f"A wall with a door as a cone of {cone_in_degrees:.0f} degrees hears it: the wider the "
-        "cone, the narrower the door."
+    five_scans,
+    lambda believed_ahead, believed_turn_in_degrees: (
+        f"Five scans with a mount believed {believed_ahead:.2f} m ahead, and turned by "
+        f"{believed_turn_in_degrees:.0f}°: the walls lie on each other only if both are right."
     ),
-    cone_in_degrees=(0, 40, 25),
+    believed_ahead=(0.0, 0.4, 0.0),
+    believed_turn_in_degrees=(-20.0, 20.0, 0.0),
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** at 25° the door posts close the door but for a direction or two, and the wall is bent. At
-# 0° it is a lidar and the door stands wide open; at 30° it is gone. A robot that maps by sound
-# walls itself in. The EKF note has such a sensor; it must know that the *bearing* of an echo is
-# good to the cone only.
+# Every wall stands there several times, because the five scans were taken from five places. Move
+# the first slider to 0.20, and they fall on each other. Now the second slider: what would you see
+# of a wrong turn if the robot never moved?
 
-# %% [markdown] slideshow={"slide_type": "slide"}
-# ## The real thing
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=4
+# ## What the device says
 #
-# Three recordings of a real RPLIDAR A2 that stood still in a room: 8, 22 and 19 turns. They are
-# other people's and not part of the course. Where they are missing, the next cell says so and goes
-# on with a simulated log; the text below is about the real ones.
+# An RPLIDAR reports *degrees*, counted *clockwise* from its front, *millimetres*, and 0 for
+# "nothing came back". The course speaks of radians, counter-clockwise, metres and NaN. A program
+# that converts here and there will one day convert twice, so the package converts in one place,
+# where readings enter:
 
-# %% slideshow={"slide_type": "fragment"}
-try:
-    paths = [sources.recording(f"rplidar-a2-{number}") for number in (1, 2, 3)]
-    logs = [[reading.scan for reading in sources.open(path)] for path in paths]
-    device_name = "real A2"
-except sources.SourceError as missing:
-    print(f"{missing}\n\nGoing on with a SIMULATED log instead: RPLIDAR_A2 in a corridor.")
-    rng = np.random.default_rng(5)
-    logs = [[RPLIDAR_A2.scan(worlds.corridor(), np.zeros(3), rng) for _ in range(20)]]
-    device_name = "SIMULATED log"
-print(device_name, [len(log) for log in logs], "turns")
+# %% slideshow={"slide_type": "fragment"} name="robot-frame" tags=["nbval-check-output", "code"]
+angles, ranges = robot_frame(angle_deg=[0.0, 90.0, 270.0], range_mm=[1500.0, 800.0, 0.0])
+print(np.degrees(angles), "degrees,", ranges, "m")
 
-# %% slideshow={"slide_type": "fragment"}
-simulated = RPLIDAR_A2.scan(worlds.room(), np.zeros(3), np.random.default_rng(3))
-fig, _ = views.side_by_side(
+# %% slideshow={"slide_type": "subslide"} name="ask-minus"
+ask(
+    "02-minus",
+    "Somebody forgets that the device counts clockwise: every bearing has the wrong sign. The robot "
+    "scans, turns by 40° on the spot, scans again, and lays both scans out. **By how much are "
+    "the two turned against each other?**",
     {
-        device_name: [Points("first turn", logs[0][0].points())],
-        "RPLIDAR_A2 in the simulated room": [Points("one turn", simulated.points())],
+        "not at all: both are mirrored alike": "both are mirrored, but each in its own frame, and the "
+        "frame has turned.",
+        "by 40°": "this is what forgetting the *turn* would do. With the minus, the map also turns "
+        "the wrong way.",
+        "by 80°": "the mirrored room turns by 40° to the wrong side, and the pose adds 40° more.",
     },
-    size=(10, 4.5),
-    shared=False,
+    right="by 80°",
 )
-views.show(fig, "Left a real room with an open side and a hallway beyond; right the simulated one.")
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** a room about 5 m wide, open at the top to a hallway that ends 12 m away. At a first look
-# the two are of one kind. Look at the far wall: it is *ragged*, and more so than a fixed share of
-# the range would make it. So let us measure. (In recordings 2 and 3 people walk about: that is what
-# real recordings are like.)
-
-# %% [markdown] slideshow={"slide_type": "slide"}
-# ## Points a turn
-#
-# The simulator has 400 beams, 0.9° apart, always in the same directions. **Predict:** does the real
-# device look in the same directions in every turn?
-
-# %% slideshow={"slide_type": "fragment"}
-for number, log in enumerate(logs, 1):
-    sizes = [len(scan.ranges) for scan in log]
-    gaps = [np.degrees(np.median(abs(np.diff(scan.angles)))) for scan in (log[0], log[-1])]
-    print(
-        f"recording {number}: {sizes[0]} points in the first turn, {sizes[-1]} in the last;", end=""
-    )
-    print(f" {gaps[0]:.2f}° apart, then {gaps[1]:.2f}°")
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# From 537 down to 356 points, within one recording. The device measures at a steady rate, and its
-# motor was still spinning up: fewer measurements fit into a faster turn. So neither the number nor
-# the directions are fixed, and whoever compares beam 17 with beam 17 of the next turn compares two
-# different places.
-
-# %% [markdown] slideshow={"slide_type": "slide"}
-# ## Repeated ranges at rest
-#
-# To see the noise, compare each reading with what the turn **before** says of that direction:
-# between two readings that are near each other (not across an edge) a straight line is good enough.
-#
-# The difference has the noise of three readings in it: its own, and (1 − τ) and τ times those of
-# the two neighbours. Dividing by √(1 + τ² + (1 − τ)²) leaves the noise of one.
 
 
-# %% slideshow={"slide_type": "fragment"}
-def surface(turn, angles):
-    """What a turn says of other directions: range, NaN where it is not smooth; tan ι; the root."""
-    order = np.argsort(turn.angles)
-    known, ranges = turn.angles[order], turn.ranges[order]
-    right = np.clip(np.searchsorted(known, angles), 1, len(known) - 1)
-    width, jump = known[right] - known[right - 1], ranges[right] - ranges[right - 1]
-    tau = (angles - known[right - 1]) / width
-    r = ranges[right - 1] + tau * jump
-    with np.errstate(invalid="ignore"):
-        smooth = (abs(jump) < 0.05 * r) & (abs(tau - 0.5) <= 0.5)
-    return np.where(smooth, r, np.nan), abs(jump) / width / r, np.sqrt(1 + tau**2 + (1 - tau) ** 2)
+# %% slideshow={"slide_type": "fragment"} name="minus" answers="02-minus"
+def two_scans(turned_by_degrees, minus_forgotten):
+    """Two scans before and after a turn on the spot, placed with the right or the wrong sign."""
+    fig, ax = views.axes("Two scans of one room from one place", size=(8, 5.4))
+    for turn, name in ((0, "map"), (np.radians(turned_by_degrees), "naive")):
+        stands = np.array([0, 0, turn])
+        seen = ideal(400).scan(worlds.room(), stands, np.random.default_rng(0))
+        angles = -seen.angles if minus_forgotten else seen.angles
+        placed = transform(stands, Scan(angles, seen.ranges).points())
+        label = "first scan" if name == "map" else "after the turn"
+        views.draw(ax, Points(name, placed), label=label, markersize=4)
+    views.draw(ax, Poses("robot", [[0, 0, 0]]))
+    views.legend(ax)
+    return fig
 
 
-def repeats(before, scan):
-    """Rows of (range expected from the turn before, error of this reading, tan ι)."""
-    expected, slant, root = surface(before, scan.angles)
-    rows = np.column_stack([expected, (scan.ranges - expected) / root, slant])
-    return rows[~np.isnan(expected)]
-
-
-def all_repeats(logs):
-    """The rows of all pairs of turns that follow one another."""
-    pairs = [pair for log in logs for pair in pairwise(log)]
-    return np.vstack([repeats(*pair) for pair in pairs])
-
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# **Predict:** the data sheet allows 0.75 % of the range, Smolec simulates 1 %, our guess is 0.4 %.
-# Which is nearest?
-
-
-# %% slideshow={"slide_type": "fragment"}
-def robust(errors):
-    """Standard deviation told by the median: a few gross errors do not move it."""
-    return 1.4826 * np.nanmedian(abs(errors))
-
-
-data = all_repeats(logs)
-share = data[:, 1] / data[:, 0]
-kept = abs(share) < 0.03  # not people who walked through the beam
-print(f"{device_name}: {len(share)} pairs, {np.isnan(share).sum()} of them came back empty")
-print(f"root mean square {100 * np.sqrt(np.mean(share[kept] ** 2)):.2f} % of r")
-print(f"by the median    {100 * robust(share):.2f} % of r")
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# Two answers. The root mean square says 0.39 %, and that is where our guess comes from. The median
-# says 0.25 %: *most* readings are better than that. If the noise were Gaussian and the same share everywhere,
-# the two would agree. So it is not.
-
-# %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* Let them find reasons why the two differ before going on: noise that is not
-# the same share at all ranges; slanted walls; edges; people. The next two sections take slant
-# and range. Data sheets give one number because one number fits into a table.
-
-# %% [markdown] slideshow={"slide_type": "slide"}
-# ## At a slant
-#
-# The law above, (r tan ι σ_β)², holds for every device whose beam jitters. Take ranges of 2 to 4 m
-# only, and sort them by incidence.
-#
-# **Predict:** will the guess, 0.1° of bearing noise, fit?
-
-# %% slideshow={"slide_type": "fragment"}
-middle = data[(data[:, 0] > 2) & (data[:, 0] < 4)]
-incidence = np.degrees(np.arctan(middle[:, 2]))
-square_on = robust((middle[:, 1] / middle[:, 0])[incidence < 15])
-print("ι [degrees]   measured   predicted with σ_β = 0.1°   (σ / r, per cent)")
-for low in (0, 15, 30, 45, 60):
-    there = middle[(low <= incidence) & (incidence < low + 15)]
-    predicted = np.hypot(square_on, np.median(there[:, 2]) * np.radians(0.1))
-    told = 100 * robust(there[:, 1] / there[:, 0]), 100 * predicted
-    print("{:3} to {:2}       {:.2f}       {:.2f}".format(low, low + 15, *told))
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# The real device gets worse at a slant, and 0.1° fits up to 60°; beyond, it is worse than predicted.
-# (Less light comes back at a slant, too; these data cannot tell the two apart.)
-
-# %% [markdown] slideshow={"slide_type": "slide"}
-# ## Does σ grow like r?
-#
-# Now leave the slanted ones out: only readings with tan ι below ½.
-#
-# **Predict:** plotted over r on doubly logarithmic axes, a σ that is a fixed share of r has slope
-# 1. Which slope will the real one have?
-
-
-# %% slideshow={"slide_type": "fragment"}
-def by_range(rows, edges=(2, 2.5, 3, 3.5, 4, 5, 6, 8, 10, 13), least=50):
-    """Range and robust σ of the errors, a row for each bin with enough readings."""
-    bins = [rows[(low <= rows[:, 0]) & (rows[:, 0] < high)] for low, high in pairwise(edges)]
-    return np.array([[b[:, 0].mean(), robust(b[:, 1])] for b in bins if len(b) >= least])
-
-
-r_bin, sigma_bin = by_range(data[data[:, 2] < 0.5]).T
-squares = np.polyfit(r_bin**2, (sigma_bin / r_bin) ** 2, 1, w=(r_bin / sigma_bin) ** 2)
-curvature, error = np.sqrt(np.maximum(squares, 0))
-print(f"fit: σ² = ({100 * error:.2f} % · r)² + ({1000 * curvature:.2f} mm/m² · r²)²")
-
-# %% slideshow={"slide_type": "fragment"}
-claims = {
-    "Smolec: 1 %": 0.01 * r_bin,
-    "guess: 0.4 %": 0.004 * r_bin,
-    "fit: r and r²": np.hypot(error * r_bin, curvature * r_bin**2),
-}
-measured = {device_name: 1000 * sigma_bin}
-in_mm = {name: 1000 * sigma for name, sigma in claims.items()}
-fig, ax = views.growth(r_bin.round(1), measured, in_mm, "range r [m]", "σ [mm]", "At rest")
-share = [f"{s / r:.1%} of the range at {r:.0f} m" for r, s in zip(r_bin, sigma_bin, strict=True)]
-views.show(fig, f"The spread grows with r²: {share[0]}, {share[-1]}.")
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** the marks cross the line of our guess at about 7 m: the real device is more than twice
-# as good at 2.4 m (4 mm), and worse by more than half at 11.5 m (7 cm). One share for all ranges
-# fits nowhere but in the middle. The data sheet's 0.75 % lies between the two lines and holds, just
-# about, everywhere: it is a promise, not a description. The fit adds a part that grows with r².
-# Where have we seen that?
-
-# %% [markdown] slideshow={"slide_type": "slide"}
-# ## The fingerprint
-#
-# The infrared sensor measured 1/r. If the A2 does the same, in whole steps of some size q, then r
-# comes in steps too: a step of 1/r is a step of q r² in r. Against that stands the unit of the
-# log: whole millimetres.
-#
-# **Predict:** at 3 m and at 11 m, how far apart are neighbouring values of r that ever occur?
-
-# %% slideshow={"slide_type": "fragment"}
-ranges = np.concatenate([scan.ranges for log in logs for scan in log])
-values = np.unique(np.round(1000 * ranges[np.isfinite(ranges)]))
-for low, high in [(3.0, 3.2), (4.5, 4.7), (6.8, 7.2), (11.0, 11.4)]:
-    near = values[(1000 * low <= values) & (values < 1000 * high)]
-    if len(near) > 5:
-        step, r_there = np.median(np.diff(near)), (low + high) / 2
-        print(f"{low:4.1f} m: {step:2.0f} mm apart; step / r² is {step / r_there**2:.3f} mm/m²")
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# At 11 m every range that occurs is 11 or 12 mm from the next; nothing in between ever does. At 7 m
-# it is 5 mm, at 4.5 m 2 mm: always about 0.1 mm/m² times r². The device measures **1/r**: it
-# triangulates, as the infrared sensor does. That is why its σ grows with r². No data sheet was
-# needed: the numbers told it.
-
-# %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* The one moment of detective work; give it time. At 3 m and below, the
-# whole millimetres of the log are coarser than the device's own steps: nothing can be told there.
-# Can the method be trusted? Without the recordings the same cells run on the simulated RPLIDAR_A2:
-# they give back its σ, its dropouts, and a step / r² that is no constant.
-
-# %% [markdown] slideshow={"slide_type": "slide"}
-# ## Empty returns
-#
-# 2.7 to 3.3 % of all readings are empty, so our guess drops 3 % of its beams, by chance.
-#
-# **Predict:** are the real ones spread by chance, too?
-
-# %% slideshow={"slide_type": "fragment"}
-title = "Each empty return of one recording; in the lowest row, one simulated turn"
-fig, ax = views.chart("bearing [degrees]", "turn", title, (8, 3.2))
-whole = max(logs, key=len)
-for number, scan in enumerate(whole):
-    empty = np.degrees(scan.angles[np.isnan(scan.ranges)]) % 360
-    ax.plot(empty, np.full(len(empty), number), "|", color=views.COLOURS["naive"])
-chance = guess.scan(worlds.corridor(), np.zeros(3), np.random.default_rng(7))
-lost = np.degrees(chance.angles[np.isnan(chance.ranges)]) % 360
-ax.plot(lost, np.full(len(lost), -3), "|", color=views.COLOURS["corrected"])
-ax.set(xlim=(0, 360), yticks=(0, 5, 10, 15, 20))
-views.show(fig, "Empty returns stand above each other in a few directions, turn after turn.")
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** they stand in columns: the same directions are empty turn after turn. The broad one looks
-# through the open side at something that the device does not see: too far, too dark, too slanted,
-# or glass. The slanted line is the edge of a person who walks by. The single turn at the bottom,
-# from the simulator, has its empties anywhere.
-
-# %% slideshow={"slide_type": "fragment"}
-empty = np.isnan(data[:, 1])
-for low, high in [(0, 2), (2, 3), (3, 5), (5, 8), (8, 13)]:
-    there = (low <= data[:, 0]) & (data[:, 0] < high)
-    if there.sum() > 100:
-        lost = 100 * empty[there].mean()
-        print(f"smooth surface at {low} to {high} m: {lost:.1f} % of {there.sum()} empty")
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# Where the turn before saw a smooth surface, less than one reading in a hundred is lost up to 8 m,
-# and four beyond. (Nearer than 2 m there was nearly nothing but people, and they walk on.) So most
-# empties are no dropouts at all: they say "nothing here that I can see", and that is knowledge.
-#
-# A **dropout** is an empty reading where there *is* something. To be sure that it is still there, ask
-# the turn after, too. **Predict:** what is left of the 3 %?
-
-# %% slideshow={"slide_type": "fragment"}
-lost, triples = [], [log[i : i + 3] for log in logs for i in range(len(log) - 2)]
-for before, scan, after in triples:
-    one, other = (surface(turn, scan.angles)[0] for turn in (before, after))
-    with np.errstate(invalid="ignore"):
-        lost += np.isnan(scan.ranges[abs(one - other) < 0.05 * one]).tolist()
-print(f"the turn before saw a surface:     {100 * empty.mean():.2f} % empty")
-print(f"the turns before and after saw it: {100 * np.mean(lost):.2f} % empty")
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# The first number still has people in it; the second leaves out every spot that is lost more often
-# than seen. The device lies between the two, and far below the guess: call it 0.5 %.
-
-# %% [markdown] slideshow={"slide_type": "slide"}
-# ## What the simulator lacks
-#
-# The package's preset `RPLIDAR_A2` holds what such a fit gives over all ranges and slants at once:
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-e, c = RPLIDAR_A2.range_error, RPLIDAR_A2.range_curvature
-print(f"range σ² = ({100 * e:.2f} % · r)² + ({1000 * c:.2f} mm/m² · r²)²")
-print(f"bearing σ = {np.degrees(RPLIDAR_A2.bearing_sigma):.2f}°")
-print(f"dropouts {100 * RPLIDAR_A2.dropouts:.1f} %")
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# Set preset and first guess in the middle of square rooms of all sizes, and treat what they say
-# like the real device's. **Predict** where the three curves part.
-
-
-# %% slideshow={"slide_type": "fragment"}
-def on_the_bench(device, distance):
-    """σ / r of a simulated device at rest, as measured above, with walls at that distance."""
-    square = World(worlds.box((0, 0), (2 * distance, 2 * distance)))
-    device, rng = replace(device, range_max=20.0), np.random.default_rng(9)
-    rows = all_repeats([[device.scan(square, np.zeros(3), rng) for _ in range(20)]])
-    rows = rows[rows[:, 2] < 0.5]
-    return robust(rows[:, 1] / rows[:, 0])
-
-
-benches = {
-    name: [100 * on_the_bench(device, distance) for distance in r_bin]
-    for name, device in {"RPLIDAR_A2": RPLIDAR_A2, "first guess": guess}.items()
-}
-fig, ax = views.curves(r_bin, benches, "range r [m]", "σ / r [%]", "σ at rest, by the median")
-ax.plot(r_bin, 100 * sigma_bin / r_bin, "o", color=views.COLOURS["truth"], label=device_name)
-ax.set_ylim(0, 1)
-views.legend(ax)
-views.show(
-    fig, "The preset follows the real device's rise with range; the first guess stays level."
+# %% slideshow={"slide_type": "subslide"} name="minus-picture" answers="02-minus"
+views.explore(
+    two_scans,
+    lambda turned_by_degrees, minus_forgotten: (
+        f"Two scans before and after a turn by {turned_by_degrees}°: "
+        + (f"mirrored, and {2 * turned_by_degrees}° apart." if minus_forgotten else "they agree.")
+    ),
+    turned_by_degrees=(0, 90, 40),
+    minus_forgotten=True,
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** the preset follows the real device within a quarter, the first guess is level.
-#
-# | of the real device | in the simulator |
-# |---|---|
-# | σ grows with r²: 0.15 % of r at 2.4 m, 0.65 % at 11.5 m | yes, `range_curvature` |
-# | worse at a slant, as 0.1° of bearing noise makes it | yes |
-# | steps of 1/r: 12 mm at 11 m | no |
-# | few empties on surfaces, more beyond 8 m | by chance, 0.5 % everywhere |
-# | empties in fixed directions: past edges, into the open | only beyond the range |
-# | errors that are the same in every turn | no; a device at rest cannot tell |
-# | number and directions of beams change from turn to turn | fixed |
-# | gross errors at edges | only that the beam jitters across them |
-# | dark, shiny, transparent surfaces | no; these recordings cannot tell |
-#
-# A simulator need not have it all. Its user must know what it lacks.
+# Each mirrored scan looks like a room, only another one, and nobody would notice. After the turn
+# the two disagree, and they disagree by *twice* the turn. So test a driver with a robot that turns.
 
-# %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* Ask which of the rows would matter for a filter (σ with range: yes, it
-# says how much a near reading is worth against a far one; steps: hardly) and which for a grid map
-# (empties: a direction that is always empty is not free space).
-
-# %% [markdown] slideshow={"slide_type": "slide"}
-# ## Odometry is a sensor, too
-#
-# An encoder counts *ticks* of a wheel: whole ones, of the wheel's turning, not of the robot's way.
-# Three errors: the tick is finite, the wheel slips, and its size is not what one believes.
-#
-# **Predict:** 300 robots drive 1 m, then 4 m, then 16 m. Which of the three errors stays as it is,
-# which grows with the way, which with its root?
-
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-def odometry_errors(robot, way, robots=300):
-    """How much longer a way is believed to be than it was [mm]: mean and spread."""
-    wrong = []
-    for seed in range(robots):
-        drive, excess = Simulator(robot, np.random.default_rng(seed)), 0.0
-        for _ in range(5 * way):
-            before = drive.pose
-            believed = drive.step(0.4, 0.0, 0.5 + 1e-5 * seed)
-            excess += believed[0] - between(before, drive.pose)[0]
-        wrong.append(1000 * excess)
-    return np.mean(wrong), np.std(wrong)
-
-
-perfect = DifferentialDrive(tick=1e-6)
-spoilt = {"ticks of 5 mm": {"tick": 0.005}, "slip": {"slip": 0.01}}
-spoilt["wheels 1 % larger"] = {"left_scale": 1.01, "right_scale": 1.01}
-for name, change in spoilt.items():
-    errors = [odometry_errors(replace(perfect, **change), way) for way in (1, 4, 16)]
-    told = [f"{round(mean):4} ± {spread:2.0f}" for mean, spread in errors]
-    print(f"{name:18}", "  ".join(told), "mm after 1, 4, 16 m")
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# A tick is lost or won once and stays; slip is chance, four times the way gives twice the error; a
-# wrong wheel is a *bias* that grows with the way, and could be calibrated away. A filter that takes
-# all three for independent noise is right about one.
-
-# %% [markdown] slideshow={"slide_type": "slide"}
-# ## A world is a text file
-#
-# Four numbers are a wall, three a circle, # begins a comment. So measure your own room.
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-MY_ROOM = """
--1 -1  3 -1    # four walls and a pillar
- 3 -1  3  2
- 3  2 -1  2
--1  2 -1 -1
-1.5 0.8 0.3
-"""
-with tempfile.TemporaryDirectory() as folder:
-    path = Path(folder) / "my_room.txt"
-    path.write_text(MY_ROOM, encoding="utf-8")
-    mine = worlds.load(path)
-    worlds.save(mine, path)
-    again = worlds.load(path)
-print(mine.name, len(mine.walls), "walls,", len(mine.circles), "circle")
-print("saved and loaded: the same", np.array_equal(mine.walls, again.walls))
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# **Predict:** what should a program say to a wall without length, a number that is none, a line
-# with five? "The line, and what is wrong with it" is the least.
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
-    for line in ("1 1 1 1", "0 0 one 2", "0 0 1 1 1", "2 2 -0.1", "0 0 1 nan"):
-        Path("broken.txt").write_text(MY_ROOM + line, encoding="utf-8")
-        try:
-            worlds.load("broken.txt")
-        except WorldFileError as refused:
-            print(refused)
-
-# %% [markdown] slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=2
 # ## Move a wall, watch the scan
 #
-# Below is situation 2, and what a lidar at the origin sees of it. Drag a corner, or choose it by Tab
-# and move it by the arrow keys: walls snap to 0.05 m (with Shift to 0.01 m), and the rows follow. Or
-# change a row, or add one, and click outside. *Undo* takes it back.
+# This is Smolec's *situation 2*, and what a lidar at the origin sees of it. Drag a corner, or
+# choose it with Tab and move it with the arrow keys; a click into the rows lets you change numbers,
+# or add a wall. *Undo* takes it back.
 #
-# **Predict:** you pull the corner (−2.4, −3.2) to the right: does more of the bay in the lower left
-# come into sight, or less? And which points vanish when a pillar of 0.2 m (`-1 -1 0.2`) is put into
-# the room?
+# Predict: if you pull the corner $(-2.4, -3.2)$ to the right, will more of the bay in the lower
+# left come into sight, or less? And which points vanish when you add the pillar `-1 -1 0.2`?
 
 
-# %% slideshow={"slide_type": "fragment"}
+# %% slideshow={"slide_type": "fragment"} name="editor"
 def seen_from_the_origin(world):
     return RPLIDAR_A2.scan(world, np.zeros(3), np.random.default_rng(2)).points()
 
@@ -933,19 +424,716 @@ editor = edit_world(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** the bay in the lower left is half hidden behind a corner: no point lies there, and pulled
-# to the right the corner hides less of it. A pillar hides a strip behind itself that widens with
-# distance: drag it towards the robot, and its shadow widens.
-# `worlds.save(editor.world, "mine.txt")` keeps what you drew.
+# The bay is half hidden behind the corner. Pulled to the right, the corner hides less of it. The
+# pillar hides a strip behind itself that widens with distance. With
+# `worlds.save(editor.world, "mine.txt")` you keep what you drew; you could measure your own room.
 
-# %% [markdown] slideshow={"slide_type": "slide"}
-# ## What you can do now
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=5
+# ## Part two: how a sensor errs
 #
-# Cast a ray, place a scan in the world whatever the device's units, tell σ from recordings, and say
-# what a simulator leaves out.
+# *This is a good place for a break.*
+#
+# So far our lidar has made no errors. A real one errs in three ways: its range is off by a random
+# amount, its beam flies a little beside the bearing that it reports, and some beams return nothing
+# at all. Before we look at a real device, let us make a **first guess**, with round numbers for an
+# RPLIDAR A2. The end of the lesson puts it to the test.
+
+# %% slideshow={"slide_type": "fragment"} name="guess" tags=["nbval-check-output", "code"]
+guess = Scanner(beams=400, range_error=0.004, bearing_sigma=np.radians(0.1), dropouts=0.03)
+print(f"range: σ = {100 * guess.range_error:.1f} % of r")
+print(f"bearing: σ = {np.degrees(guess.bearing_sigma):.1f}°")
+print(f"lost: {100 * guess.dropouts:.0f} % of the beams")
+
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# ### What a bearing's error does to the range
+#
+# A tenth of a degree sounds like nothing. But a beam that flies a little aside meets the wall
+# elsewhere, and a wall that is seen at a slant is farther off there. How much farther per radian,
+# as a share of the range? We differentiate (02.4):
+
+# %% slideshow={"slide_type": "fragment"} name="slope" tags=["nbval-check-output"]
+rho, iota = sp.symbols("rho iota", positive=True)
+r_wall = rho / sp.cos(iota)
+sp.simplify(sp.diff(r_wall, iota) / r_wall)
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# So a small error of the bearing changes the range by $r \tan\iota$ times itself. If the range has
+# an error of its own, $c_1 r$, the two are independent, and their variances add:
+#
+# $$ \sigma^2 = (c_1\, r)^2 + (r \tan\iota\;\sigma_\beta)^2. \tag{02.6} $$
+
+# %% slideshow={"slide_type": "subslide"} name="ask-slant"
+ask(
+    "02-slant",
+    "$\\sigma_\\beta$ is 0.1°, and the beam meets a wall at $\\iota = 80°$, where $\\tan\\iota$ is "
+    "5.7. **How large is the part of $\\sigma$ that the bearing makes, in per cent of $r$?**",
+    right=1.0,
+    tolerance=0.06,
+    unit="% of r",
+    reason="0.1° are 0.00175 rad; times 5.7 this is 0.0099, more than twice the 0.4 % of the range "
+    "itself.",
+    wrong={
+        0.57: "this is 5.7 · 0.1 with degrees in it: a derivative counts in radians.",
+        57: "this is 5.7 · 0.1 in degrees, times 100: a derivative counts in radians.",
+        0.17: "this is the error of the bearing itself, without the slant.",
+        0.01: "this is the share; in per cent it is a hundred times larger.",
+        1.07: "this is both parts together; the question asks for that of the bearing alone.",
+    },
+)
+
+
+# %% slideshow={"slide_type": "fragment"} name="slant" answers="02-slant"
+hall = worlds.corridor()
+bearings = guess.angles
+straight = hall.cast((0, 0), bearings)
+incidence = np.arctan(abs(hall.cast((0, 0), bearings + 1e-6) - straight) / 1e-6 / straight)
+
+
+def at_rest(bearing_error_in_degrees, range_error_in_percent):
+    """The spread of 300 readings of each beam in a corridor, over the incidence; and (02.6)."""
+    c_1, sigma_beta = range_error_in_percent / 100, np.radians(bearing_error_in_degrees)
+    rng = np.random.default_rng(2)
+    device = replace(guess, range_max=20.0, range_error=c_1, bearing_sigma=sigma_beta)
+    ranges = np.array([device.scan(hall, np.zeros(3), rng).ranges for _ in range(300)])
+    shares = 100 * np.nanstd(ranges, axis=0) / straight
+    at = np.radians(np.linspace(0, 84, 100))
+    law = 100 * np.hypot(c_1, np.tan(at) * sigma_beta)
+    title = "Spread of 300 readings of each beam"
+    fig, ax = views.chart("angle of incidence ι [degrees]", "σ / r [%]", title, (8, 4))
+    ax.plot(np.degrees(incidence), shares, ".", color=views.COLOURS["scan"], label="simulated")
+    ax.plot(np.degrees(at), law, color=views.COLOURS["truth"], label="(02.6)")
+    ax.set(ylim=(0, 2.5), xlim=(0, 86))
+    views.legend(ax, loc="upper left")
+    return fig
+
+
+# %% slideshow={"slide_type": "subslide"} name="slant-picture" answers="02-slant"
+views.explore(
+    at_rest,
+    lambda bearing_error_in_degrees, range_error_in_percent: (
+        "The spread of each beam lies on a curve that begins at "
+        f"{range_error_in_percent:.1f} % of the range and rises at a slant."
+    ),
+    bearing_error_in_degrees=(0.0, 0.3, 0.1),
+    range_error_in_percent=(0.0, 1.0, 0.4),
+)
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# The marks lie on the curve: 0.4 % square on, and more than twice as much beyond 80°. A few lie far
+# above it. These are beams that pass close to an edge and meet now the near surface, now the one
+# behind it; no bell curve describes them.
+
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=2
+# ## An infrared sensor: a voltage falls
+#
+# The robot of the MAK thesis carries a Sharp GP2D120. It sends out infrared light and looks, from a
+# few centimetres aside, at the angle under which the spot on the wall appears. This is called
+# *triangulation*. The farther the wall, the less the angle still changes, and the sensor's voltage
+# $U$ behaves roughly as
+#
+# $$ U = \frac{\kappa}{r}. \tag{02.7} $$
+#
+# Its noise $\sigma_U$ is always the same. What does it do to the range? Solve for $r$,
+# differentiate, and put (02.7) in again:
+
+# %% slideshow={"slide_type": "fragment"} name="voltage" tags=["nbval-check-output"]
+U, kappa, sigma_U, r = sp.symbols("U kappa sigma_U r", positive=True)
+sp.Abs(sp.diff(kappa / U, U)).subs(U, kappa / r) * sigma_U
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# The error grows with the **square** of the range:
+#
+# $$ \sigma = c_2\, r^2 \quad\text{with}\quad c_2 = \sigma_U / \kappa. \tag{02.8} $$
+#
+# With $\kappa = 0.12$ V m and 15 mV of noise, it is {= 1000 * 0.125 * 0.05**2:.1f =} mm at 5 cm and
+# {= 1000 * 0.125 * 0.28**2:.0f =} mm at 28 cm. Keep this square in mind.
+
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=2
+# ## Three sensors, one place
+#
+# An *ultrasonic* sensor sends out a cone of sound and hears the first echo, from whatever direction
+# in the cone it comes. Here a lidar, the infrared sensor and an ultrasonic sensor look at the MAK
+# thesis' arena of cardboard boxes, from the same place. Before you look: which sees most, which
+# only what is near, and what becomes of corners in the third?
+
+# %% slideshow={"slide_type": "fragment"} name="three-sensors"
+arena, stands = worlds.arena(), np.array([-0.12, -0.2, np.radians(100)])
+devices = {"lidar": RPLIDAR_A2, "infrared": GP2D120, "ultrasonic": ULTRASONIC}
+layers, back = {}, {}
+for name, device in devices.items():
+    points = device.scan(arena, stands, np.random.default_rng(1)).points()
+    back[name] = len(points)
+    hits = Points("scan", transform(stands, points))
+    title = f"{name}: {len(points)} of {device.beams} back"
+    layers[title] = [Segments("walls", arena.outline()), hits, Poses("robot", [stands])]
+fig, drawn = views.side_by_side(layers, size=(11, 3.8))
+for ax in drawn:
+    ax.lines[0].set_markersize(6)
+views.show(fig, "The lidar sees most walls sharply, infrared only the near ones, sound round arcs.")
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# The lidar draws whatever is in sight beyond its least range of
+# {= 100 * RPLIDAR_A2.range_min:.0f =} cm. Of {= GP2D120.beams =} infrared readings only
+# {= back["infrared"] =} come back, from walls nearer than {= 100 * GP2D120.range_max:.0f =} cm, and
+# even these fray a little. The ultrasonic sensor draws arcs, because a whole fan of directions
+# hears the same nearest place: corners become round, and notches are filled.
+
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=3
+# ## The door that sound does not see
+#
+# An ultrasonic sensor stands in a room, 2 m in front of the middle of an open door. The
+# door is 1 m wide, and beyond it there is a second wall.
+
+# %% slideshow={"slide_type": "fragment"} name="ask-door"
+ask(
+    "02-door",
+    "The sensor looks straight at the door's middle. **How wide may its cone be at most, for it to "
+    "hear the wall beyond and not the door posts?**",
+    right=28.0,
+    tolerance=0.9,
+    unit="°",
+    reason="the posts stand arctan(0.5 / 2) = 14° to either side; a wider cone hears them first.",
+    wrong={
+        14: "this is how far the posts stand off to one side; the cone reaches to both.",
+        26.6: "this is arctan(1 / 2): the way to a post is half the door, on either side.",
+        53: "half of the door lies on each side: arctan(0.5 / 2), and twice that.",
+        25: "this is the cone of a common sensor. Compute the angle of the posts.",
+    },
+)
+
+
+# %% slideshow={"slide_type": "fragment"} name="door" answers="02-door"
+DOOR = World(
+    [
+        *[(-2, -1.5, 3, -1.5), (3, -1.5, 3, 2), (-2, 2, -2, -1.5), (-2, 3.5, 3, 3.5)],
+        *[(3, 2, 0.5, 2), (-0.5, 2, -2, 2)],  # between these two: the door
+    ]
+)
+
+
+def heard(cone_in_degrees, metres_to_the_door):
+    """A scan by sound: where the sensor stands, its points, how many lie beyond the door."""
+    device = replace(ULTRASONIC, cone=np.radians(cone_in_degrees), beams=91)
+    stands = np.array([0, 2 - metres_to_the_door, np.pi / 2])
+    points = transform(stands, device.scan(DOOR, stands, np.random.default_rng(0)).points())
+    return stands, points, np.sum(points[:, 1] > 2.5)
+
+
+def by_sound(cone_in_degrees, metres_to_the_door):
+    """What an ultrasonic scanner with that cone draws in front of a door."""
+    stands, points, beyond = heard(cone_in_degrees, metres_to_the_door)
+    fig, ax = views.axes(f"{beyond} of 91 directions hear through the door", size=(8, 5))
+    views.draw(ax, Segments("walls", DOOR.walls), lw=3)
+    views.draw(ax, Points("scan", points), markersize=7)
+    views.draw(ax, Poses("robot", [stands]))
+    return fig
+
+
+# %% slideshow={"slide_type": "subslide"} name="door-picture" answers="02-door"
+views.explore(
+    by_sound,
+    lambda cone_in_degrees, metres_to_the_door: (
+        f"A wall with a door, heard from {metres_to_the_door:.1f} m by a cone of "
+        f"{cone_in_degrees}°: the wider the cone, the narrower the door."
+    ),
+    cone_in_degrees=(0, 40, 25),
+    metres_to_the_door=(1.0, 3.0, 2.0),
+)
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# At 25° {= heard(25, 2)[2] =} of 91 directions hears through the door, and the wall comes out bent.
+# At 0°, where the sensor is a lidar, {= heard(0, 2)[2] =} do. From
+# {= next(cone for cone in range(40) if heard(cone, 2)[2] == 0) =}° on the door is shut: a robot
+# that maps by sound walls itself in. Drive nearer, and it opens again.
+
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=4
+# ## Odometry is a sensor, too
+#
+# An *encoder* is a disc with slots on the axle of a wheel. A light barrier looks through the slots
+# and counts how often it gets light. One such count is a *tick*.
+
+
+# %% slideshow={"slide_type": "fragment"} name="encoder"
+views.explore(
+    lambda slots, turned_by_degrees: views.encoder(slots, np.radians(turned_by_degrees)),
+    lambda slots, turned_by_degrees: (
+        f"A disc with {slots} slots that has turned by {turned_by_degrees}°, and the pulses of its "
+        f"light barrier: {int(slots * turned_by_degrees / 360)} ticks."
+    ),
+    slots=(4, 40, 12),
+    turned_by_degrees=(0, 360, 220),
+)
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# Three errors arise. Only whole ticks are counted. The wheel *slips*, and then it turns farther
+# than it travels, or less far. And the way of a tick is the wheel's circumference divided by the
+# slots, which is wrong if the wheel is larger than one believes.
+
+# %% slideshow={"slide_type": "subslide"} name="ask-wheels"
+ask(
+    "02-wheels",
+    "Robots drive 1 m, 4 m and 16 m straight ahead, and count their ticks. **How do the three errors "
+    "of the way grow?**",
+    {
+        "all with the way": "only the wrong wheel does it again in every metre, to the same side.",
+        "ticks and slip with the root of the way, the wheel with the way": "the slip does; but ticks "
+        "do not add up. What one metre leaves of a tick is counted in the next.",
+        "ticks not at all, slip with its root, the wheel with the way": "a tick is won or lost once; "
+        "slips partly cancel; a wrong wheel is wrong in every metre.",
+        "ticks not at all, slip and wheel with the way": "slips would have to go to the same side "
+        "every time.",
+    },
+    right="ticks not at all, slip with its root, the wheel with the way",
+)
+
+
+# %% slideshow={"slide_type": "fragment"} name="wheels" answers="02-wheels" tags=["nbval-check-output"]
+def odometry_errors(robot, way, rng):
+    """How much longer a way is believed to be than it was, of 200 robots [mm]: mean, spread."""
+    found = []
+    for _ in range(200):
+        drive, excess = Simulator(robot, rng), 0.0
+        for seconds in [*[1.25] * (2 * way), 0.1 * rng.random()]:  # half a metre each
+            before = drive.pose
+            believed = drive.step(0.4, 0.0, seconds)
+            excess += believed[0] - between(before, drive.pose)[0]
+        found.append(1000 * excess)
+    return np.mean(found), np.std(found)
+
+
+exact, rng = DifferentialDrive(tick=1e-6), np.random.default_rng(4)
+spoiled = {"ticks of 5 mm": {"tick": 0.005}, "slip": {"slip": 0.01}}
+spoiled["wheels 1 % larger"] = {"left_scale": 1.01, "right_scale": 1.01}
+wheel_errors = {
+    name: [odometry_errors(replace(exact, **error), way, rng) for way in (1, 4, 16)]
+    for name, error in spoiled.items()
+}
+for name, errors in wheel_errors.items():
+    told = [f"{round(mean):4} ± {spread:2.0f}" for mean, spread in errors]
+    print(f"{name:18}", "  ".join(told), "mm after 1, 4, 16 m")
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# After sixteen times the way the ticks err by as little as before, slip by
+# {= wheel_errors["slip"][2][1] / wheel_errors["slip"][0][1]:.1f =} times as much, and the wrong
+# wheel by
+# {= wheel_errors["wheels 1 % larger"][2][0] / wheel_errors["wheels 1 % larger"][0][0]:.0f =} times.
+# The last is a *bias*: it can be calibrated away, as lesson 01 said. A filter that takes all three
+# for independent noise is right about one of them.
+
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=3
+# ## A real lidar
+#
+# Now to a real RPLIDAR A2. Somebody let one stand in a room, recorded {= len(real["turns"][0]) =},
+# {= len(real["turns"][1]) =} and {= len(real["turns"][2]) =} turns, and published the recordings.
+# They are not ours to give away. You get statistics of them, in a table that comes with the course,
+# and every number below is computed from this table, in front of you.
+
+# %% slideshow={"slide_type": "fragment"} name="first-turn"
+walk = np.array(real["first_turn"]) * a2_at_rest.CELL
+simulated = RPLIDAR_A2.scan(worlds.room(), np.zeros(3), np.random.default_rng(3))
+fig, _ = views.side_by_side(
+    {
+        "a real A2, first turn": [Points("scan", walk)],
+        "RPLIDAR_A2 in a simulated room": [Points("scan", simulated.points())],
+    },
+    size=(10, 4.6),
+    shared=False,
+)
+views.show(
+    fig, "Left a real room, open at the top to a far wall that looks frayed; right our room."
+)
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# On the left you see a room some {= np.ptp(walk[np.abs(walk[:, 1]) < 2, 0]):.0f =} m wide, open at
+# the top to a hallway that ends {= walk[:, 1].max():.0f =} m away. (Points are rounded to
+# {= 100 * a2_at_rest.CELL:.0f =} cm.) At a first look the two scans are of one kind.
+
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# ### The number of points a turn
+#
+# The simulated device has {= RPLIDAR_A2.beams =} beams, always in the same directions. How many has
+# the real one?
+
+# %% slideshow={"slide_type": "fragment"} name="points-a-turn" tags=["nbval-check-output", "code"]
+for number, sizes in enumerate(real["turns"], 1):
+    print(f"recording {number}: {sizes[0]} points in the first turn, {sizes[-1]} in the last")
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# The device measures at a steady rate, and in each recording its motor is still gaining speed, so
+# that fewer and fewer measurements fit into a turn. Neither the number of beams nor their
+# directions are fixed. Whoever compares beam 17 with beam 17 of the next turn compares two
+# different places.
+
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=4
+# ## How large is the noise?
+#
+# The truth is unknown, but the device stands still. So we can compare each reading $r$ with what
+# the turn *before* said of its bearing. There it lies a share $\tau$ of the way between two
+# readings $r_1$ and $r_2$; if these belong to one smooth surface, a straight line between them will
+# do:
+#
+# $$ \Delta r = r - \bigl((1 - \tau)\, r_1 + \tau\, r_2\bigr). \tag{02.9} $$
+#
+# Three noises meet in this difference, so its variance is
+#
+# $$ \operatorname{Var}(\Delta r) = \bigl(1 + (1 - \tau)^2 + \tau^2\bigr)\, \sigma^2. \tag{02.10} $$
+#
+# We divide $\Delta r$ by the root of the bracket, and what is left errs as one reading does.
+
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# ### Two answers
+#
+# The package does so for {= real["errors"]["readings"] =} readings (`a2_at_rest.repeats`). There are
+# two ways to tell $\sigma$ from what is left: by the root of the mean square, or by the *median* of the
+# absolute values. For a bell curve this median is $0.674\,\sigma$, so 1.483 times the median is
+# $\sigma$ again.
+
+# %% slideshow={"slide_type": "fragment"} name="two-answers" tags=["nbval-check-output", "code"]
+print(f"by the mean square: σ = {100 * real['errors']['rms']:.2f} % of r")
+print(f"by the median:      σ = {100 * real['errors']['median']:.2f} % of r")
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# The first number is where our guess of 0.4 % comes from. If all errors came from one bell curve,
+# as wide everywhere, the two would agree. They do not: most readings are better than the mean
+# square says, and some are far worse. (Errors beyond 3 %, such as those of people who walk through
+# a beam, are left out of the first number.) Which are the worse ones?
+
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# ### Those at a slant
+#
+# By (02.6) a reading at a slant is worse. Is it true of the real device? Take ranges of 2 to 4 m
+# only, sort them by incidence, and compare with (02.6): $c_1$ from the readings that look square
+# on, and $\sigma_\beta = 0.1°$ from our guess.
+
+# %% slideshow={"slide_type": "fragment"} name="by-slant" tags=["nbval-check-output", "code"]
+tan, share = (np.array(real["by_slant"][name]) for name in ("slant", "share"))
+predicted = np.hypot(share[0], tan * np.radians(0.1))
+for low, *both in zip(a2_at_rest.SLANTS[:-1], 100 * share, 100 * predicted, strict=True):
+    print("{:2} to {}°: σ = {:.2f} % of r, (02.6) says {:.2f} %".format(low, low + 15, *both))
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# The real device gets worse at a slant. Up to 60°, (02.6) is off by
+# {= 100 * abs(share / predicted - 1)[:4].max():.0f =} % at most; beyond, the device is worse than
+# predicted. Less light comes back from a slanted wall, too, and these data cannot tell the two
+# apart.
+
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=5
+# ## Does the noise grow like the range?
+#
+# Now leave out the slanted ones ($\tan\iota \ge \tfrac12$). The data sheet, Smolec (who
+# simulates 1 %) and our guess agree in one thing: they all name *one* share of the range, for all
+# ranges.
+
+# %% slideshow={"slide_type": "fragment"} name="ask-far"
+ask(
+    "02-far",
+    "Over all ranges, the median told a σ of about 0.25 % of the range. **How does this share compare "
+    "near by, at 2.4 m, and far away, at 11.5 m?**",
+    {
+        "it is the same: σ is a share of the range": "this is what everybody simulates, and it "
+        "is what we are about to test.",
+        "it is smaller far away: whole millimetres matter less there": "true of the rounding, but a "
+        "millimetre is little even at 2.4 m.",
+        "it is larger far away": "so σ grows faster than the range itself.",
+    },
+    right="it is larger far away",
+)
+
+# %% slideshow={"slide_type": "fragment"} name="by-range" answers="02-far" tags=["nbval-check-output"]
+r_class, share_class = (np.array(real["by_range"][name]) for name in ("range", "share"))
+for r, share in zip(r_class, share_class, strict=True):
+    print(f"{r:4.1f} m: σ = {100 * share:.2f} % of r, which are {1000 * share * r:4.1f} mm")
+
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# ### Find the law by hand
+#
+# Let us give the noise both parts that we have met, one that grows with the range and one with
+# its square:
+#
+# $$ \sigma^2 = (c_1\, r)^2 + (c_2\, r^2)^2. \tag{02.11} $$
+#
+# Here is our first guess. Move the sliders until the curve runs through the marks.
+
+
+# %% slideshow={"slide_type": "fragment"} name="by-hand" answers="02-far"
+def law(r, c_1, c_2):
+    return np.hypot(c_1, c_2 * r)
+
+
+def by_hand(c_1_in_percent, c_2_in_mm_per_square_metre):
+    """The real device's σ / r over the range, and (02.11) with these constants."""
+    constants = c_1_in_percent / 100, c_2_in_mm_per_square_metre / 1000
+    off = np.exp(abs(np.log((law(r_class, *constants) + 1e-6) / share_class)).max())
+    r = np.linspace(2, 12, 100)
+    title = f"At worst, the curve is off by a factor of {off:.2f}"
+    fig, ax = views.curves(
+        r, {"(02.11)": 100 * law(r, *constants)}, "range r [m]", "σ / r [%]", title, (8, 4.4)
+    )
+    ax.plot(r_class, 100 * share_class, "o", color=views.COLOURS["truth"], label="real A2")
+    ax.axhline(0.75, color=views.COLOURS["limit"], linestyle="dashdot", label="data sheet")
+    ax.set_ylim(0, 1.3)
+    views.legend(ax, loc="upper left", ncols=3)
+    return fig
+
+
+# %% slideshow={"slide_type": "subslide"} name="by-hand-picture" answers="02-far"
+views.explore(
+    by_hand,
+    lambda c_1_in_percent, c_2_in_mm_per_square_metre: (
+        f"The real device's share rises from {100 * share_class[0]:.2f} % to "
+        f"{100 * share_class[-1]:.2f} %; a curve with c₁ = {c_1_in_percent:.2f} % and "
+        f"c₂ = {c_2_in_mm_per_square_metre:.2f} mm/m²."
+    ),
+    c_1_in_percent=(0.0, 1.0, 0.4),
+    c_2_in_mm_per_square_metre=(0.0, 1.0, 0.0),
+)
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# The guess fits at {= np.interp(0.004, share_class[4:], r_class[4:]):.1f =} m and nowhere else. At
+# {= r_class[0]:.1f =} m the real device is {= 0.004 / share_class[0]:.1f =} times better, and at
+# {= r_class[-1]:.1f =} m {= share_class[-1] / 0.004:.1f =} times worse. The data sheet's 0.75 %
+# lies above all marks: it is a promise, not a description.
+
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# ### Find it by least squares
+#
+# Divide (02.11) by $r^2$. The square of the share, $\sigma^2/r^2 = c_1^2 + c_2^2\, r^2$, is a
+# straight line over $r^2$, and a line can be fitted:
+
+# %% slideshow={"slide_type": "fragment"} name="least-squares" tags=["nbval-check-output", "code"]
+squares = np.polyfit(r_class**2, share_class**2, 1, w=1 / share_class**2)
+c_2, c_1 = np.sqrt(squares)
+print(f"fitted: c₁ = {100 * c_1:.2f} %, c₂ = {1000 * c_2:.2f} mm/m²")
+off = law(r_class, c_1, c_2) / share_class
+print(f"from {off.min():.2f} to {off.max():.2f} times the real σ")
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# The part with $r^2$ is what the data ask for. Where have we met it before?
+
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=2
+# ## The fingerprint
+#
+# By (02.8) noise that grows with $r^2$ is what a sensor makes that measures $1/r$. If the A2 is
+# one, and counts $1/r$ in whole steps of some size, then $r$ comes in steps, too. A small step of
+# $1/r$ is a step of $r$ that is $r^2$ times as large. We can look for these steps: which values of
+# $r$, in millimetres, ever occur?
+
+# %% slideshow={"slide_type": "fragment"} name="fingerprint" tags=["nbval-check-output", "code"]
+for (low, high), values in zip(a2_at_rest.WINDOWS, real["steps"], strict=True):
+    step, r = np.median(np.diff(values)), (low + high) / 2
+    print(f"{low:4.1f} m: {values[:5]} …  step {step:2.0f} mm, step / r² = {step / r**2:.2f} mm/m²")
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# At 11 m a range is {= np.diff(real["steps"][3]).min() =} or {= np.diff(real["steps"][3]).max() =}
+# mm from the next, and nothing in between *ever* occurs in {= sum(map(len, real["turns"])) =}
+# turns. At 7 m the step is {= np.median(np.diff(real["steps"][2])):.0f =} mm, at 4.6 m
+# {= np.median(np.diff(real["steps"][1])):.0f =} mm: each time about
+# {= np.median(np.diff(real["steps"][3])) / 11.2**2:.1f =} mm/m² times $r^2$. (At 3 m it drowns in
+# the whole millimetres of the recording.) The device measures $1/r$. It triangulates, as the
+# infrared sensor does. We needed no data sheet; the numbers told us.
+
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* This is the one moment of detective work, so give it time. Let the class
+# compute the step at 11 m from that at 7 m before you run the cell. Can the method be trusted? The
+# simulated `RPLIDAR_A2` has no steps, and its neighbouring values are mostly a millimetre apart, at
+# 7 m as at 3 m.
+
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=2
+# ## Readings that never come
+#
+# {= 100 * real["empty"]["readings"]:.1f =} % of the real device's readings are empty, and so our
+# guess drops 3 % of its beams, each by chance.
+
+# %% slideshow={"slide_type": "fragment"} name="ask-empty"
+ask(
+    "02-empty",
+    "**Where in a turn are the real device's empty readings?**",
+    {
+        "anywhere, as with the guess": "it is the simplest way to simulate them, and the picture "
+        "will refute it.",
+        "in the same directions, turn after turn": "they look past edges, through the open side, or "
+        "at something that the device cannot see.",
+        "in a few bad turns": "then the device would fail for a moment; it hardly ever does.",
+    },
+    right="in the same directions, turn after turn",
+)
+
+# %% slideshow={"slide_type": "fragment"} name="empties" answers="02-empty"
+title = "Each empty reading of 22 turns; below them, one simulated turn"
+fig, ax = views.chart("bearing [degrees]", "turn", title, (10, 4))
+for number, bearings_empty in enumerate(real["empty"]["bearings"]):
+    ax.plot(bearings_empty, [number] * len(bearings_empty), "|", color=views.COLOURS["truth"])
+chance = guess.scan(worlds.room(), np.zeros(3), np.random.default_rng(7))
+lost = np.degrees(chance.angles[np.isnan(chance.ranges)]) % 360
+ax.plot(lost, [-3] * len(lost), "|", color=views.COLOURS["scan"])
+rows = {-3: "simulated", 0: "0", 5: "5", 10: "10", 15: "15", 20: "20"}
+ax.set(xlim=(0, 360), yticks=list(rows), yticklabels=list(rows.values()))
+views.show(fig, "Empty readings stand above each other in a few directions, turn after turn.")
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# They stand in columns. The slanted line is the edge of a person who walks by. So most empties are
+# no failures; they say "nothing here that I can see", and that is knowledge. A **dropout** is an
+# empty reading where there *is* a surface. Where the turns before and after both saw one,
+# {= 100 * real["empty"]["lost"][1]:.1f =} % of the readings are empty; where only the turn before
+# is asked, people included, it is {= 100 * real["empty"]["lost"][0]:.1f =} %. The truth lies
+# between the two, far below 3 %.
+
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=3
+# ## What the simulator has, and what it lacks
+#
+# From now on we use the preset `RPLIDAR_A2`. It comes from a finer fit than ours, over all ranges
+# and slants at once. A claim about a device has to be tested, so we set preset and guess into
+# simulated rooms of all sizes and treat their scans as we treated the real ones:
+
+
+# %% slideshow={"slide_type": "fragment"} name="bench"
+def on_the_bench(device, distance):
+    """σ / r of a simulated device at rest, its walls at that distance, measured as above."""
+    square = World(worlds.box((0, 0), (2 * distance, 2 * distance)))
+    device, rng = replace(device, range_max=20.0), np.random.default_rng(9)
+    rows = a2_at_rest.repeats([device.scan(square, np.zeros(3), rng) for _ in range(20)])
+    return a2_at_rest.by_range(rows, edges=(0.9 * distance, 1.2 * distance))["share"][0]
+
+
+benches = {
+    name: np.array([on_the_bench(device, distance) for distance in r_class])
+    for name, device in {"RPLIDAR_A2": RPLIDAR_A2, "first guess": guess}.items()
+}
+
+# %% slideshow={"slide_type": "-"} name="bench-picture"
+shown = {name: 100 * shares for name, shares in benches.items()}
+labels = "range r [m]", "σ / r [%]", "At rest, by the median"
+fig, ax = views.curves(r_class, shown, *labels, size=(8, 4))
+ax.plot(r_class, 100 * share_class, "o", color=views.COLOURS["truth"], label="real A2")
+ax.set_ylim(0, 0.9)
+views.legend(ax, loc="upper left")
+apart = max(benches["RPLIDAR_A2"] / share_class, key=lambda ratio: abs(np.log(ratio)))
+views.show(
+    fig, "The preset rises with the range as the real device does; the first guess stays level."
+)
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# The preset follows the real device; at worst, its σ is {= apart:.2f =} times the real one. The
+# guess is level. On which side would a filter suffer that believed in the guess?
+
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# ### A list of what is missing
+#
+# | of the real device | in the simulator |
+# | --- | --- |
+# | σ grows with $r^2$ | yes |
+# | worse at a slant | yes, up to 60° |
+# | steps of $1/r$, {= np.diff(real["steps"][3]).max() =} mm at 11 m | no |
+# | dropouts | by chance, {= 100 * RPLIDAR_A2.dropouts:.1f =} % everywhere |
+# | empties past edges and into the open | only beyond the range |
+# | number and directions of beams change | no |
+# | errors that repeat from turn to turn | no, and a device at rest cannot tell |
+# | dark, shiny, transparent surfaces | no, and these recordings cannot tell |
+#
+# A simulator need not have everything. Its user must know what it lacks.
+
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Ask which of the rows matter for a filter, which has to weigh a near reading
+# against a far one, and which for a map of free space.
+
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=1
+# ## Who had the idea
+#
+# - Kurt Konolige and others, *A low-cost laser distance sensor*, ICRA 2008: a turning lidar that
+#   triangulates, and why its error grows with the square of the range.
+# - John Leonard and Hugh Durrant-Whyte, *Directed Sonar Sensing for Mobile Robot Navigation*, 1992: what
+#   a cone of sound sees of walls and corners.
+# - Frank Hampel, *The influence curve and its role in robust estimation*, Journal of the American
+#   Statistical Association, 1974: the spread that is told by a median.
+#
+# **Read next:** Sebastian Thrun, Wolfram Burgard and Dieter Fox, *Probabilistic Robotics*, 2005,
+# chapter 6, on how range finders err among people and edges.
+
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=1
+# ## What comes next
+#
+# You can compute what a sensor sees, carry it into the world, and test what somebody claims of its
+# noise.
+#
+# **Exercise:** [cast rays, hear echoes, place a scan, and find the noise of a sensor in a busy
+# room](../exercises/ex02_sensors_and_worlds.ipynb), 60 minutes.
 #
 # **Next:** every reading is a little wrong, and so is every belief about the robot. How much weight
-# does each deserve? [03 · The Kalman filter](03_kalman_filter.ipynb) derives it.
+# does each deserve? [03 · The Kalman filter](03_kalman_filter.ipynb) derives it. What stands below
+# is optional.
+
+# %% [markdown] slideshow={"slide_type": "slide"}
+# ## Deeper: a round pillar
 #
-# **Exercise:** [cast rays, place a scan, make noise and find its size
-# again](../exercises/ex02_sensors_and_worlds.ipynb), about 60 minutes.
+# Table legs and pillars are circles. Let the centre lie $\xi$ *along* the beam and $\eta$ *beside*
+# it, and let $\varrho$ be the radius. The point at range $r$ is on the circle where
+#
+# $$ (r - \xi)^2 + \eta^2 = \varrho^2. \tag{02.12} $$
+
+# %% slideshow={"slide_type": "fragment"} name="pillar" tags=["nbval-check-output"]
+r, xi, eta, radius = sp.symbols("r xi eta varrho", positive=True)
+sp.solve(sp.Eq((r - xi) ** 2 + eta**2, radius**2), r)
+
+# %% slideshow={"slide_type": "fragment"} name="tower" tags=["nbval-check-output"]
+tower = World(circles=[(3.0, 0.0, 0.5)])
+for story, x, y in [("from outside", 0, 0.3), ("from inside", 3.1, 0.3), ("passing by", 0, 0.7)]:
+    roots = 3 - x + np.array([-1, 1]) * np.sqrt(0.25 - y**2 + 0j)
+    print(f"{story:13} roots {roots.round(3)}, cast {tower.cast((x, y), [0.0])[0]:.3f}")
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# A sensor reports the nearest root that is not behind it: the first from outside, the second from
+# inside, say in a round tower. Complex roots mean that the beam passes by.
+
+# %% [markdown] slideshow={"slide_type": "slide"}
+# ## Deeper: a world is a text file
+#
+# Four numbers are a wall, three a circle, and `#` begins a comment. So you can measure your own
+# room, write it down, read it with `worlds.load`, and see what a lidar sees of it.
+
+# %% slideshow={"slide_type": "fragment"} name="world-file" tags=["nbval-check-output"]
+MY_ROOM = """
+-1 -1  3 -1    # four walls and a pillar
+ 3 -1  3  2
+ 3  2 -1  2
+-1  2 -1 -1
+1.5 0.8 0.3
+"""
+mine = worlds.parse(MY_ROOM, "my room")
+print(len(mine.walls), "walls,", len(mine.circles), "circle")
+again = worlds.parse(worlds.text_of(mine), "again")
+print("written and read again, the same:", np.array_equal(mine.walls, again.walls))
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# What should a program say to a wall without length, to a word in place of a number, to a line with
+# five numbers? At least which line it is, and what is wrong with it:
+
+# %% slideshow={"slide_type": "fragment"} name="broken-files" tags=["nbval-check-output"]
+for line in ("1 1 1 1", "0 0 one 2", "0 0 1 1 1", "2 2 -0.1", "0 0 1 nan"):
+    try:
+        worlds.parse(MY_ROOM + line, "my room")
+    except ValueError as refused:
+        print(refused)
+
+# %% [markdown] slideshow={"slide_type": "slide"}
+# ## Deeper: your own copy of the recordings
+#
+# `sources.recording("rplidar-a2-1")` says where the recordings are published and where to put them.
+# This line, in a terminal, then makes the table of this lesson from them:
+#
+#     python -m slamlab.studies.a2_at_rest --out my-a2.json
+
+# %% [markdown] slideshow={"slide_type": "slide"}
+# ## In print: the beam's quadrant (optional)
+#
+# You need this only if you read the original.
+#
+# | Where | Printed | Right | Harm |
+# | --- | --- | --- | --- |
+# | Smolec, chapter 3, simulated lidar | the crossing counts if it lies in the same quadrant as the beam | if $r \ge 0$, (02.2) | a beam along an axis lies in no quadrant; what becomes of it is left to rounding |
+
+# %% slideshow={"slide_type": "fragment"} name="quadrants" tags=["nbval-check-output"]
+for degrees in (0, 25, 90, 180, 270):
+    n = np.array([np.cos(np.radians(degrees)), np.sin(np.radians(degrees))]).round(9)
+    meeting = 3.0 * n  # with a wall that stands across the beam, 3 m away
+    same = bool(np.all(n * meeting > 0))
+    print(f"{degrees:3}°: same quadrant {same!s:5}  r = {n @ meeting:.0f} m, so it is met")

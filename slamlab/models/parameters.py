@@ -56,7 +56,7 @@ class SensorModel:
     def sigma(self, ranges):
         """Standard deviation of the measurement noise of ranges.
 
-        σ² = (error r)² + σ₀² + (curvature r²)²
+        σ² = (error r)² + σ₀² + (curvature r²)². Equation (02.11), and σ₀.
 
         Parameters
         ----------

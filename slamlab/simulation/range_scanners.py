@@ -154,7 +154,7 @@ Noise and dropouts are fitted to three recordings of an A2 standing still, 49 tu
   0.50 to 0.58 mm/m², 0.09 to 0.12°. That is 0.16 % of a range of 2.4 m and 0.63 % of 11.5 m: an A2
   triangulates. Its data sheet allows 0.75 % throughout, Smolec simulates 1 %.
 - Dropouts: 2.8 % of all readings are empty, most of them at edges and into the open, turn after
-  turn. Lost are 0.96 % where the turn before saw a surface (people are in it), 0.23 % where the
+  turn. Lost are 0.99 % where the turn before saw a surface (people are in it), 0.23 % where the
   turn after saw it, too.
 
 Not in it: gross errors at edges, errors that repeat from turn to turn, more dropouts far off. Nor

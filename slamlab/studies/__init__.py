@@ -7,7 +7,8 @@
 - ``two_halves``, ``halves_in_turn``, ``agreeing_poses``: the laps of lesson 05, run where they
   stand
 - ``small_errors``: what a Jacobian foretells, and what a wrong one does, in lesson 04
-- ``intel_maps``: the maps of a real log that lesson 01 shows
+- ``intel_maps``: the maps of a real log that lesson 01 shows; ``a2_at_rest``: statistics of a real
+  lidar, for lesson 02
 - ``arena_logs``: the six data sets as files; ``paired_statistics``, ``study_command``: what they
   share
 """

@@ -9,7 +9,8 @@ Read in this order:
 - ``figure_faults``: what a machine can see to be wrong with a figure
 - ``showing``, ``figure_words``: how a figure reaches a notebook, and its alternative text
 - ``comparison``, ``box_drawing``, ``heatmap``, ``interval_plot``, ``loglog_plot``, ``matrix_plot``,
-  ``linked_map``, ``scan_overlay``, ``resampling_wheel``, ``frame_sketches``: one plot each
+  ``linked_map``, ``scan_overlay``, ``resampling_wheel``, ``frame_sketches``,
+  ``encoder_sketch``: one plot each
 - ``sliders``, ``play_button``, ``widget_errors``: interactive figures
 - ``player``: the drawing in a browser, in JavaScript; of what runs and of films
 - ``live``: any source and estimator, live, driven by hand; ``editor``: a world edited by hand
@@ -18,6 +19,7 @@ Read in this order:
 from slamlab.views import box_drawing as boxes
 from slamlab.views.colours import COLOURS, SERIES
 from slamlab.views.comparison import against_band, cloud, curves
+from slamlab.views.encoder_sketch import encoder
 from slamlab.views.figures import axes, band, chart, panels, two_sigma
 from slamlab.views.frame_sketches import frames
 from slamlab.views.heatmap import cells
@@ -48,6 +50,7 @@ __all__ = [
     "correlation",
     "curves",
     "draw",
+    "encoder",
     "explore",
     "frames",
     "growth",

@@ -19,6 +19,8 @@ MAX_PAIRS = 1 << 20  # (obstacle, beam) pairs handled at once: bounds the memory
 def cast(position, directions, walls, circles=()):
     """Cast rays (ray casting): distance from a point to the nearest obstacle in each direction.
 
+    Equations (02.1) and (02.2); of circles, (02.12).
+
     A point that stands on a wall or on a rim (within 1e-9 m) sees 0 in every direction; a beam that
     runs along a wall meets its near end; from inside a circle its rim is seen.
 

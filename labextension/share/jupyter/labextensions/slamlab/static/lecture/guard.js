@@ -47,7 +47,7 @@ export function guard(deck) {
   // clicks beside controls select, fold or edit cells in a notebook
   const pointer = (event) => {
     if (!panel.node.contains(event.target) || event.target.closest(`${POINTED}, ${EDITOR}`)) return;
-    if (event.type === "mousedown" && event.target.closest(".jp-Cell")) deck.touched = event.target.closest(".jp-Cell");
+    if (event.type === "pointerdown") deck.touched = event.target.closest(".jp-Cell") ?? deck.touched;
     stop(event);
   };
   const inside = (event) => {

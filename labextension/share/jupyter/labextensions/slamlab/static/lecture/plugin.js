@@ -1,12 +1,14 @@
 // The lecture begins by a button of the notebook, the palette, or an address with ?lecture=1.
 
-import { element } from "../element.js";
+import { button, element } from "../element.js";
 import { addAudience } from "./audience.js";
 import { Deck } from "./deck.js";
 import { addInk } from "./ink.js";
 import { addPresenter } from "./presenting.js";
 import { keepFile } from "./restore.js";
 import { useActions } from "./running.js";
+import { isShown } from "./stops.js";
+import { strip } from "./strip.js";
 
 const COMMAND = "slamlab:lecture";
 const asked = new URLSearchParams(window.location.search).has("lecture");
@@ -40,15 +42,20 @@ export function lecturePlugin({ INotebookTracker, NotebookActions, ICommandPalet
 }
 
 function startButton(Widget, app) {
-  const button = element("button", "jp-ToolbarButtonComponent slamlab-lecture-start", "Lecture");
-  button.title = "Show this notebook slide by slide, from this cell on";
-  button.addEventListener("click", () => app.commands.execute(COMMAND));
-  return new Widget({ node: element("div", "jp-ToolbarButton", button) });
+  const start = element("button", "jp-ToolbarButtonComponent slamlab-lecture-start", "Lecture");
+  start.title = "Show this notebook slide by slide, from this cell on";
+  start.addEventListener("click", () => app.commands.execute(COMMAND));
+  return new Widget({ node: element("div", "jp-ToolbarButton", start) });
 }
 
 async function lecture(panel, app, Widget, cell) {
   await panel.context.ready;
   await panel.revealed;
+  if (!panel.content.widgets.some(isShown)) {
+    const none = "There is nothing to show: each cell of this notebook is a note or skipped on slides. ";
+    const told = strip(panel, Widget, none, button("OK", () => told.dispose()));
+    return;
+  }
   const kept = keepFile(panel, Widget);
   const deck = new Deck(panel, app);
   deck.ended.connect(() => kept.end());

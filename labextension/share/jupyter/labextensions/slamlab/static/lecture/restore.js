@@ -1,6 +1,7 @@
 // What a lecture changes in a lesson is kept apart from its file until the lecturer says what to keep.
 
-import { button, element } from "../element.js";
+import { button } from "../element.js";
+import { strip } from "./strip.js";
 
 const plain = (model) => JSON.stringify(model.toJSON());
 
@@ -27,17 +28,10 @@ export function keepFile(panel, Widget) {
         context.model.dirty = wasDirty;
         release();
       } else if (!asking) {
-        asking = question(Widget, restore, release);
-        panel.contentHeader.addWidget(asking);
+        const answers = [button("Restore it", restore), button("Keep the changes", release)];
+        asking = strip(panel, Widget, "The lecture changed this lesson. ", ...answers);
       }
     },
   };
   return context.slamlabKept;
-}
-
-function question(Widget, restore, keep) {
-  const answers = [button("Restore it", restore), button("Keep the changes", keep)];
-  const node = element("div", "slamlab-changed", "The lecture changed this lesson. ", ...answers);
-  node.setAttribute("role", "alert");
-  return new Widget({ node });
 }

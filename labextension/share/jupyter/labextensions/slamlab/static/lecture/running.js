@@ -16,7 +16,7 @@ function codeCell(deck) {
 }
 
 async function runThese(deck, cells, words) {
-  deck.notice(words);
+  deck.notice(words, Infinity);
   const ran = await actions.runCells(deck.notebook, cells, deck.panel.sessionContext);
   deck.again();
   deck.notice(ran ? "" : "The code stopped with an error.");
@@ -45,13 +45,14 @@ export function foldOrUnfold(deck) {
 export function unlock(deck) {
   const cell = codeCell(deck);
   if (!cell) return;
+  deck.locking?.(); // one at a time
   unlockCode(cell);
   deck.locking = () => {
+    deck.locking = undefined;
     foldCode(cell);
     lockCode(cell);
     deck.panel.node.focus();
     document.activeElement?.blur();
-    deck.locking = undefined;
     deck.again();
     return true;
   };

@@ -1,0 +1,32 @@
+"""The course in Notebook 7, which the extension serves, too."""
+
+import pytest
+
+pytest.importorskip("notebook", reason="Notebook 7 is not installed")
+pytestmark = pytest.mark.walk
+# of Notebook 7 itself, with or without the course's extension
+ITS_OWN = "Cannot read properties of undefined (reading 'schema')"
+
+
+@pytest.fixture
+def notebook7(visit):
+    visit.address = visit.address.replace("lab/tree/", "notebooks/").replace("?reset&", "?")
+    return visit
+
+
+@pytest.mark.parametrize(
+    "name", ["notebooks/00_start_here.ipynb", "exercises/ex03_kalman_filter.ipynb"]
+)
+def test_a_notebook_runs_and_shows_its_figures_and_progress(notebook7, name):
+    page = notebook7.page
+    page.goto(notebook7.address.format(name))
+    page.wait_for_selector(".jp-NotebookPanel .jp-Cell")
+    page.locator(".slamlab-progress").wait_for()
+    page.get_by_text("Python 3 (ipykernel)").first.wait_for()
+    notebook7.run_all_and_wait()
+    wrong = page.locator('[data-mime-type="application/vnd.jupyter.error"]')
+    assert wrong.all_text_contents() == []
+    pictures = page.locator(".jp-OutputArea-output img")
+    assert pictures.evaluate_all("all => all.every((one) => one.alt && one.naturalWidth > 0)")
+    assert [error for error in notebook7.errors if ITS_OWN not in error] == []
+    assert notebook7.abroad == []
