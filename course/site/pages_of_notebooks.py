@@ -7,6 +7,7 @@ from course.site.questions import asks, question
 
 NOTE = "notes"
 PLACEHOLDER = re.compile(r"Run this cell [^.]*\.")  # words in place of a widget
+FOLDED = "<details>\n<summary>What this shows</summary>\n\n{}\n\n</details>"
 _LINK = re.compile(r"\]\((?:\.\./)?(?:(notebooks|exercises)/)?((?:ex)?\d\d_\w+)\.ipynb(#[^)]+)?\)")
 _WITHIN = re.compile(r"\]\((#[^)]+)\)")
 _LESSON = re.compile(r"(?<!\[)\b([Ll]essons?) (\d\d)\b(?![^\[]*\])(?! ?[:·])")
@@ -32,6 +33,8 @@ def page(notebook, files):
     for k, cell in enumerate(shown.cells):
         if cell.cell_type == "markdown":
             cell.source = _linked(cell.source if k == 0 else _demoted(cell.source), files)
+            if _answers(cell):
+                cell.source = FOLDED.format(cell.source)
         elif found := question(cell.source):
             shown.cells[k] = found.as_cell(cell.id)
         else:
@@ -81,9 +84,14 @@ def _anchor(part):
 def _tidy(cell):
     """Fold what answers a question; drop the words that stand in a widget's place."""
     tags = cell.metadata.setdefault("tags", [])
-    if "answers" in cell.metadata.get("slamlab", {}):
+    if _answers(cell):
         tags.append("hide-cell")
     cell.outputs = [output for output in cell.outputs if not _is_placeholder(output)]
+
+
+def _answers(cell):
+    """Whether a cell answers a question: it is folded until that is answered."""
+    return "answers" in cell.metadata.get("slamlab", {})
 
 
 def _is_placeholder(output):

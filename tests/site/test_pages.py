@@ -80,6 +80,12 @@ def test_what_answers_a_question_is_folded_and_words_for_widgets_are_dropped():
     assert [output.data for output in answering.outputs] == [picture]
 
 
+def test_text_that_explains_an_answer_is_folded_too():
+    folded, other = shown(text("**Across.**", slamlab={"answers": "05-a"}), text("Next."))
+    assert folded.source.startswith("<details>") and "\n\n**Across.**\n\n" in folded.source
+    assert other.source == "Next."
+
+
 @pytest.mark.parametrize(
     "latex, plain",
     [
