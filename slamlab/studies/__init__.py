@@ -6,6 +6,7 @@
   table, ``three_costs``
 - ``two_halves``, ``halves_in_turn``, ``agreeing_poses``: the laps of lesson 05, run where they
   stand
+- ``shared_errors``, ``forgetting``, ``observability``: the experiments of lesson 07
 - ``intel_maps``: the maps of a real log that lesson 01 shows
 - ``arena_logs``: the six data sets as files; ``paired_statistics``, ``study_command``: what they
   share
