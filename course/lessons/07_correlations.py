@@ -253,7 +253,7 @@ for robot_sigma, drive_sigma in ((0.02, 0.0), (0.3, 0.0), (0.3, 0.3)):
 def blocks_fill(robot_sigma, drive_sigma):
     stages, _ = shared_errors.two_sightings(robot_sigma, drive_sigma, heading_sigma=0.02)
     strongest = abs(correlation(stages[2])[3:5, 5:]).max()
-    titles = ["at first", "1 was seen", f"2 as well: $P_{{12}}$ up to |ρ| = {strongest:.2f}"]
+    titles = ["at first", "1 was seen", f"2 as well: |ρ₁₂| up to {strongest:.2f}"]
     fig, axes = views.panels(titles, size=(10, 3.8))
     for ax, stage in zip(axes, stages, strict=True):
         views.correlation(correlation(stage), ["robot", "1", "2"], ax=ax)
@@ -348,8 +348,10 @@ views.explore(
 # go to the end, and ask why its neighbours are redder than landmarks far away.
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"] answers="07-closing"
+met = slam.filter.ids[0]  # the source's name of landmark 0
+again = next(k for k, each in enumerate(drive) if k > 48 and met in each.observations.ids)
 spreads = {}
-for second_of_run in (75, 76, 80, 96):
+for second_of_run in (again - 1, again, again + 4, 96):
     P_k = P_at[second_of_run]
     both = [np.sqrt(np.trace(P_k[j : j + 2, j : j + 2])) for j in (0, 3 + 2 * 9)]
     spreads[second_of_run] = 100 * np.array(both)
@@ -360,8 +362,8 @@ for second_of_run in (75, 76, 80, 96):
     )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# At 76 s the robot sees landmark 0 again. In that one second landmark 9, unseen, goes from
-# ±{= spreads[75][1]:.0f =} cm to ±{= spreads[76][1]:.0f =} cm. This is the second sighting of our
+# At {= again =} s the robot sees landmark 0 again. In that one second landmark 9, unseen, goes from
+# ±{= spreads[again - 1][1]:.0f =} cm to ±{= spreads[again][1]:.0f =} cm. This is the second sighting of our
 # example on a large scale: the robot's block with landmark 9 brings it the news. Without that block
 # no word would reach it.
 
@@ -506,6 +508,7 @@ for name, some in (("all kept", kept), ("nothing kept", dropped)):
     pictures[name] = [Points("truth", some[3].run.landmarks), layers[1], layers[2]]
 fig, axes = views.side_by_side(pictures, size=(10, 4.6))
 for ax in axes:
+    ax.set(xlim=(-6, 6), ylim=(4, 10.5))  # the far half of the loop
     ax.lines[0].set_markersize(5)
     ax.lines[0].set_label("true landmark")
 views.legend_below(fig)
@@ -516,7 +519,7 @@ views.show(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# One of these laps. On the left, ellipses hold the black points; on the right, tiny ellipses stand
+# This is the far half of one of these laps. On the left, ellipses hold the black points; on the right, tiny ellipses stand
 # beside them. The robot sees a landmark again where it expects it, and concludes that both were
 # right. But the landmark was placed *by this robot*, and repeats the robot's own error. **One witness
 # was asked twice, and counted as two.**
@@ -582,7 +585,7 @@ views.show(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# The robot's curve rises for 75 s, falls as the loop closes, and rises again. Landmark 5 and the
+# The robot's curve rises until the loop closes, falls steeply, and rises again. Landmark 5 and the
 # vector from 5 to 6 only go down. And the vector is known better than the landmark: what the two
 # landmarks share drops out of their difference.
 
@@ -718,16 +721,16 @@ for name, mak in (("compass", compass_map), ("no compass", turned_map)):
 # %% slideshow={"slide_type": "fragment"}
 ask(
     "07-price",
-    "A large map grows to twice as many landmarks. **By which factor does the time of one sighting "
-    "grow?**",
+    "A large map grows to twice as many landmarks. **How many times as many numbers does one sighting "
+    "have to change?**",
     right=4,
     tolerance=0.4,
-    reason="the covariance has four times as many numbers, and each of them changes.",
+    reason="P has twice as many rows, each of them twice as long, and every number changes.",
     wrong={
         2: "so it is for the state x; P has a row and a column for each of its entries.",
-        8: "inverting a matrix of that size would cost the cube. What is inverted is S, whose size "
-        "is that of the sighting.",
-        1: "so it is where the landmarks are independent, as in lesson 05.",
+        8: "the cube would be the cost of inverting P; what is inverted is S, whose size is that of "
+        "the sighting.",
+        1: "so it would be if landmarks were independent, as in lesson 05.",
     },
 )
 
@@ -765,7 +768,7 @@ views.show(fig, f"Memory runs beside the line N²; time grows as N to the {slope
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # On these axes a power is a straight line, and its slope is the exponent. Memory follows (07.13).
 # Time is flat at first, where calling functions costs more than arithmetic; from 400 landmarks on
-# it grows as $N^{{= slope:.1f =}}$ (on the machine that ran this). As long as every number of $P$
+# it grows as $N^{ {= slope:.1f =} }$ on the machine that ran this. As long as every number of $P$
 # changes at every sighting, nothing better than $N^2$ can be had. So the ways out are to change
 # fewer numbers.
 
@@ -887,7 +890,7 @@ ask(
     {
         "6, as it must be": "it would be if all Jacobians were taken at one and the same state.",
         "7": "one direction too many; find out which.",
-        "9": "each sighting by itself has only two rows, and even all together never see a shift.",
+        "9": "even all sightings together never see a shift of the whole scene.",
     },
     right="7",
 )
@@ -930,7 +933,8 @@ for name, first_estimates in (("standard", False), ("first estimates", True)):
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### A turn that nobody measured
 #
-# The rank is 7: the filter believes that it learns how the whole scene is *turned*. It cannot. But it
+# Of the three red bars, which must vanish, one does not. (What the other two show is rounding.) So the
+# rank is 7: the filter believes that it learns how the whole scene is *turned*. It cannot. But it
 # sees the same landmark each time from a slightly different estimate, and takes the difference for
 # news. Move the noise to 0, and the rank is right.
 #
@@ -947,7 +951,7 @@ for name, first_estimates in (("standard", False), ("first estimates", True)):
 # ## How much is that?
 #
 # Three filters saw the same readings: *ideal*, with all Jacobians at the truth, which only a
-# simulation knows; *first estimates*; and *standard*. 400 runs of seven rounds each were made
+# simulation knows; *first estimates*; and *standard*. The runs, of seven rounds each, were made
 # beforehand, with good wheels and with noisy ones (`python -m slamlab.studies.consistency`).
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
@@ -965,7 +969,7 @@ noisy_nees = study["filters"]["standard"]["nees"]
 Markdown("\n".join(lines))
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# At a single step, 95 % of the averages over 400 runs lie between {= study["band_95"][0]:.2f =} and
+# At a single step, 95 % of the averages over {= study["seeds"][1] + 1 =} runs lie between {= study["band_95"][0]:.2f =} and
 # {= study["band_95"][1]:.2f =}. With good wheels the three filters are close together. With noisy ones
 # the standard filter's NEES is {= noisy_nees:.1f =}, and its heading and its map are the worst: it is
 # surer, *and* farther off. First estimates come close to the ideal. Even the ideal one is not inside
@@ -1037,7 +1041,7 @@ for name in ("ideal", "first estimates", "standard"):
 #
 # | place | printed | right | harm |
 # |---|---|---|---|
-# | (4.22)–(4.27), (4.33)–(4.38), first lines | $P - [W S^{-1} W]$ | $P - W S W^{\mathsf T}$ | the robot's do not multiply; the others run, and take off far too much |
+# | (4.22)–(4.27), (4.33)–(4.38), first lines | $P - [W S^{-1} W]$ | $P - W S W^{\mathsf T}$ | the robot's do not multiply; the others run, and are wrong by any amount |
 # | (4.34), second line | begins with $P_{\mathrm r2}$ | $P_{\mathrm r1}$ | the robot forgets landmark 1 |
 # | (4.37) | $P_{12}(1 \mid 0)$ | $P_{12}(2 \mid 1)$ | none: both are zero |
 # | (4.19), (4.20), (4.30)–(4.32) | $P H^{\mathsf T} v$ | $P H^{\mathsf T} S^{-1} v$ | corrections of a wrong size and unit |
@@ -1080,7 +1084,7 @@ SECOND_LINES = [  # as printed, by block; P_r2, with which (4.34) begins, is zer
 # given as a multiple of the right correction:
 
 # %% slideshow={"slide_type": "subslide"}
-stages, steps = shared_errors.two_sightings(0.3, heading_sigma=0.1)
+stages, steps = shared_errors.two_sightings(0.1, heading_sigma=0.05, prior_sigma=0.2)
 ROWS = {"r": slice(0, 3), "1": slice(3, 5), "2": slice(5, 7)}
 
 
@@ -1119,8 +1123,9 @@ Markdown("\n".join(lines))
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # What we derived is what the filter does, twelve times. Of the first lines, only those in which
-# nothing happens are right; the others are off by {= min(f for f in factors if f):.0f =} to
-# {= max(factors):.0f =} times the correction. Of the second lines only that of $P_{\mathrm r1}$ in the
+# nothing happens are right; the others are off by {= min(f for f in factors if f):.1f =} to
+# {= max(factors):.1f =} times the correction. (In other units it would be other numbers: $S$ stands on
+# the wrong side.) Of the second lines only that of $P_{\mathrm r1}$ in the
 # second update, (4.34), is wrong.
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]

@@ -48,7 +48,7 @@ def two_sightings(
 def rigid_motions(landmarks):
     """Directions in which a map moves as a whole: along x, along y, a turn about the origin.
 
-    Equation (07.7).
+    Equation (07.8).
 
     Parameters
     ----------
