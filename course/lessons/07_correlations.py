@@ -679,18 +679,25 @@ views.explore(
     turn_noise=(0.0, 0.03, 0.012),
     start_sigma=(0.0, 0.4, 0.2),
 )
+
+# %% slideshow={"slide_type": "fragment"} answers="07-limit"
 _, own, vector, compass_map = exact_turns(0.2)
 *_, turned_map = shared_errors.long_run(0.012, 0.2)
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # With a compass the landmark comes down to the grey line, the doubt about the start: after twelve
 # rounds it is known to {= own[-1]:.3f =} m. The vector to the next landmark, at
-# {= vector[-1]:.3f =} m, goes on falling. In the limit every landmark has one and the same error,
-# the start's; the map becomes *fully correlated*, and relatively exact:
+# {= vector[-1]:.3f =} m, goes on falling.
+
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# ### One error for all
+#
+# In the limit every landmark has one and the same error, the start's. The map becomes *fully
+# correlated*, and exact in itself:
 #
 # $$P_{ij} \to P_{\text{start}} \text{ for all } i, j, \qquad \Delta P_{ij} \to 0. \tag{07.12}$$
 
-# %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"] answers="07-limit"
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="07-limit"
 for name, mak in (("compass", compass_map), ("no compass", turned_map)):
     shifts, turn = shared_errors.rigid_share(mak.P[3:, 3:], mak.landmarks())
     rho = correlation(mak.P)[9, 11]  # x of one landmark and x of the next
