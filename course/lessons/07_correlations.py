@@ -52,8 +52,8 @@ from slamlab.studies.consistency import errors_of
 # one and then at the other? This is the smallest example in which everything happens that happens
 # in a large map. It is that of the MAK thesis.
 #
-# At the beginning nobody knows anything of anybody else. The three errors have nothing in common,
-# so the covariance is block-diagonal:
+# At the beginning the robot and both landmarks are each known from a source of their own. Their three
+# errors have nothing in common, so the covariance is block-diagonal:
 #
 # $$P = \begin{bmatrix} P_{\mathrm{rr}} & 0 & 0 \\ 0 & P_{11} & 0 \\ 0 & 0 & P_{22} \end{bmatrix}
 # \tag{07.1}$$
@@ -107,9 +107,9 @@ sp.block_collapse(P * H_1.T)
 # it shares nothing with the innovation either. Robot and landmark 1 move, landmark 2 stays.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
-# ### What becomes of the covariance, for any $P$ and any $H$
+# ### Any covariance, any sighting
 #
-# Lesson 03 left $P - K S K^{\mathsf T}$. We put the gain in:
+# Lesson 03 left us with $P - K S K^{\mathsf T}$. We put the gain in:
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 any_P, any_H, K = symmetric("P", 7), of("H", 2, 7), of("K", 7, 2)
@@ -174,7 +174,8 @@ sighting(P, seen)
 # P_{\mathrm ri} \leftarrow A P_{\mathrm ri}, \qquad P_{ij} \leftarrow P_{ij} \tag{07.5}$$
 #
 # The numbers of the robot's row change, but a zero block stays zero, and the map's blocks do not
-# change at all. So $P$ has the pattern that the first sighting has left. Who learns from the second?
+# change at all. So $P$ has the pattern that the first sighting has left. (The letters now mean the
+# blocks as they have become.) Who learns from the second?
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 P_r1 = of("P_r1", 3, 2)
@@ -249,7 +250,7 @@ for robot_sigma, drive_sigma in ((0.02, 0.0), (0.3, 0.0), (0.3, 0.3)):
 # without correlations: that was lesson 05's second half.
 
 
-# %% slideshow={"slide_type": "subslide"}
+# %% slideshow={"slide_type": "subslide"} answers="07-blocks"
 def blocks_fill(robot_sigma, drive_sigma):
     stages, _ = shared_errors.two_sightings(robot_sigma, drive_sigma, heading_sigma=0.02)
     strongest = abs(correlation(stages[2])[3:5, 5:]).max()
@@ -261,7 +262,6 @@ def blocks_fill(robot_sigma, drive_sigma):
     return fig
 
 
-# %% slideshow={"slide_type": "fragment"}
 views.explore(
     blocks_fill,
     lambda robot_sigma, drive_sigma: (
@@ -454,7 +454,7 @@ def mean_nees(share_kept, wheel_noise=1.0):
     return np.mean([lap.nees for lap in laps(share_kept, wheel_noise)], axis=0)
 
 
-# %% slideshow={"slide_type": "fragment"} answers="07-drop"
+# %% slideshow={"slide_type": "subslide"} answers="07-drop"
 def forget(share_kept, wheel_noise):
     """Mean NEES of the pose: all kept, and a share kept at each step."""
     some = "nothing kept" if share_kept == 0 else f"{share_kept:.2f} kept at each step"
@@ -466,7 +466,6 @@ def forget(share_kept, wheel_noise):
     return views.against_band(times, values, band(3, RUNS), "time [s]", "mean NEES [1]", title)[0]
 
 
-# %% slideshow={"slide_type": "subslide"} answers="07-drop"
 views.explore(
     forget,
     lambda share_kept, wheel_noise: (
@@ -490,9 +489,9 @@ views.explore(
 kept, dropped = laps(1.0, 1.0), laps(0.0, 1.0)
 for name, some in (("all kept", kept), ("nothing kept", dropped)):
     better = sum(lap.rms < lap.wheels_rms for lap in some)
-    print(f"{name}: rms error {np.median([lap.rms for lap in some]):.2f} m, median of {RUNS} laps;")
-    print(f"  smaller than that of the wheels alone in {better} of them;", end=" ")
-    print(f"{np.mean([lap.inside for lap in some]):.0%} of the 95 % ellipses hold their landmark")
+    print(f"{name}: rms error {np.median([lap.rms for lap in some]):.2f} m (median), smaller than")
+    print(f"  that of the wheels alone in {better} of {RUNS} laps;")
+    print(f"  {np.mean([lap.inside for lap in some]):.0%} of the 95 % ellipses hold their landmark")
 wheels_rms = np.median([lap.wheels_rms for lap in kept])
 closer = sum(a.rms < b.rms for a, b in zip(kept, dropped, strict=True))
 
@@ -553,7 +552,7 @@ ask(
 )
 
 
-# %% slideshow={"slide_type": "fragment"} answers="07-grow"
+# %% slideshow={"slide_type": "subslide"} answers="07-grow"
 def parts(P):
     """The blocks P_ij of a map, (N, N, 2, 2), and the ΔP_ij of (07.10) likewise."""
     n = len(P) // 2 - 1
@@ -567,7 +566,6 @@ def area(covariance):
     return np.pi * 5.99 * np.sqrt(max(np.linalg.det(covariance), 0))
 
 
-# %% slideshow={"slide_type": "subslide"} answers="07-grow"
 sizes = {"robot": [], "landmark 5": [], "vector from 5 to 6": []}
 for P_k in P_at:
     blocks, relative = parts(P_k)
@@ -650,7 +648,12 @@ ask(
 )
 
 
-# %% slideshow={"slide_type": "fragment"} answers="07-limit"
+# %% slideshow={"slide_type": "subslide"} answers="07-limit"
+exact_turns = cache(lambda start_sigma: shared_errors.long_run(0.0, start_sigma))
+_, own, vector, compass_map = exact_turns(0.2)
+*_, turned_map = shared_errors.long_run(0.012, 0.2)
+
+
 def for_ever(turn_noise, start_sigma):
     """σ of a landmark and of a vector over many rounds, with a compass and with noisy turns."""
     found = {"compass": exact_turns(start_sigma)}
@@ -658,17 +661,13 @@ def for_ever(turn_noise, start_sigma):
         found["no compass"] = shared_errors.long_run(turn_noise, start_sigma)
     ys = {f"landmark, {name}": own for name, (_, own, _, _) in found.items()}
     ys |= {f"vector to the next, {name}": vector for name, (_, _, vector, _) in found.items()}
-    rounds = found["compass"][0]
-    fig, ax = views.curves(rounds, ys, "rounds", "σ of x and y [m]", size=(8, 4))
+    fig, ax = views.curves(found["compass"][0], ys, "rounds", "σ of x and y [m]", size=(8, 4))
     ax.axhline(start_sigma, color=views.COLOURS["limit"], linestyle="dashdot", linewidth=1)
     ax.set_ylim(0, 2.4 * max(start_sigma, 0.2))
     views.legend(ax, ncols=2, loc="upper center")
     return fig
 
 
-exact_turns = cache(lambda start_sigma: shared_errors.long_run(0.0, start_sigma))
-
-# %% slideshow={"slide_type": "subslide"} answers="07-limit"
 views.explore(
     for_ever,
     lambda turn_noise, start_sigma: (
@@ -679,10 +678,6 @@ views.explore(
     turn_noise=(0.0, 0.03, 0.012),
     start_sigma=(0.0, 0.4, 0.2),
 )
-
-# %% slideshow={"slide_type": "fragment"} answers="07-limit"
-_, own, vector, compass_map = exact_turns(0.2)
-*_, turned_map = shared_errors.long_run(0.012, 0.2)
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # With a compass the landmark comes down to the grey line, the doubt about the start: after twelve
@@ -701,11 +696,8 @@ _, own, vector, compass_map = exact_turns(0.2)
 for name, mak in (("compass", compass_map), ("no compass", turned_map)):
     shifts, turn = shared_errors.rigid_share(mak.P[3:, 3:], mak.landmarks())
     rho = correlation(mak.P)[9, 11]  # x of one landmark and x of the next
-    print(
-        f"{name}: correlation {rho:.3f}; of the map's variance, {shifts:.1%} is displacement,",
-        end="",
-    )
-    print(f" {turn:.1%} a turn, {1 - shifts - turn:.1%} is left")
+    print(f"{name}: correlation of two neighbours {rho:.3f}; of the map's variance")
+    print(f"  {shifts:.1%} displacement, {turn:.1%} turn, {1 - shifts - turn:.1%} left")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # Without a compass one more thing stays unknown: **how the map is turned against the start**. The
@@ -742,7 +734,7 @@ ask(
 )
 
 
-# %% slideshow={"slide_type": "fragment"} answers="07-price"
+# %% slideshow={"slide_type": "subslide"} answers="07-price"
 def price(N, sightings=10):
     """Bytes of P, and seconds of one step with four landmarks in sight (the best of some)."""
     rng, R = np.random.default_rng(N), np.diag([0.1, 0.03]) ** 2
@@ -757,7 +749,6 @@ def price(N, sightings=10):
     return mak.P.nbytes, min(took)
 
 
-# %% slideshow={"slide_type": "subslide"} answers="07-price"
 N_tried = np.array([50, 100, 200, 400, 800, 1600])
 memory, seconds = np.array([price(N) for N in N_tried]).T
 slope, _ = np.polyfit(np.log(N_tried[-3:]), np.log(seconds[-3:]), 1)
@@ -903,7 +894,7 @@ ask(
 )
 
 
-# %% slideshow={"slide_type": "fragment"} answers="07-rank"
+# %% slideshow={"slide_type": "subslide"} answers="07-rank"
 def what_is_learnt(noise, first_estimates):
     """Singular values of (07.16): how much is learnt of each of nine directions."""
     stack, _ = observability.stacked_sightings(first_estimates, noise)
@@ -916,7 +907,6 @@ def what_is_learnt(noise, first_estimates):
     return fig
 
 
-# %% slideshow={"slide_type": "subslide"} answers="07-rank"
 views.explore(
     what_is_learnt,
     lambda noise, first_estimates: (
@@ -1036,7 +1026,7 @@ for name in ("ideal", "first estimates", "standard"):
 # $$\det(M - B B^{\mathsf T}) = \det M \cdot \det(I - C C^{\mathsf T}), \tag{07.17}$$
 #
 # where the eigenvalues of $I - C C^{\mathsf T}$ lie between 0 and 1: above 0 since a covariance is
-# left, at most 1 since a square was taken away. Their product does, too. A prediction leaves $M$ as it
+# left, at most 1 since a square was taken away. So does their product. A prediction leaves $M$ as it
 # was, by (07.5). For the vectors of (07.10) the same holds with $D M D^{\mathsf T}$ and $D B$.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
