@@ -69,6 +69,20 @@ def test_a_share_of_every_correlation_is_kept_and_all_of_every_variance():
             assert np.allclose(kept[0.25][at], factor * kept[1.0][at])
 
 
+@pytest.mark.parametrize("share", [0.0, 0.5, 1.0])
+def test_no_landmark_becomes_less_certain_whatever_the_filter_forgets(share):
+    run, sizes = LandmarkRun(Loop(landmarks=5, steps=40), np.random.default_rng(3)), {}
+    mak, R = forgetting.Forgetful(share), np.diag([0.1, 0.03]) ** 2
+    for reading, true in zip(run, run.truth.poses, strict=True):
+        mak.predict(true, np.diag([0.02, 0.02, 0.01]) ** 2)
+        for id, z in zip(reading.observations.ids.tolist(), reading.observations.z, strict=True):
+            (mak.update if id in mak.ids else mak.add)([id], [z], R)
+        for id, P in zip(mak.ids, mak.blocks()[2], strict=True):
+            assert np.linalg.det(P) <= sizes.get(id, np.inf) * (1 + 1e-9)
+            sizes[id] = np.linalg.det(P)
+    assert len(sizes) > 2
+
+
 def test_no_sighting_can_tell_a_moved_and_turned_scene_from_the_scene():
     run = LandmarkRun(Loop(landmarks=3), np.random.default_rng(2))
     state = np.concatenate([[0.4, -0.2, 0.7], run.landmarks.ravel()])

@@ -16,9 +16,9 @@
 # line. The second is a series of experiments. Both take 45 minutes with their questions.
 #
 # *In 45 minutes:* the two sightings with their derivations, "A whole loop" without what the map errs
-# by, "Drop them", and the last slide. What stands behind the last slide is for reading at home.
+# by, "Part two: drop them", and the last slide. What stands behind the last slide is for reading at home.
 #
-# Good for a poll: the first question, the one on the far landmark, and "Drop them".
+# Good for a poll: the first question, the one on the far landmark, and the one on dropping.
 
 # %% slideshow={"slide_type": "skip"}
 import json
@@ -50,7 +50,7 @@ from slamlab.studies.consistency import errors_of
 #
 # A robot and two landmarks, 1 and 2: what happens to their covariance when the robot looks first at
 # one and then at the other? This is the smallest example in which everything happens that happens
-# in a large map. It is that of the MAK thesis.
+# in a large map. It comes from the MAK thesis.
 #
 # At the beginning the robot and both landmarks are each known from a source of their own. Their three
 # errors have nothing in common, so the covariance is block-diagonal:
@@ -65,7 +65,7 @@ ask(
     "$P_{\\mathrm r1}$, $P_{\\mathrm r2}$, $P_{12}$, **which are still zero after the second sighting?**",
     {
         "all three": "each sighting has noise of its own, but it corrects robot and landmark by one "
-        "and the same number.",
+        "and the same innovation.",
         "only the one between the two landmarks": "nobody measured from one to the other; still, "
         "both now hang on the same robot.",
         "none": "the robot carries what it learned at landmark 1 over to landmark 2.",
@@ -410,8 +410,8 @@ print(f"of all the map's variance, {shifts:.0%} is displacement and {turn:.0%} a
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # Just before the loop closes, {= 100 * (shifts + turn):.0f =} % of the map's variance is that of a
-# stiff plate pushed about on a table. Only the rest bends the map. So the *shape* of the map is
-# known far better than its place, and this returns twice below.
+# stiff plate that is pushed about on a table. Only the rest bends the map. So the *shape* of the map
+# is known better than its place. We shall meet this twice again.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* This is a good place for the break. A sheet of paper on the desk, pushed and
@@ -499,8 +499,8 @@ closer = sum(a.rms < b.rms for a, b in zip(kept, dropped, strict=True))
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # The wheels alone err by {= wheels_rms:.2f =} m. So the forgetful filter's *estimates* are not that
-# bad: it beats its wheels, and the full filter is nearer to the truth in no more than
-# {= closer =} of {= RUNS =} laps. What it has lost is any idea of **how wrong it is**.
+# bad: on most laps it beats its wheels, and the full filter is nearer to the truth on no more than
+# {= closer =} of {= RUNS =}. What it has lost is any idea of **how wrong it is**.
 
 # %% slideshow={"slide_type": "subslide"} answers="07-drop"
 pictures = {}
@@ -520,8 +520,8 @@ views.show(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# This is the far half of one of these laps. On the left, ellipses hold the black points; on the right, tiny ellipses stand
-# beside them. The robot sees a landmark again where it expects it, and concludes that both were
+# This is the far half of one of these laps. On the left, ellipses hold the black points; on the right,
+# tiny ellipses stand beside them. The robot sees a landmark again where it expects it, and concludes that both were
 # right. But the landmark was placed *by this robot*, and repeats the robot's own error. **One witness
 # was asked twice, and counted as two.**
 
@@ -622,9 +622,9 @@ for name, ratios in largest.items():
     print(f"{name}: largest det after / det before = {max(ratios):.6f}")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# None is above 1 but the robot's. This is a law of the filter, whatever its Jacobians are. So the
-# filter that forgot its cross blocks obeys it as well: **certainty that never falls is no proof of
-# being right.**
+# None is above 1 but the robot's. This is a law of the filter, whatever its Jacobians are. The filter
+# that forgot its cross blocks obeys it as well, landmark by landmark, and was wrong all the time:
+# **certainty that never falls is no proof of being right.**
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* The thesis concludes that "the map's certainty does not fall". Ask whether that
@@ -655,7 +655,6 @@ ask(
 # %% slideshow={"slide_type": "subslide"} answers="07-limit"
 exact_turns = cache(lambda start_sigma: shared_errors.long_run(0.0, start_sigma))
 _, own, vector, compass_map = exact_turns(0.2)
-*_, turned_map = shared_errors.long_run(0.012, 0.2)
 
 
 def for_ever(turn_noise, start_sigma):
@@ -699,6 +698,7 @@ views.explore(
 # $$P_{ij} \to P_{\text{start}} \text{ for all } i, j, \qquad \Delta P_{ij} \to 0. \tag{07.12}$$
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="07-limit"
+*_, turned_map = shared_errors.long_run(0.012, 0.2)
 for name, mak in (("compass", compass_map), ("no compass", turned_map)):
     shifts, turn = shared_errors.rigid_share(mak.P[3:, 3:], mak.landmarks())
     rho = correlation(mak.P)[9, 11]  # x of one landmark and x of the next
@@ -718,10 +718,11 @@ for name, mak in (("compass", compass_map), ("no compass", turned_map)):
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=4
 # ## The price
 #
-# There are $N$ landmarks in the map, and a sighting changes every number of the covariance. To
-# store are
+# A map of $N$ landmarks has a covariance of
 #
-# $$(3 + 2N)^2 \text{ numbers.} \tag{07.13}$$
+# $$(3 + 2N)^2 \text{ numbers,} \tag{07.13}$$
+#
+# and each sighting changes all of them.
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
@@ -773,8 +774,8 @@ views.show(fig, f"Memory runs beside the line N²; time grows as N to the {slope
 # On these axes a power is a straight line, and its slope is the exponent. Memory follows (07.13).
 # Time is flat at first, where calling functions costs more than arithmetic; from 400 landmarks on
 # it grows as $N^{ {= slope:.1f =} }$ on the machine that ran this. As long as every number of $P$
-# changes at every sighting, nothing better than $N^2$ can be had. So the ways out are to change
-# fewer numbers.
+# changes at every sighting, nothing better than $N^2$ can be had. Every way out has to change fewer
+# numbers.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=4
 # ## A way out: settle later
@@ -972,11 +973,11 @@ noisy_nees = study["filters"]["standard"]["nees"]
 Markdown("\n".join(lines))
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# At a single step, 95 % of the averages over {= study["seeds"][1] + 1 =} runs lie between {= study["band_95"][0]:.2f =} and
-# {= study["band_95"][1]:.2f =}. With good wheels the three filters are close together. With noisy ones
+# At a single step, 95 % of the averages of an honest filter over {= study["seeds"][1] + 1 =} runs
+# lie between {= study["band_95"][0]:.2f =} and {= study["band_95"][1]:.2f =}. With good wheels the three filters are close together. With noisy ones
 # the standard filter's NEES is {= noisy_nees:.1f =}, and its heading and its map are the worst: it is
-# surer, *and* farther off. First estimates come close to the ideal. Even the ideal one is not inside
-# the band at all steps, for with so much noise a straightened map is not the truth (lesson 04).
+# surer, *and* farther off. First estimates come close to the ideal. Even the ideal filter leaves the
+# band at some steps, for it, too, puts straight lines in place of bent models (lesson 04).
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
 noisy = Loop(v_sigma=0.05, omega_sigma=0.05)
@@ -1013,7 +1014,7 @@ for name in ("ideal", "first estimates", "standard"):
 # | the far landmarks' share, until the robot leaves | nothing: the compressed EKF |
 # | the noise that small maps share (there is none) | next to nothing: joined maps |
 # | the common error (relative maps) | little, if loops are made to add up |
-# | changing Jacobians (first estimates) | more honesty for little money |
+# | the change of the Jacobians (first estimates) | NEES near its band, at no cost |
 #
 # **What comes next:** here every landmark told its name. A wall does not:
 # [lesson 08](08_landmarks_from_scans.ipynb) finds landmarks in scans.
@@ -1126,10 +1127,10 @@ Markdown("\n".join(lines))
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # What we derived is what the filter does, twelve times. Of the first lines, only those in which
-# nothing happens are right; the others are off by {= min(f for f in factors if f):.1f =} to
-# {= max(factors):.1f =} times the correction. (In other units it would be other numbers: $S$ stands on
-# the wrong side.) Of the second lines only that of $P_{\mathrm r1}$ in the
-# second update, (4.34), is wrong.
+# nothing happens are right; the others are off by {= min(f for f in factors if f):.0f =} to
+# {= max(factors):.0f =} times the correction. (In other units these would be other numbers, since
+# $S^{-1}$ stands where $S$ belongs.) Of the second lines only that of $P_{\mathrm r1}$ in the second
+# update, (4.34), is wrong.
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
 gains = {
