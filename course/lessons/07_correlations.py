@@ -925,7 +925,10 @@ views.explore(
     first_estimates=False,
 )
 
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="07-rank"
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# Of the three red bars, which must vanish, one does not. (What the other two show is rounding.)
+
+# %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"] answers="07-rank"
 for name, first_estimates in (("standard", False), ("first estimates", True)):
     stack, state = observability.stacked_sightings(first_estimates)
     learnt = np.linalg.norm(stack @ observability.whole_scene(state), axis=0) + 0
@@ -934,11 +937,10 @@ for name, first_estimates in (("standard", False), ("first estimates", True)):
     )
     print(f"{name}: rank {np.linalg.matrix_rank(stack)} of {len(state)}; learnt of {told}")
 
-# %% [markdown] slideshow={"slide_type": "subslide"}
+# %% [markdown] slideshow={"slide_type": "fragment"}
 # ### A turn that nobody measured
 #
-# Of the three red bars, which must vanish, one does not. (What the other two show is rounding.) So the
-# rank is 7: the filter believes that it learns how the whole scene is *turned*. It cannot. But it
+# The rank is 7: the filter believes that it learns how the whole scene is *turned*. It cannot. But it
 # sees the same landmark each time from a slightly different estimate, and takes the difference for
 # news. Move the noise to 0, and the rank is right.
 #
@@ -1014,7 +1016,7 @@ for name in ("ideal", "first estimates", "standard"):
 # | the far landmarks' share, until the robot leaves | nothing: the compressed EKF |
 # | the noise that small maps share (there is none) | next to nothing: joined maps |
 # | the common error (relative maps) | little, if loops are made to add up |
-# | the change of the Jacobians (first estimates) | NEES near its band, at no cost |
+# | the change of the Jacobians (first estimates) | NEES close to that of the ideal filter |
 #
 # **What comes next:** here every landmark told its name. A wall does not:
 # [lesson 08](08_landmarks_from_scans.ipynb) finds landmarks in scans.
