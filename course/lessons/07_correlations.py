@@ -663,10 +663,10 @@ def for_ever(turn_noise, start_sigma):
     if turn_noise:
         found["no compass"] = shared_errors.long_run(turn_noise, start_sigma)
     fig, ax = views.chart("rounds", "σ of x and y [m]", size=(8, 4))
-    for (name, (rounds, own, vector, _)), line in zip(found.items(), ("-", "--"), strict=False):
-        ax.plot(rounds, own, line, color=views.COLOURS["landmark"], label=f"landmark, {name}")
-        blue = {"color": views.COLOURS["corrected"], "label": f"vector to the next, {name}"}
-        ax.plot(rounds, vector, line, **blue)
+    for (name, (rounds, *both, _)), line in zip(found.items(), ("-", "--"), strict=False):
+        for what, sigma in zip(("landmark", "vector"), both, strict=True):
+            colour = views.COLOURS["landmark" if what == "landmark" else "corrected"]
+            ax.plot(rounds, sigma, line, color=colour, label=f"{what}, {name}")
     ax.axhline(start_sigma, color=views.COLOURS["limit"], linestyle="dashdot", linewidth=1)
     ax.set_ylim(0, 2.4 * max(start_sigma, 0.2))
     views.legend(ax, ncols=2, loc="upper center")
@@ -676,9 +676,8 @@ def for_ever(turn_noise, start_sigma):
 views.explore(
     for_ever,
     lambda turn_noise, start_sigma: (
-        f"The start is known to {start_sigma:.2f} m. With a compass a landmark comes down to that, "
-        f"and its vector to the next towards zero; with turns noisy by {turn_noise:.3f} rad/s both "
-        "stay above."
+        f"The start is known to {start_sigma:.2f} m. With a compass a landmark comes down to that, and "
+        f"its vector to the next goes on falling; turns noisy by {turn_noise:.3f} rad/s leave more."
     ),
     turn_noise=(0.0, 0.03, 0.012),
     start_sigma=(0.0, 0.4, 0.2),
