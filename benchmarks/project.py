@@ -35,7 +35,7 @@ def points_of_seed(seed, families=FAMILIES, count=WORLDS_PER_FAMILY):
     for family in families.values():
         for world in draw_family(family, seed, count):
             arena = prepare(world)
-            mine = drive(MySlam, world, Budget(*[np.inf] * 3))
+            mine = drive(MySlam, world, Budget(*[np.inf] * 4))
             for who, driven in (arena.drives | {SOLUTION: mine}).items():
                 found[who].append(arena.judge(driven).points)
     return {who: np.reshape(points, (len(families), count)) for who, points in found.items()}

@@ -12,6 +12,10 @@ MAX_MAP_POINTS = 50_000
 HALF_OF_P = "covariance is not symmetric: is a term of P missing on one side?"
 
 
+class GraderFault(Exception):
+    """What went wrong is no fault of the student's, and must not be told as one."""
+
+
 class StudentEstimator:
     """One object of a student's class; each call answers arrays or raises StudentError.
 
@@ -27,8 +31,13 @@ class StudentEstimator:
     def __init__(self, make):
         self._theirs = _called(make, "making the estimator")
         for name, what in (("step", "a method step(reading)"), ("pose", "a pose (x, y, theta)")):
-            if not hasattr(self._theirs, name):
+            if not self._has(name):
                 raise StudentError("missing", f"the estimator has no {name}: it needs {what}")
+
+    @property
+    def offers(self):
+        """Whether it has a ``trajectory`` and a ``map``, two bool."""
+        return self._has("trajectory"), self._has("map")
 
     def step(self, reading):
         """Hand it one reading.
@@ -64,7 +73,7 @@ class StudentEstimator:
         -------
         (count, 3), or None where it has no ``trajectory``
         """
-        if not hasattr(self._theirs, "trajectory"):
+        if not self.offers[0]:
             return None
         value = _called(self._theirs.trajectory, "trajectory")
         poses = getattr(value, "poses", value)  # a Trajectory of the package's will do, too
@@ -72,7 +81,7 @@ class StudentEstimator:
 
     def map(self):
         """Ask for its map: (n, 2) points, none where it has no ``map``."""
-        if not hasattr(self._theirs, "map"):
+        if not self.offers[1]:
             return np.empty((0, 2))
         value = _called(self._theirs.map, "map")
         points = np.empty((0, 2)) if value is None else numbers(value, "map()")
@@ -88,13 +97,16 @@ class StudentEstimator:
             )
         return points[np.isfinite(points).all(axis=1)]
 
+    def _has(self, name):
+        return _called(lambda: hasattr(self._theirs, name), name)
+
 
 def _called(function, what):
     try:
         return function()
     except NotImplementedError:
         raise StudentError("not attempted", f"{what}: not attempted yet") from None
-    except StudentError:
+    except (StudentError, GraderFault):
         raise
     except Exception as error:
         raise StudentError("raised", f"{what} failed with {describe(error)}") from None
