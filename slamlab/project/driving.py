@@ -94,6 +94,7 @@ class Drive:
     points : (m, 2) its map [m]
     mistakes : tuple of str, what went wrong, a sentence each
     seconds : float of CPU
+    late : bool, whether a limit of time ended it: what another machine may not find
     """
 
     online: np.ndarray
@@ -102,6 +103,7 @@ class Drive:
     points: np.ndarray
     mistakes: tuple[str, ...]
     seconds: float
+    late: bool = False
 
     @property
     def completeness(self):
@@ -123,7 +125,7 @@ def drive(make, world, budget=None):
     Drive
     """
     budget, n, mistakes = budget or Budget(), len(world), []
-    before, answered = budget.spent, 0
+    before, answered, late = budget.spent, 0, False
     online, covariances = np.full((n, 3), np.nan), np.full((n, 3, 3), np.nan)
     trajectory, points = online, np.empty((0, 2))
     try:
@@ -134,6 +136,7 @@ def drive(make, world, budget=None):
             answered += 1
     except StudentError as error:
         mistakes.append(f"at reading {answered + 1} of {n}: {error.message}")
+        late = error.kind == "time"
     else:
         # the map is asked for though the trajectory fails
         with _kept(mistakes):
@@ -146,7 +149,7 @@ def drive(make, world, budget=None):
     if lost:
         mistakes.append(f"{lost} of {n} poses are not finite: was something divided by zero?")
     spent = budget.spent - before
-    return Drive(online, covariances, trajectory, points, tuple(mistakes), spent)
+    return Drive(online, covariances, trajectory, points, tuple(mistakes), spent, late)
 
 
 @contextmanager

@@ -7,17 +7,17 @@ import numpy as np
 import pytest
 
 from course.project.solution import MySlam as Solution
+from slamlab.contest.sandbox_judging import ALLOWED, PROJECT, drive_in_sandbox
 from slamlab.grading.import_closure import closure
 from slamlab.grading.staging import worker_modules
 from slamlab.grading.worker_pool import WorkerStartError
 from slamlab.project.drawing import draw_world
 from slamlab.project.driving import Budget, drive
-from slamlab.project.judging import ALLOWED, PROJECT, drive_in_sandbox
 from slamlab.project.scores import prepare
 from slamlab.project.student_estimator import GraderFault
 from slamlab.project.world_families import LANDMARKS, Family
+from tests.contest import cheaters
 from tests.grading.conftest import workers
-from tests.project import cheaters
 
 LOOP = Family("loop", plans=(("crrc", "crc"),))
 JUDGES = ("drawing", "hidden_worlds", "scores", "points", "drive_errors", "judging", "driving")
@@ -105,7 +105,7 @@ def test_who_hangs_is_ended(monkeypatch):
 
 def shorter(monkeypatch, request, seconds):
     """Wait less for an answer of the worker's."""
-    from slamlab.project import judging
+    from slamlab.contest import sandbox_judging as judging
 
     drives = dict(judging.DRIVES)
     drives[request] = type(drives[request])(drives[request].functions, drives[request].run, seconds)
