@@ -98,7 +98,8 @@ def _contest(arguments, scratch):
     with signals_as_interrupt(), WorkerPool(arguments.isolation) as workers:
         prepared = _prepared(holding.draw_arenas(contest), contest)
         with _bar() as progress:
-            bar = progress.add_task("", total=len(holding.entrants(found)) * len(prepared))
+            readable = sum(entrant.problem is None for entrant in holding.entrants(found))
+            bar = progress.add_task("", total=readable * len(prepared))
             said = holding.hold_contest(
                 contest, found, out, prepared, workers, jobs=arguments.jobs,
                 names=arguments.names, again=again,

@@ -3,9 +3,9 @@
 Everything below its folder may be put on a site: nothing in it says whose a pseudonym is.
 """
 
-import csv
-import io
+import re
 from dataclasses import dataclass
+from hashlib import sha256
 from pathlib import Path
 
 import jinja2
@@ -15,7 +15,9 @@ from slamlab.contest.class_judging import Entry
 from slamlab.contest.moments import BAND, WAY, first_moment
 from slamlab.contest.pictures import film_page, map_picture
 from slamlab.contest.ranking import LEVEL, Standing, standings
+from slamlab.grading.grade_tables import write_table
 from slamlab.grading.records import private_folder, write_atomically
+from slamlab.grading.tree_removal import remove_tree
 from slamlab.project.drive_errors import LENGTHS
 from slamlab.views.colours import COLOURS
 
@@ -51,8 +53,11 @@ class Row:
 
     @property
     def slug(self):
-        """A file's name."""
-        return "".join(c if c.isascii() and c.isalnum() else "-" for c in self.name.lower())
+        """A file's name, no two alike."""
+        words = re.findall(r"[a-z0-9]+", self.name.lower())
+        if self.name.lower() == " ".join(words):
+            return "-".join(words)
+        return "-".join([*words, sha256(self.name.encode()).hexdigest()[:8]])
 
 
 def rank(entries, names, arenas):
@@ -99,8 +104,9 @@ def write_board(out, rows, marks, arenas, contest, unjudged):
     known = {"rows": rows, "marks": marks, "families": families, "contest": contest,
              "unjudged": unjudged, "level": LEVEL, "colours": COLOURS}  # fmt: skip
     write_atomically(out / "index.html", TEMPLATES.get_template("board.html").render(known))
-    write_atomically(out / "board.csv", csv_text(*_board_table(rows, families)))
-    write_atomically(out / "worlds.csv", csv_text(*_worlds_table(rows, contest.worlds)))
+    write_table(out / "board.csv", _board_table(rows, families))
+    write_table(out / "worlds.csv", _worlds_table(rows, contest.worlds))
+    remove_tree(out / "students")  # whose names may have been other ones
     for row in rows:
         write_student_page(out, row, arenas, families)
 
@@ -128,10 +134,12 @@ def write_student_page(out, row, arenas, families):
     counted = np.argsort(points, axis=1, kind="stable")[:, worlds // 2]
     family = int(np.argmin(points[np.arange(len(families)), counted]))
     shown = family * worlds + int(counted[family])
-    title = f"{row.name}: {families[family]}, world {shown % worlds + 1}"
+    title = f"{families[family]}, world {shown % worlds + 1}"
     private_folder(out / "students")
     film = out / "students" / f"{row.slug}-film.html"
-    replay = film_page(arenas[shown], row.entry.drives[shown], title, film.with_suffix(".film"))
+    replay = film_page(
+        arenas[shown], row.entry.drives[shown], f"{row.name}: {title}", film.with_suffix(".film")
+    )
     write_atomically(film, replay)
     page = TEMPLATES.get_template("student.html").render(
         row=row,
@@ -155,38 +163,24 @@ def write_student_page(out, row, arenas, families):
 
 
 def _board_table(rows, families):
-    head = ["rank", "name", "score", "low", "high", *families]
-    body = [
-        [row.standing.rank, row.name, *(f"{value:.2f}" for value in (
-            row.standing.score, row.standing.low, row.standing.high, *row.standing.families))]
-        for row in rows
-    ]  # fmt: skip
-    return head, body
+    yield ["rank", "name", "score", "low", "high", *families]
+    for row in rows:
+        found = row.standing
+        numbers = (found.score, found.low, found.high, *found.families)
+        yield [str(found.rank), row.name, *(f"{value:.2f}" for value in numbers)]
 
 
 def _worlds_table(rows, worlds):
     errors = [f"error over {length:g} m" for length in LENGTHS]
-    head = ["name", "sha256", "family", "world", "points", *errors, "map",
-            "completeness", "nees", "cpu", "late", "mistakes"]  # fmt: skip
-    body = []
+    more = ["map", "completeness", "nees", "cpu", "late", "mistakes"]
+    yield ["name", "sha256", "family", "world", "points", *errors, *more]
     for row in rows:
         pairs = zip(row.entry.drives, row.entry.results, strict=True)
         for k, (driven, result) in enumerate(pairs):
             found = result.measures
             numbers = (*found.errors, found.map, found.completeness, found.nees, driven.seconds)
-            body.append(
-                [row.name, row.entry.sha256, result.family, k % worlds + 1, repr(result.points),
-                 *(f"{value:.4g}" for value in numbers), int(driven.late),
-                 " | ".join(driven.mistakes)]
-            )  # fmt: skip
-    return head, body
-
-
-def csv_text(head, body):
-    """A table as text; what a spreadsheet would take for a formula is kept from being one."""
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(head)
-    for row in body:
-        writer.writerow([f"'{c}" if str(c)[:1] in "=+@\t\r" else c for c in map(str, row)])
-    return text.getvalue()
+            yield [
+                row.name, row.entry.sha256, result.family, str(k % worlds + 1),
+                repr(float(result.points)), *(f"{value:.4g}" for value in numbers),
+                str(int(driven.late)), " | ".join(driven.mistakes),
+            ]  # fmt: skip

@@ -1,6 +1,7 @@
 """Holding a contest: from a folder of submissions to the board, the pages and what is revealed."""
 
 import csv
+import json
 import secrets
 from functools import partial
 
@@ -16,7 +17,7 @@ from slamlab.project.driving import Budget
 from slamlab.project.scores import arenas
 from slamlab.project.world_families import FAMILIES
 
-BOARD, DRIVES, PSEUDONYMS = "board", "drives", "pseudonyms.csv"
+BOARD, DRIVES, PSEUDONYMS = "board", "drives", "pseudonyms.json"
 """In the folder of results: what may be published; what was driven; whose a pseudonym is."""
 WORLDS = "worlds.csv"  # in the board's folder: the points of each world
 
@@ -141,8 +142,7 @@ def _names(out, students, names):
         return {student: student for student in students}
     file, kept = out / PSEUDONYMS, {}
     if file.exists():
-        with open(file, newline="", encoding="utf-8") as opened:
-            kept = {row["student"]: row["pseudonym"] for row in csv.DictReader(opened)}
+        kept = json.loads(file.read_text("utf-8"))
     given = pseudonyms(sorted(students), kept, secrets.choice)
-    write_atomically(file, board.csv_text(["student", "pseudonym"], sorted(given.items())))
+    write_atomically(file, json.dumps(given, indent=1, sort_keys=True) + "\n")
     return given

@@ -7,6 +7,7 @@ import numpy as np
 from slamlab.geometry import between
 
 WAY, BAND = 5.0, 0.25  # over so much of way the error may be so large [m, m]
+CARRIED = 1.5  # a step that no robot drives [m]
 
 
 @dataclass(frozen=True)
@@ -19,12 +20,14 @@ class Moment:
     metres : float, of way until then [m]
     error : float, over the last 5 m of way [m]; NaN where there is no pose
     turn : float, error of the heading over them [rad]
+    carried : bool, whether the robot had been carried on the way
     """
 
     reading: int
     metres: float
     error: float
     turn: float
+    carried: bool = False
 
     @property
     def says(self):
@@ -32,6 +35,11 @@ class Moment:
         place = f"At reading {self.reading}, after {self.metres:.1f} m of way,"
         if np.isnan(self.error):
             return f"{place} there was no finite pose any more."
+        if self.carried:
+            return (
+                f"{place} the robot had just been carried to another place, and the estimate had "
+                f"not noticed: the motion over the last {WAY:g} m was off by {self.error:.2f} m."
+            )
         how = (
             f"mostly by its heading, which was off by {np.degrees(abs(self.turn)):.1f}°"
             if abs(self.turn) * WAY / 2 > self.error / 2
@@ -64,4 +72,6 @@ def first_moment(online, truth, metres):
     if not len(left):
         return None
     j = int(left[0])
-    return Moment(j + 1, float(metres[j]), float(off[j]), float(error[j, 2]))
+    steps = np.hypot(*np.diff(truth[first[j] : j + 1, :2], axis=0).T)
+    carried = bool((steps > CARRIED).any())
+    return Moment(j + 1, float(metres[j]), float(off[j]), float(error[j, 2]), carried)

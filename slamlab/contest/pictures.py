@@ -54,7 +54,7 @@ def map_picture(arena, drive, moment=None):
     marked = ""
     if moment is not None:
         x, y = points(truth[moment.reading - 1 : moment.reading, :2]).split(",")
-        colour = COLOURS["naive"]
+        colour = COLOURS["robot"]
         marked = (
             f'<circle cx="{x}" cy="{y}" r="14" fill="none" stroke="{colour}" stroke-width="4"/>'
         )
@@ -62,7 +62,7 @@ def map_picture(arena, drive, moment=None):
     return (
         f'<svg viewBox="0 0 {WIDTH} {height:.0f}" role="img" xmlns="http://www.w3.org/2000/svg">'
         f"<title>Map of the world with three tracks: true, odometry, estimate</title>{segments}"
-        f"{track(odometry, 'before')}{track(truth, 'truth')}"
+        f"{track(odometry, 'naive')}{track(truth, 'truth')}"
         f"{track(in_the_world(drive.online, truth), 'corrected')}{marked}</svg>"
     )
 
