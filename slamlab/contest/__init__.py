@@ -8,5 +8,5 @@ Read in this order:
 - ``class_judging``: all students in all worlds; ``holding``: a contest from folder to board
 - ``ranking``: scores with intervals, ranks with ties; ``pseudonyms``
 - ``moments``: where an estimate left its band; ``pictures``: the map of it, a film
-- ``board``: the board, its tables, a page a student
+- ``scoreboard``: the board, its tables, a page a student
 """

@@ -7,7 +7,7 @@ from functools import partial
 
 import numpy as np
 
-from slamlab.contest import board, commitment
+from slamlab.contest import commitment, scoreboard
 from slamlab.contest.class_judging import Course, entrants, judge_class
 from slamlab.contest.commitment import ContestError
 from slamlab.contest.pseudonyms import pseudonyms
@@ -72,9 +72,9 @@ def hold_contest(contest, found, out, prepared, workers, *, jobs=1, names=False,
     course = Course(prepared, out / DRIVES, budget, over, carried)
     entries = list(judge_class(found, course, workers, jobs, told))
     shown = _names(out, [entry.student for entry in entries], names)
-    rows, marks = board.rank(entries, shown, prepared)
+    rows, marks = scoreboard.rank(entries, shown, prepared)
     unjudged = sorted((shown[e.student], e.reason) for e in entries if e.reason is not None)
-    board.write_board(out / BOARD, rows, marks, prepared, contest, unjudged)
+    scoreboard.write_board(out / BOARD, rows, marks, prepared, contest, unjudged)
     said = [f"{len(rows)} judged, {len(unjudged)} not: {out / BOARD / 'index.html'}"]
     said += [f"{e.student}: {e.reason}" for e in entries if e.reason is not None]
     if not names:

@@ -103,7 +103,7 @@ def write_board(out, rows, marks, arenas, contest, unjudged):
     families = list(dict.fromkeys(arena.world.family.name for arena in arenas))
     known = {"rows": rows, "marks": marks, "families": families, "contest": contest,
              "unjudged": unjudged, "level": LEVEL, "colours": COLOURS}  # fmt: skip
-    write_atomically(out / "index.html", TEMPLATES.get_template("board.html").render(known))
+    write_atomically(out / "index.html", TEMPLATES.get_template("scoreboard.html").render(known))
     write_table(out / "board.csv", _board_table(rows, families))
     write_table(out / "worlds.csv", _worlds_table(rows, contest.worlds))
     remove_tree(out / "students")  # whose names may have been other ones
