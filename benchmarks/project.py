@@ -11,6 +11,7 @@ import numpy as np
 
 from benchmarks.common import main, row
 from course.project.solution import MySlam
+from slamlab.contest.ranking import scores
 from slamlab.project.baselines import BASELINES
 from slamlab.project.drawing import WORLDS_PER_FAMILY, draw_family
 from slamlab.project.driving import Budget, drive
@@ -24,26 +25,23 @@ SETS = 4000  # put together by chance
 SOLUTION = "solution"
 
 
-def points_of_seed(seed, families=FAMILIES, count=WORLDS_PER_FAMILY):
+def points_of_seed(seed):
     """What the baselines and the solution score in the worlds of a seed.
 
     Returns
     -------
-    {who: (families, count)} points
+    {who: (families, worlds)} points
     """
     found = {who: [] for who in (*BASELINES, SOLUTION)}
-    for family in families.values():
-        for world in draw_family(family, seed, count):
+    for family in FAMILIES.values():
+        for world in draw_family(family, seed, WORLDS_PER_FAMILY):
             arena = prepare(world)
             mine = drive(MySlam, world, Budget(*[np.inf] * 4))
             for who, driven in (arena.drives | {SOLUTION: mine}).items():
                 found[who].append(arena.judge(driven).points)
-    return {who: np.reshape(points, (len(families), count)) for who, points in found.items()}
-
-
-def scores(points):
-    """Scores of sets of worlds, (..., families, count) points: medians of families, their mean."""
-    return np.median(points, axis=-1).mean(axis=-1)
+    return {
+        who: np.reshape(points, (len(FAMILIES), WORLDS_PER_FAMILY)) for who, points in found.items()
+    }
 
 
 def between_seeds(points, rng):
