@@ -9,6 +9,7 @@ import numpy as np
 from slamlab.exercises.drives import StudentError, describe, numbers, shaped
 
 MAX_MAP_POINTS = 50_000
+FAR = 1e6  # farther away there is no building: such a number counts as not finite [m, rad]
 HALF_OF_P = "covariance is not symmetric: is a term of P missing on one side?"
 
 
@@ -51,7 +52,7 @@ class StudentEstimator:
         pose (3,), with NaN where it is not finite, and covariance (3, 3), NaN where none is claimed
         """
         _called(lambda: self._theirs.step(reading), "step")
-        pose = _finite(_called(lambda: self._theirs.pose, "pose"), "pose", (3,))
+        pose = _near(_called(lambda: self._theirs.pose, "pose"), "pose", (3,))
         claimed = _called(lambda: getattr(self._theirs, "covariance", None), "covariance")
         if callable(claimed):
             claimed = _called(claimed, "covariance")
@@ -77,7 +78,7 @@ class StudentEstimator:
             return None
         value = _called(self._theirs.trajectory, "trajectory")
         poses = getattr(value, "poses", value)  # a Trajectory of the package's will do, too
-        return _finite(poses, "trajectory()", (count, 3))
+        return _near(poses, "trajectory()", (count, 3))
 
     def map(self):
         """Ask for its map: (n, 2) points, none where it has no ``map``."""
@@ -95,7 +96,7 @@ class StudentEstimator:
                 f"map() has {len(points)} points, at most {MAX_MAP_POINTS} are allowed: keep one "
                 "of those that fall into the same cell of a grid",
             )
-        return points[np.isfinite(points).all(axis=1)]
+        return points[(np.abs(points) < FAR).all(axis=1)]
 
     def _has(self, name):
         return _called(lambda: hasattr(self._theirs, name), name)
@@ -110,6 +111,12 @@ def _called(function, what):
         raise
     except Exception as error:
         raise StudentError("raised", f"{what} failed with {describe(error)}") from None
+
+
+def _near(value, name, shape):
+    """An array of a shape, NaN for what is not finite or beyond any building."""
+    array = shaped(value, name, shape)
+    return np.where(np.abs(array) < FAR, array, np.nan)
 
 
 def _finite(value, name, shape):
