@@ -191,6 +191,22 @@ def test_a_drive_is_kept_as_it_is_and_half_a_file_is_none(tmp_path, cut):
     assert read_drive(file) is None
 
 
+@pytest.mark.usefixtures("held")
+def test_the_command_judges_a_folder_and_tells_who_is_driven(tmp_path, capsys, monkeypatch):
+    draw = commitment.draw_contest
+    monkeypatch.setattr(commitment, "draw_contest", lambda: draw(("small",), 1))
+    (tmp_path / "class").mkdir()
+    (tmp_path / "class" / "gil.ipynb").write_text(notebook(cheaters.TEMPLATE, exercise=None))
+    out = tmp_path / "out"
+    words = ["--out", str(out), "--isolation", workers().level]
+    assert main(["contest", str(tmp_path / "class"), *words]) == 0
+    said = capsys.readouterr()
+    assert "1 judged, 0 not" in said.out
+    assert "gil.ipynb" in said.err
+    (row,) = rows(out / "board")
+    assert float(row["score"]) == 0
+
+
 def test_without_a_folder_the_command_only_commits(tmp_path, capsys):
     assert main(["contest", "--out", str(tmp_path / "out")]) == 0
     told = capsys.readouterr().out.split()[0]
