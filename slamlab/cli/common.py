@@ -1,5 +1,6 @@
 """Helpers shared by the commands: generator, source that ends at Ctrl-C, damage, course file."""
 
+import contextlib
 import signal
 import threading
 from pathlib import Path
@@ -128,3 +129,20 @@ class Interruptible:
             raise KeyboardInterrupt
         self.ended, self.code = "ended by Ctrl-C", INTERRUPTED
         self._source.close()
+
+
+@contextlib.contextmanager
+def signals_as_interrupt():
+    """Handle SIGTERM and SIGHUP as Ctrl+C, which leaves no worker behind."""
+    names = [name for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
+    in_main = threading.current_thread() is threading.main_thread()
+    old = {n: signal.signal(getattr(signal, n), _interrupt) for n in names if in_main}
+    try:
+        yield
+    finally:
+        for name, handler in old.items():
+            signal.signal(getattr(signal, name), handler)
+
+
+def _interrupt(*_):
+    raise KeyboardInterrupt

@@ -21,6 +21,7 @@ ELSEWHERE = {
     "films",
     "grading",
     "live",
+    "project",
     "raycast",
     "soak",
 }  # ports, sandboxes, a browser; a test of its own
