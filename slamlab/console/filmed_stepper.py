@@ -1,5 +1,7 @@
 """Stepper of a console: dead reckoning runs beside, and each step may be filmed."""
 
+import numpy as np
+
 from slamlab.estimators.dead_reckoning import DeadReckoning
 from slamlab.views.colours import COLOURS
 from slamlab.views.live.run_scene import run_layers
@@ -22,7 +24,7 @@ class FilmedStepper(Stepper):
     def __init__(self, make_source, make_estimator, film=None):
         naive = {NAIVE: lambda source: DeadReckoning()}
         grey = {NAIVE: COLOURS["before"]}
-        super().__init__(make_source, make_estimator, beside=naive, colours=grey)
+        super().__init__(make_source, make_estimator, beside=naive, colours=grey, note=_pose)
         self._film, self.filming = film, film is not None
 
     @property
@@ -40,3 +42,8 @@ class FilmedStepper(Stepper):
         own = {layer.name for layer in self.estimator.layers()}
         beside = {name: each for name, each in self.others.items() if name not in own}
         return run_layers(self.source, self.estimator, beside, self.count)
+
+
+def _pose(pair):
+    x, y, theta = pair.estimator.pose
+    return f"pose {x:.3f} m, {y:.3f} m, {np.degrees(theta):.1f}°"

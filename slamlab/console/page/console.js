@@ -17,11 +17,13 @@ async function comeIn() {
   return (await fetch("enter", asked).catch(() => null))?.ok;
 }
 
+let feedOfPage = null;
+
 function connect() {
   const socket = new WebSocket(`ws://${location.host}/socket`);
   socket.binaryType = "arraybuffer";
   const send = (message) => socket.readyState == WebSocket.OPEN && socket.send(JSON.stringify(message));
-  const feed = new LiveFeed(send);
+  const feed = feedOfPage = new LiveFeed(send);
   let state = null;
   feed.layers.header = { status: "", run: null, radius: 0, number: 0, behind: 0 };
   socket.addEventListener("message", ({ data }) => {
@@ -55,6 +57,7 @@ function show(now, before, feed) {
   at("map").title = `to ${now.map}`;
   at("film").hidden = now.film === null;
   at("film").textContent = now.film ? "● filming" : "○ film pauses";
+  if (before?.drives && !now.drives) at("driver").dataset.ended = 1 + Number(at("driver").dataset.ended ?? 0);
   at("driver").textContent = now.drives && `${now.drives} ${now.drives == "you" ? "drive" : "drives"}`;
   say(now.said || "connected");
   return now;
