@@ -10,7 +10,7 @@ from course.site.pages_of_notebooks import page
 from course.source import KINDS, ROOT, file_name, sources
 
 HERE = Path(__file__).parent
-GUIDES = ("lecturing", "grading", "robots", "architecture")
+GUIDES = ("live", "robots", "lecturing", "grading", "architecture")
 FOLDERS = {"lessons": "notebooks", "exercises": "exercises"}
 _INTO_PROJECT = re.compile(r"(?<!!)\[([^\]]+)\]\(\.\./[^)]*\)")  # a link to a file of the project
 

@@ -21,6 +21,7 @@ ELSEWHERE = {
     "films",
     "grading",
     "live",
+    "live_page",
     "raycast",
     "soak",
 }  # ports, sandboxes, a browser; a test of its own

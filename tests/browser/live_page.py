@@ -8,21 +8,30 @@ from tests.devices.test_emulator_ports import command
 from tests.patience import PATIENCE
 
 
+def started(*words):
+    """Start ``slamlab live``.
+
+    Returns
+    -------
+    (Popen, str), the process and the address that it prints
+    """
+    process = command("live", *words, "--no-open")
+    first = process.stdout.readline()
+    assert first.startswith("open "), first + process.communicate(timeout=PATIENCE)[0]
+    return process, first.split()[1]
+
+
 class LivePage:
-    """A running ``slamlab live`` and a page of it.
+    """A page of a live run.
 
     Parameters
     ----------
     browser : Browser of Playwright
-    words : str each, of the command line
+    address : str, with the token
     """
 
-    def __init__(self, browser, *words):
-        self.process = command("live", *words, "--no-open")
-        first = self.process.stdout.readline()
-        assert first.startswith("open "), first + self.process.communicate(timeout=PATIENCE)[0]
-        self.address = first.split()[1]
-        self.browser, self.moves, self.pages = browser, 0, []
+    def __init__(self, browser, address):
+        self.browser, self.address, self.moves, self.pages = browser, address, 0, []
         self.errors, self.abroad = [], []
         self.page = self.look()
         self.status = self.page.locator(".slamlab-status")
@@ -34,7 +43,7 @@ class LivePage:
         page.set_default_timeout(1000 * PATIENCE)
         page.on("console", lambda said: said.type == "error" and self.errors.append(said.text))
         page.on("pageerror", lambda error: self.errors.append(str(error)))
-        own = self.address.split("#")[0], "data:"
+        host = self.address.split("#")[0]
         page.on(
             "request", lambda asked: asked.url.startswith(host) or self.abroad.append(asked.url)
         )
@@ -65,21 +74,21 @@ class LivePage:
         return np.array([x, y, np.radians(degrees)])
 
     def go_to(self, x, y):
-        """Turn to a place and drive there, by the pose that the page tells."""
-        from_x, from_y, heading = self.pose()
-        turn = np.angle(np.exp(1j * (np.arctan2(y - from_y, x - from_x) - heading)))
-        self.move(f"{np.hypot(x - from_x, y - from_y):.3f}, {np.degrees(turn):.2f}")
+        """Turn to a place and drive there, by the pose that the page tells.
+
+        On a machine too busy to renew the lease in time, the robot stands on its way: so again.
+        """
+        while np.hypot(*self.pose()[:2] - (x, y)) > 0.05:
+            from_x, from_y, heading = self.pose()
+            turn = np.angle(np.exp(1j * (np.arctan2(y - from_y, x - from_x) - heading)))
+            self.move(f"{np.hypot(x - from_x, y - from_y):.3f}, {np.degrees(turn):.2f}")
 
     def exit(self):
-        """Type exit and wait for the program's end; what it printed."""
+        """Type exit and wait for the program's end."""
         self.type("exit")
-        said = self.process.communicate(timeout=PATIENCE)[0]
         self.page.get_by_text("The program has ended.").wait_for()
-        return said
 
     def close(self):
-        """Close the pages; end the program, should it still run."""
+        """Close the pages."""
         for context in self.pages:
             context.close()
-        self.process.kill()
-        self.process.communicate()

@@ -1,33 +1,83 @@
 """``slamlab live`` driven by typed commands from a real browser; who looks, and who may not."""
 
+import asyncio
+from concurrent.futures import Future, ThreadPoolExecutor
+from functools import partial
+
 import numpy as np
 import pytest
 from axe_playwright_python.sync_playwright import Axe
 
-from slamlab import films
-from slamlab.devices.emulator.emulator_runner import EMIR, LIDAR
+from slamlab import estimators, films, worlds
+from slamlab.console.desk import Desk
+from slamlab.console.filmed_stepper import FilmedStepper
+from slamlab.console.serving import serve
+from slamlab.devices.clock import SimulatedClock
+from slamlab.sources.emulated_devices import EmulatedDevices
 from slamlab.sources.simulated_robot import TOURS
-from tests.browser.live_page import LivePage
+from tests.browser.live_page import LivePage, started
 from tests.devices.test_emulator_ports import needs_pty, running
-from tests.patience import until
+from tests.patience import PATIENCE, until
 
-# turns and ways in Tuček's polygon [m, degree], there and back
-POLYGON = [(0.3, -45), (0.3, -45), (0.2, 0), (-0.5, 0), (-0.3, 45), (0, 45)]
+# places in Tuček's polygon [m], there and back
+POLYGON = [(0.3, -0.2), (0.2, -0.6), (-0.2, -0.3), (0.2, 0.2), (0.0, 0.0)]
 
 
 @pytest.fixture
-def live(browser):
-    """Start ``slamlab live`` with some words; nothing goes wrong on its pages."""
+def look(browser):
+    """Open a page of a live run by its address; nothing goes wrong on it."""
     opened = []
 
-    def begin(*words):
-        opened.append(LivePage(browser, *words))
+    def open_page(address):
+        opened.append(LivePage(browser, address))
         return opened[-1]
 
-    yield begin
+    yield open_page
     for each in opened:
         each.close()
         assert each.errors == [] and each.abroad == []
+
+
+@pytest.fixture
+def live(look):
+    """Start ``slamlab live`` with some words, and open its page."""
+    running = []
+
+    def begin(*words):
+        process, address = started(*words)
+        running.append(process)
+        return look(address)
+
+    yield begin
+    for process in running:
+        process.kill()
+        process.communicate()
+
+
+@pytest.fixture
+def served(look):
+    """Serve a source that is made here, and open its page."""
+    running = []
+
+    def begin(make_source, estimator):
+        stepper = FilmedStepper(make_source, partial(estimators.make, estimator))
+        address = Future()
+
+        async def serve_it():
+            stepper.reset(0)
+            await serve(Desk(stepper, "served"), begun=address.set_result)
+
+        running.append((ThreadPoolExecutor(1), stepper))
+        task = running[-1][0].submit(asyncio.run, serve_it())
+        task.add_done_callback(
+            lambda done: address.done() or address.set_exception(done.exception())
+        )
+        return look(address.result(PATIENCE)), stepper
+
+    yield begin
+    for thread, stepper in running:
+        thread.shutdown()
+        stepper.close()
 
 
 @pytest.mark.slow
@@ -42,34 +92,51 @@ def test_typed_through_situation_2_the_walls_know_where_it_is(live, seed, tmp_pa
     run.page.get_by_role("button", name="save map").click()
     run.page.get_by_text("is in map.png").wait_for()
     run.exit()
+    until(film.exists)
     *_, (_, last) = films.load(film)
     tracks = {each.name: each.rows for each in last if each.kind == "poses"}
-    off = np.hypot(*(tracks["corrected"] - tracks["truth"])[:, :2].T)
     rms, naive = (
         np.sqrt(np.mean(np.square(np.hypot(*(tracks[name] - tracks["truth"])[:, :2].T))))
         for name in ("corrected", "naive")
     )
-    print(f"seed {seed}: rms {rms:.4f} m of {len(off)} poses, naive {naive:.3f} m")
-    assert len(off) > 60 and rms <= 0.01 < naive
+    print(f"seed {seed}: rms {rms:.4f} m of {len(tracks['truth'])} poses, naive {naive:.3f} m")
+    assert len(tracks["truth"]) > 60 and rms <= 0.01 < naive
     assert picture.read_bytes().startswith(b"\x89PNG")
 
 
-@needs_pty
 @pytest.mark.slow
-def test_typed_through_the_polygon_icp_knows_where_the_emulated_robot_is(live):
+def test_typed_through_the_polygon_icp_knows_where_the_emulated_robot_is(served):
+    """Emulators, the real drivers between, in simulated time: as many turns on any machine."""
+
+    def emulated(rng):
+        return EmulatedDevices(worlds.polygon(), rng, clock=SimulatedClock())
+
+    run, stepper = served(emulated, "icp")
+    for place in POLYGON:
+        run.go_to(*place)
+    run.type("exit")
+    run.page.get_by_text("The program has ended.").wait_for()
+    true, pose = stepper.source.truth.poses[: stepper.count][-1], stepper.estimator.pose
+    off = np.hypot(*(pose - true)[:2])
+    naive = np.hypot(*(stepper.estimator.naive_pose - true)[:2])
+    print(f"off {off:.4f} m, {np.degrees(pose[2] - true[2]):.2f}°, naive {naive:.3f} m")
+    assert np.hypot(*true[:2]) < 0.1 and off <= 0.03 < naive
+
+
+@needs_pty
+@pytest.mark.soak
+def test_typed_through_the_polygon_in_real_time_on_two_ports(live):
     with running() as it:
         run = live("devices:" + ",".join(it.ports.values()), "--estimator", "icp")
-        begin = it.body.pose
-        for way, turn in POLYGON:
-            run.move(f"{way}, {turn}")
+        for place in POLYGON:
+            run.go_to(*place)
         until(lambda: not it.body._speeds.any())
         run.page.wait_for_timeout(1000)  # a turn of the lidar from where it stands
-        true, pose = it.body.pose, run.pose()
-        off = np.hypot(*(pose[:2] - true[:2]))
-        print(f"off {off:.4f} m, {np.degrees(pose[2] - true[2]):.2f}°; began at {begin}")
+        off = np.hypot(*(run.pose() - it.body.pose)[:2])
+        print(f"off {off:.4f} m")
         assert off <= 0.03
         run.exit()
-        until(lambda: it[LIDAR].pwm == 0 and it[EMIR] is not None)
+        until(lambda: it["lidar"].pwm == 0)
 
 
 def test_who_looks_sees_what_is_driven_and_does_not_drive(live):
