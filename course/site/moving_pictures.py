@@ -87,7 +87,7 @@ class Renderer:
                     stepper.drive(velocities(command, tops))
                     film.add(stepper.scene())
             stepper.close()
-            self._tell({"film": self._shipped(file), "title": called, "alt": alt})
+            self._tell({"film": shipped(file), "title": called, "alt": alt})
 
     def _picture(self, fig, alt, chosen, number):
         """A figure as a lossless WebP, and its alternative text."""
@@ -102,19 +102,29 @@ class Renderer:
         small.save(file, "WEBP", lossless=True, quality=100, method=4)
         return file.name, f"{words(fig)} {said.strip()}"
 
-    def _shipped(self, file):
-        """A film as a script, which a page may load from a file, too; the name of it."""
-        text = base64.b64encode(file.read_bytes()).decode()
-        script = file.with_suffix(".js")
-        script.write_text(f'slamlabFilm("{script.name}", "{text}");\n', encoding="utf-8")
-        file.unlink()
-        return script.name
-
     def _stem(self):
         return f"{self.cell}-{len(self.told.get(self.cell, []))}"
 
     def _tell(self, what):
         self.told.setdefault(self.cell, []).append(what)
+
+
+def shipped(file):
+    """Make a film a script, which a page may load from a file, too.
+
+    Parameters
+    ----------
+    file : Path, of the film, which goes
+
+    Returns
+    -------
+    str, name of the script beside
+    """
+    text = base64.b64encode(file.read_bytes()).decode()
+    script = file.with_suffix(".js")
+    script.write_text(f'slamlabFilm("{script.name}", "{text}");\n', encoding="utf-8")
+    file.unlink()
+    return script.name
 
 
 def values_of(widget, most):

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import nbformat
 
-from course.site import formula_index, rendering
+from course.site import formula_index, gathered, rendering, start_film
 from course.site.pages_of_notebooks import page
 from course.source import KINDS, ROOT, file_name, sources
 from slamlab.views.player import library
@@ -33,7 +33,7 @@ def prepare(folder, cache, lessons_rendered=None):
     list of str, which lessons could not be rendered, and why: they keep their still pictures
     """
     moving, failed = _moving(cache, lessons_rendered)
-    files = {"index.md": _start()}
+    files = {"index.md": _start()} | start_film.files(cache)
     files |= {f"_static/{path.name}": path.read_bytes() for path in (HERE / "static").iterdir()}
     player = library.script(library.FILM, HERE / "static" / "films_on_page.js")
     files["_static/films_on_page.js"] = player.encode()
@@ -42,6 +42,7 @@ def prepare(folder, cache, lessons_rendered=None):
         files |= _notebooks(kind, moving)
     files |= _guides()
     files["formulas.md"] = formula_index.page()
+    files |= {f"{kind}.md": gathered.page(kind, _lessons_shown()) for kind in gathered.HEADS}
     files |= _modules()
     _synchronise(folder, files)
     return failed
@@ -66,6 +67,7 @@ def _start():
         names[kind].append(f"{FOLDERS[kind]}/{Path(file_name(path)).stem}")
     names["guides"] = [f"guides/{name}" for name in GUIDES]
     text = (HERE / "pages" / "index.md").read_text(encoding="utf-8")
+    text = text.replace("{{film}}", start_film.PLACE)
     for kind, listed in names.items():
         text = text.replace(f"{{{{{kind}}}}}", "\n".join(listed))
     return text
@@ -104,6 +106,16 @@ def _notebooks(kind, moving):
             files[name] = nbformat.writes(shown)
             files[f"_static/{name}"] = (ROOT / name).read_bytes()
     return files
+
+
+def _lessons_shown():
+    """Each lesson's title, the name of its page, and what the site shows of it."""
+    found, known = [], lessons()
+    for stem in known.values():
+        name = f"notebooks/{stem}.ipynb"
+        shown = page(nbformat.read(ROOT / name, as_version=4), known)
+        found.append((re.match(r"# (.+)", shown.cells[0].source)[1], name, shown))
+    return found
 
 
 def _ways_to_run(name):
