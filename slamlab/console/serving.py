@@ -35,7 +35,7 @@ class Socket(guard.Guarded, WebSocketHandler):
     def open(self):
         self.set_nodelay(True)
         if not self._desk.watchers.join(self.screen):
-            self.close(TOO_MANY, "too many pages look already")
+            self.close(TOO_MANY, "Too many pages look already.")
             return
         self._desk.sockets.add(self)
         self.tell_state()
@@ -153,7 +153,7 @@ async def serve(desk, port=0, begun=lambda address: None):
         desk.loop.pause()
         server.stop()
         for socket in tuple(desk.sockets):
-            socket.close(1001, "the program has ended")
+            socket.close(1001, "The program has ended.")
         await asyncio.sleep(TICK)  # for that to be heard
 
 

@@ -36,10 +36,11 @@ function connect() {
     const size = new DataView(data).getUint32(0, true);
     feed.receive(JSON.parse(new TextDecoder().decode(new Uint8Array(data, 4, size))), new Uint8Array(data, 4 + size));
   });
-  socket.addEventListener("close", ({ code, reason }) => {
+  socket.addEventListener("close", ({ reason }) => {
     for (const control of at("desk").querySelectorAll("button, input, select")) control.disabled = true;
-    const gone = state ? "The program has ended." : "Nobody is let in without the address that the program printed.";
-    say(code == 1013 ? `${reason}.` : gone);
+    const lost = "The connection is lost: load this page again. If that fails, the program has ended.";
+    const refused = "Nobody is let in without the address that the program printed.";
+    say(reason || (state ? lost : refused));
   });
   setInterval(() => {
     if (state?.drives == "you" && document.visibilityState == "visible") send({ kind: "renew" });
