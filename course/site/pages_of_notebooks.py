@@ -3,6 +3,7 @@
 import copy
 import re
 
+from course.site.moving_outputs import with_moving
 from course.site.questions import asks, question
 
 NOTE = "notes"
@@ -15,13 +16,15 @@ _GUIDE = re.compile(r"\]\(\.\./docs/(\w+)\.md")
 _H1 = re.compile(r"^# (?=\S)", re.MULTILINE)
 
 
-def page(notebook, files):
+def page(notebook, files, moving=None, folder=""):
     """The notebook that the site shows in place of one.
 
     Parameters
     ----------
     notebook : NotebookNode, left as it is
     files : dict, number of a lesson to the name of its notebook without suffix
+    moving : dict, by a cell's id what was rendered of it (:mod:`course.site.rendering`), or None
+    folder : str, name of the folder of those files
 
     Returns
     -------
@@ -39,6 +42,8 @@ def page(notebook, files):
             shown.cells[k] = found.as_cell(cell.id)
         else:
             _tidy(cell)
+            if told := (moving or {}).get(cell.id):
+                with_moving(cell, told, folder)
             if asks(cell.source):  # the code tells the answer
                 cell.metadata.tags.append("remove-input")
     return shown

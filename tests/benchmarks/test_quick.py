@@ -21,6 +21,7 @@ ELSEWHERE = {
     "films",
     "grading",
     "live",
+    "live_page",
     "project",
     "raycast",
     "soak",
