@@ -1,22 +1,20 @@
 # %% [markdown]
-# # 06 · EKF-SLAM: exercise
+# # Exercise 06 · EKF-SLAM
 #
-# **You will be able to** write EKF-SLAM, block by block: augment, update, and the loop that calls
-# them; to tell the filter something no sensor has measured; and to keep it from believing lies.
+# **You will be able to** write EKF-SLAM yourself: augment, update, and the loop that calls them. You will tell
+# the filter something that no sensor has measured, and keep it from believing lies.
 #
-# **60 minutes. Before:** lesson 06.
+# **60 minutes. Before:** lesson [06 · EKF-SLAM](../notebooks/06_ekf_slam.ipynb).
 #
-# Replace each `raise NotImplementedError(...)` by your code, run the cell, then run the check below
-# it, as often as you like.
+# Replace each `raise NotImplementedError(...)` by your code, run the cell, then run the check below it, as
+# often as you like. A check tries random inputs and others that are as special as the text allows: an empty
+# map, or a map of many landmarks. Where a law is broken it shows a small input that breaks it, and
+# `hint("06-augment")` in a cell of your own leads on.
 #
-# The state is `x = [x, y, θ, p_0x, p_0y, p_1x, p_1y, …]`, its covariance `P` has as many rows.
-# Landmarks are counted from 0. `u = [d, Δθ]` is a drive, `z = [r, β]` a range and a bearing. Metres
-# and radians throughout. You have the models and, from exercise 04, their Jacobians.
-#
-# A check tries random inputs and others that are as special as the text allows: an empty map, a map of
-# many landmarks. Where a law is broken it shows a small input that breaks it, and `hint("06-augment")`
-# in a cell of your own leads on. No function may change the arrays it is given: whoever called it
-# still needs them.
+# All lengths are in metres, all angles in radians. The state is `x = [x, y, θ, p_0x, p_0y, p_1x, p_1y, …]`, and
+# its covariance `P` has as many rows. Landmarks are counted from 0. A drive is `u = [d, Δθ]`, a sight
+# `z = [r, β]`. You have the models and, from exercise 04, their Jacobians. No function may change the arrays it is
+# given, because whoever called it still needs them.
 
 # %%
 import numpy as np
@@ -31,11 +29,13 @@ from slamlab.models import f_odometry, g, h
 # %% [markdown]
 # ## What you are given
 #
-# A drive `u` with covariance `C` moves the robot and no landmark; landmark `j` is seen from the pose,
-# so that only five columns of H are not zero:
+# A drive $u$ of covariance $C$ moves the robot and no landmark, as (06.3) says. The sight of landmark $j$
+# depends on the pose and on this landmark, so only five columns of $H$ are not zero (06.7):
 #
-# $$P_{rr} \leftarrow A P_{rr} A^T + W C W^T, \qquad P_{ri} \leftarrow A P_{ri}, \qquad
-# H = [\, H_r \; 0 \cdots H_{p_j} \cdots 0 \,]$$
+# $$P_{\mathrm{rr}} \leftarrow A P_{\mathrm{rr}} A^{\mathsf T} + W C W^{\mathsf T}, \qquad P_{\mathrm ri} \leftarrow A P_{\mathrm ri}, \qquad
+# H = \begin{bmatrix} H_{\mathrm r} & 0 & \cdots & H_{\mathrm p} & \cdots & 0 \end{bmatrix}.$$
+#
+# Both are written already.
 
 
 # %%
@@ -59,16 +59,16 @@ def H_full(x, j):
 
 
 # %% [markdown]
-# ## Augment
+# ## 1 · Augment: a new landmark
 #
-# A landmark is seen for the first time, at `z`, which errs with covariance `R` (2, 2). It is placed
-# at `g(x[:3], z)` and appended.
+# A landmark is seen for the first time, at `z`, which errs with covariance `R` (2, 2). It is placed at
+# `g(x[:3], z)` and appended.
 #
-# **Predict first.** The robot knows an old landmark i. Are the errors of i and of the new landmark
-# related? Through whom?
+# **Predict first.** The robot knows an old landmark $i$. Are the errors of $i$ and of the new landmark related?
+# Through whom?
 #
-# **Your task.** The state with two more numbers, the covariance with two more rows and columns. The
-# map may still be empty; the pose may be known exactly, so that its block of P is zero.
+# **Your task.** Return the state with two more numbers, and the covariance with two more rows and columns. The
+# map may still be empty. The pose may be known exactly, so that its block of $P$ is zero.
 
 
 # %%
@@ -89,8 +89,8 @@ def augment(x, P, z, R):
 check("06-augment")
 
 # %% [markdown]
-# Your two functions at work: a robot that starts exactly known drives and sees three landmarks, one
-# after each metre. Before you run it: will any block of the correlation matrix be white?
+# The next cell drives a robot that starts exactly known and lets it see three landmarks, one after each metre.
+# **Before you run it:** will any block of the correlation matrix be white?
 
 
 # %%
@@ -104,25 +104,25 @@ def _():
         for _ in range(4):
             x, P = predict(x, P, np.array([0.25, 0.05]), C)
         x, P = augment(x, P, np.array(z), R)
-    fig, _ = views.correlation(correlation(P), ["robot", "0", "1", "2"])
+    fig, _ = views.correlation(correlation(P), ["robot", "0", "1", "2"], size=(8, 6.5))
     views.show(fig, alt="The correlation matrix of a robot and three landmarks.")
 
 
 # %% [markdown]
-# **See:** no block should be white: one robot placed them all, and its error is in each of them.
+# No block should be white: one robot placed all three, and its error is in each of them.
 #
-# ## Update
+# ## 2 · Update: a landmark seen again
 #
-# Landmark `j` was seen at `z`. With v = z − h and S = H P Hᵀ + R,
+# Landmark `j` was seen at `z`. With $v = z - h$ and $S = H P H^{\mathsf T} + R$, (06.9) holds:
 #
-# $$K = P H^T S^{-1}, \qquad x \leftarrow x + K v, \qquad P \leftarrow P - K S K^T$$
+# $$K = P H^{\mathsf T} S^{-1}, \qquad x \leftarrow x + K v, \qquad P \leftarrow P - K S K^{\mathsf T}.$$
 #
-# **Predict first.** Landmark i is not seen. When does it move all the same? And could the update
-# make any variance *grow*?
+# **Predict first.** Landmark $i$ is not seen. When does it move all the same? And can an update make any
+# variance *grow*?
 #
-# **Your task.** The state and the covariance after the sight; `H_full` above is H. The map holds one
-# landmark or more, and P is positive definite. Bearings, and what you get when you subtract two of
-# them, count modulo 2π.
+# **Your task.** Return the state and the covariance after the sight. `H_full` above is $H$. The map holds one
+# landmark or more, and $P$ is positive definite. Bearings, and what you get when you subtract two of them,
+# count modulo $2\pi$.
 
 
 # %%
@@ -148,8 +148,8 @@ def update(x, P, z, j, R):
 check("06-update")
 
 # %% [markdown]
-# Who learns? The robot has placed three landmarks and now sees the first one again, 20 cm nearer
-# than it expects. Your update in numbers:
+# Who learns? The robot has placed three landmarks, and now sees the first one again, 20 cm nearer than it
+# expects. **Before you run the cell:** which of the three landmarks will move most, and which least?
 
 
 # %%
@@ -169,16 +169,17 @@ def _():
 
 
 # %% [markdown]
-# ## The whole filter
+# ## 3 · The whole filter
 #
-# One step of SLAM: the robot drove `u`, then saw some landmarks; `seen[k]` is the id of the one seen
-# at `z[k]`. `ids` are the ids of the landmarks in the state, in its order: `ids[j]` is landmark `j`.
+# In one step of SLAM the robot drives `u`, then sees some landmarks: `seen[k]` is the id of the one seen at
+# `z[k]`. `ids` holds the ids of the landmarks in the state, in its order, so `ids[j]` is the id of landmark
+# `j`.
 #
-# **Predict first.** In which order do you predict, update and augment, and why is it not free?
+# **Predict first.** In which order do you predict, update and augment, and why does the order matter?
 #
-# **Your task.** The step, with your functions. Return the new `ids` too. The check drives your
-# filter through ten runs, and asks whether robot and map err as much as P says, and whether P is as
-# sure as least squares over the whole run is: nothing lost, nothing counted twice.
+# **Your task.** Return the state, the covariance and the ids after the step, computed with your functions. The
+# check drives your filter through ten runs. It asks whether robot and map err as much as $P$ says, and whether
+# $P$ is as sure as least squares over the whole run is: nothing lost, and nothing counted twice.
 
 
 # %%
@@ -205,8 +206,9 @@ def slam_step(x, P, ids, u, seen, z, C, R):
 check("06-slam")
 
 # %% [markdown]
-# And round a loop of 25 m, with landmarks on either side that are seen from 2.5 m off. Before you
-# run it: where will the ellipses be largest, and what happens to them when the loop closes?
+# The next cell drives your filter round a loop of 25 m, with landmarks on either side that are seen from 2.5 m
+# away. **Before you run it:** where will the ellipses be largest, and what happens to them when the loop
+# closes?
 
 
 # %%
@@ -226,7 +228,7 @@ def _():
         x, P, ids = slam_step(x, P, ids, u, seen.tolist(), z, C, R)
         track.append(x[:3])
     parts = [slice(k, k + 2) for k in range(3, len(x), 2)]
-    fig, ax = views.axes("Your filter", size=(6.4, 4.4))
+    fig, ax = views.axes("Your filter", size=(9, 6))
     views.draw(ax, Points("truth", marks), marker="+", mew=1, markersize=7, label="true landmarks")
     views.draw(ax, Poses("truth", way))
     views.draw(ax, Poses("corrected", track))
@@ -236,28 +238,28 @@ def _():
 
 
 # %% [markdown]
-# **See:** look closely, on the left: in the last third of the round the blue track is a hand's
-# breadth or two off the black one, and it jumps back where the first landmarks come into view
-# again. The ellipses are small at both ends of the round, and largest far from the start, at the
-# top. The true landmarks should lie in them, but for one in twenty.
+# Look closely at the left. In the last third of the round the blue track is one or two hand's breadths away
+# from the black one, and it jumps back where the first landmarks come into view again. The ellipses are small
+# at both ends of the round, and largest far from the start, at the top. About one true landmark in twenty may
+# lie outside its ellipse.
 #
-# ## Two landmarks turn out to be one
+# ## 4 · Two landmarks turn out to be one
 #
-# A map was begun at both ends of a corridor. Then somebody tells the robot: what you call landmark
-# `i` and landmark `j` is one and the same post. Nobody has measured anything, and yet the filter
-# has learned something it knows for certain:
+# A map was begun at both ends of a corridor. Then somebody tells the robot that what it calls landmark $i$ and
+# landmark $j$ is one and the same post. Nobody has measured anything, and yet the filter has learned something,
+# and for certain:
 #
-# $$p_i - p_j = 0$$
+# $$p_i - p_j = 0.$$
 #
-# It is an observation like any other: some h of the state was "seen" to be 0, and it does not err at
-# all. The lesson has not coded it; its derivation covers it.
+# This is an observation like any other: some $h$ of the state was "seen" to be 0, and it does not err at all.
+# The lesson has not coded it, but its derivation covers it.
 #
-# **Predict first.** The two stood 10 cm apart. Where will the post stand: in the middle? Will the
-# robot move? And landmarks that have nothing to do with either?
+# **Predict first.** The two estimates were 10 cm apart. Where will the post stand: in the middle? Will the
+# robot move? And what of the landmarks that have nothing to do with either?
 #
-# **Your task.** The state and covariance when both are known to be one. Landmark `j` leaves the
-# state and those behind it move up; landmark `i` keeps its order among the rest. `i` may stand before
-# or behind `j`. P is positive definite.
+# **Your task.** Return the state and the covariance when both are known to be one. Landmark `j` leaves the
+# state, and those behind it move up; landmark `i` keeps its order among the rest. `i` may stand before or
+# behind `j`. $P$ is positive definite.
 
 
 # %%
@@ -282,20 +284,20 @@ def merge(x, P, i, j):
 check("06-same")
 
 # %% [markdown]
-# ## Make it better: one sight in ten is false
+# ## 5 · Make it better: one sight in ten is false
 #
-# The sensor now lies: one sight in ten shows something else, a metre or so and some half a radian off
-# the landmark whose id it carries. Nobody says which. A landmark's *first* sight is never false. The
-# wheels are worse than before, so that a robot which ignores its eyes is lost as well.
+# The sensor now lies. One sight in ten shows something else, a metre or so and some half a radian away from the
+# landmark whose id it carries, and nobody says which. A landmark's *first* sight is never false. The wheels are
+# worse than before, so a robot that ignores its eyes is lost as well.
 #
-# **Predict first.** What does one false sight do to the robot's pose, and what to all the landmarks?
-# How would you notice, before it has happened, that a sight cannot be true? What does the filter know
-# about how far off a true sight may be?
+# **Predict first.** What does one false sight do to the robot's pose, and what to all the landmarks? How could
+# you notice that a sight cannot be true *before* it has done its harm? What does the filter know about how far
+# off a true sight may be?
 #
-# **Your task.** Another step of SLAM, called as `slam_step` is, as good as you can make it. The check
-# drives it through twenty runs of 23 steps and looks at the pose at the end: how far off it is, and
-# whether the filter knows how far (NEES, 3 on average). Points come in four steps; `slam_step` itself
-# reaches the lowest at best.
+# **Your task.** Write another step of SLAM, called as `slam_step` is, as good as you can make it. The check
+# drives it through twenty runs of 23 steps and looks at the pose at the end: how far off it is, and whether the
+# filter knows how far (NEES, 3 on average). Points come in four steps; `slam_step` itself reaches the lowest at
+# most.
 
 
 # %%
@@ -325,6 +327,6 @@ check("06-false-sights")
 # %% [markdown]
 # ## Done?
 #
-# Save the notebook. The cell below then says what the grader will say about it;
-# the grader draws other inputs. The next lesson asks what the off-diagonal blocks are worth, by
+# Save the notebook. The cell below then says what the grader will say about it; the grader draws other inputs.
+# **Next:** [lesson 07](../notebooks/07_correlations.ipynb) asks what the blocks off the diagonal are worth, by
 # throwing them away.

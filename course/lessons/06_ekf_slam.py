@@ -1,917 +1,1047 @@
-# %% [markdown] slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=1
 # # 06 · EKF-SLAM: the MAK filter
 #
-# **You will be able to** build EKF-SLAM from nothing: predict, augment and update a state that
-# holds the robot *and* its landmarks, say for every block of the covariance where it comes from,
-# and tell what happens when one is forgotten.
+# **You will be able to** build EKF-SLAM from its three steps, say for every block of its covariance
+# where it comes from, watch a whole map learn when a loop closes, and tell when the filter stops
+# being honest.
 #
-# **80 minutes** (45 to build the filter, 35 to drive it, break it and weigh it). **Before:**
-# lessons 03 (update, NEES), 04 (H, A, J_xr, J_z) and 05 (two halves that cannot be kept apart).
+# **60 minutes. Before:** lessons [03](03_kalman_filter.ipynb) (update, NEES),
+# [04](04_models_and_jacobians.ipynb) (the models $f$, $h$, $g$ and their Jacobians) and
+# [05](05_two_easy_halves.ipynb) (two halves that cannot take turns).
 #
-# Sources: MAK thesis, 4.3.1 and 4.3.2; Smolec, sections 2.6, 4.1 and 5; the EKF note.
-#
-# *Key:* one state, one covariance: what robot and map share is kept, not guessed.
+# *Key:* one state, one covariance: what robot and map have in common is kept.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* The first half is the filter, and each of its three functions is derived in
-# front of the class with block matrices; have them name each block before it is printed. The
-# second half is a loop, driven with the class they have just seen grow. MAK means map-augmented
-# Kalman filter; elsewhere it is called EKF-SLAM.
+# *For the lecturer:* The first half builds the filter. Derive its three steps in front of the class
+# with block matrices, and let them name each block before it appears. The second half drives it round
+# a loop. If time is short, leave out "One lie" and "News that no sensor brings". MAK stands for
+# map-augmented Kalman filter; elsewhere it is called EKF-SLAM. For a poll: the questions on the second
+# look, on strangers, and on the ellipses at the closing.
 
 # %% slideshow={"slide_type": "skip"}
+from dataclasses import replace
+
 import numpy as np
 import sympy as sp
 
-from slamlab import evaluation, models, views
-from slamlab.models import jacobians
-from slamlab.estimators import Estimator
-from slamlab.estimators.mak_slam import MakSlam, Q_arc
+from slamlab import models, views
+from slamlab.checks import ask
+from slamlab.derivation import blockwise, derive, symmetric
+from slamlab.estimators import run
+from slamlab.estimators.mak_slam import MakSlam, predict
+from slamlab.evaluation import band, correlation, nees
 from slamlab.filters import MAK
 from slamlab.geometry import compose, wrap
 from slamlab.layers import Ellipses, Points, Poses, Segments
-from slamlab.estimators import run
 from slamlab.sources.landmark_runs import LandmarkRun, Loop
+from slamlab.studies import broken_slam, consistency, two_halves
 
-# %% [markdown] slideshow={"slide_type": "slide"}
-# ## Two errors in one innovation
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=5
+# ## A second look
 #
-# In lesson 05 either the map or the pose was known. In SLAM neither is. A robot that believes to be
-# at x̂ sees landmark i, believed at p̂, and forms v = z − h(x̂, p̂).
+# A robot does not quite know where it is: its position is off by $\sigma = 0.15$ m, its heading by
+# 0.08 rad. It sees a landmark 5 m away for the first time and enters it into its map. A moment later,
+# without having moved, it looks again.
 #
-# **Question.** Which errors are in v?
-#
-# **Predict** how many terms its covariance S has.
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# To first order v = H_r x̃ + H_p p̃ + w: the robot's error, the landmark's, the sensor's. The first
-# two have the covariance
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-P_rr, P_ri, P_ii, R = (
-    sp.MatrixSymbol(name, *shape)
-    for name, shape in [("P_rr", (3, 3)), ("P_ri", (3, 2)), ("P_ii", (2, 2)), ("R", (2, 2))]
-)
-H_r, H_p = sp.MatrixSymbol("H_r", 2, 3), sp.MatrixSymbol("H_p", 2, 2)
-P = sp.BlockMatrix([[P_rr, P_ri], [P_ri.T, P_ii]])
-P
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# and v has the Jacobian [H_r H_p] by them. So S = H P Hᵀ + R is
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-H = sp.BlockMatrix([[H_r, H_p]])
-sp.expand(sp.block_collapse(H * P * H.T) + R)
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# Five terms, and two of them hold P_ri. Two separate filters, one for the pose and one for the
-# landmark, have no P_ri: for them these terms are zero.
-
-# %% [markdown] slideshow={"slide_type": "slide"}
-# **Question.** Does it matter? A robot unsure of its pose places a landmark 5 m away and at once
-# looks again. **Predict** how large the second look's innovation is: as large as the pose's doubt
-# makes it, or as small as the sensor's noise?
+# How far will the second sight be from what the robot expects? The sensor's bearings err by 0.02 rad,
+# and the robot's heading by four times as much.
 
 # %% slideshow={"slide_type": "fragment"}
-rng = np.random.default_rng(6)
-believed, seen = np.array([0, 0, 0.4]), np.array([5.0, 0.8])
-P_pose, R_look = np.diag([0.15, 0.15, 0.08]) ** 2, np.diag([0.1, 0.02]) ** 2
-placed = models.g(believed, seen)
-true_poses = rng.multivariate_normal(believed, P_pose, 1000)
-first, second = rng.multivariate_normal([0, 0], R_look, (2, 1000))
-true_landmarks = np.array([models.g(x, seen - w) for x, w in zip(true_poses, first, strict=True)])
-pairs = zip(true_poses, true_landmarks, second, strict=True)
-v = np.array([models.h(x, p) + w - models.h(believed, placed) for x, p, w in pairs])
-v[:, 1] = wrap(v[:, 1])
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-J_xr, J_z = jacobians.J_xr(believed, seen), jacobians.J_z(believed, seen)
-Hr, Hp = jacobians.H_robot(believed, placed), jacobians.H_landmark(believed, placed)
-P_new, P_both = J_xr @ P_pose @ J_xr.T + J_z @ R_look @ J_z.T, P_pose @ J_xr.T
-apart = Hr @ P_pose @ Hr.T + Hp @ P_new @ Hp.T + R_look
-together = apart + Hr @ P_both @ Hp.T + Hp @ P_both.T @ Hr.T
-for name, S in [("without P_ri", apart), ("with P_ri", together), ("1000 robots", np.cov(v.T))]:
-    print(f"{name:13} σ of range {np.sqrt(S[0, 0]):.2f} m, of bearing {np.sqrt(S[1, 1]):.3f} rad")
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# As small as the sensor's noise (twice its variance: two looks). The landmark errs *with* the robot,
-# and the innovation sees only the difference. Without P_ri a filter expects a bearing off by four
-# times as much, and when a small innovation comes it believes to have learned how right its pose
-# is. It has learned nothing of the kind.
-
-# %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* Say it with a boat: you are lost at sea, throw a buoy overboard and measure
-# your distance to it. However often you measure, you do not know where you are.
-
-# %% [markdown] slideshow={"slide_type": "slide"}
-# ## The augmented state
-#
-# So the innovation depends on an error that no single filter holds. The MAK thesis' way out (its
-# (4.1), (4.2)): make *one* state of it all,
-#
-# $$x = \begin{bmatrix} x_r \\ p_1 \\ \vdots \\ p_N \end{bmatrix}, \qquad
-# P = \begin{bmatrix} P_{rr} & P_{r1} & \cdots & P_{rN} \\ P_{1r} & P_{11} & \cdots & P_{1N} \\
-# \vdots & \vdots & \ddots & \vdots \\ P_{Nr} & P_{N1} & \cdots & P_{NN} \end{bmatrix}$$
-#
-# Now the innovation depends on the error of *the state* and on noise, no more: COIN holds again,
-# and lesson 03's filter may be used as it is. What is left is to say what its matrices look like.
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# | step | when | what it does to the state |
-# | --- | --- | --- |
-# | **predict** | the robot moved | robot's part changes |
-# | **update** | a known landmark was seen | everything changes |
-# | **augment** | a new landmark was seen | two numbers are appended |
-
-# %% [markdown] slideshow={"slide_type": "slide"}
-# ## Predict: landmarks stand still
-#
-# The robot drives, the map does not: x_r ← f(x_r, u), p_i ← p_i.
-#
-# **Question.** What is the Jacobian F of that, for a state of robot r and landmarks i, j?
-#
-# **Predict** which blocks of F P Fᵀ + Q differ from those of P.
-
-# %% slideshow={"slide_type": "fragment"}
-A, Q = sp.MatrixSymbol("A", 3, 3), sp.MatrixSymbol("Q", 3, 3)
-P_rj, P_ij, P_jj = (
-    sp.MatrixSymbol(name, *shape)
-    for name, shape in [("P_rj", (3, 2)), ("P_ij", (2, 2)), ("P_jj", (2, 2))]
-)
-O, I = sp.ZeroMatrix, sp.Identity
-P = sp.BlockMatrix([[P_rr, P_ri, P_rj], [P_ri.T, P_ii, P_ij], [P_rj.T, P_ij.T, P_jj]])
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-F = sp.BlockMatrix([[A, O(3, 2), O(3, 2)], [O(2, 3), I(2), O(2, 2)], [O(2, 3), O(2, 2), I(2)]])
-moved = sp.block_collapse(F * P * F.T).blocks
-moved
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# Q, the noise of the motion, is the robot's alone: it adds to the corner. So
-#
-# - P_rr ← A P_rr Aᵀ + Q: as in lesson 04,
-# - P_ri ← A P_ri: what robot and landmark share is swung by A, without any noise,
-# - P_ii, P_ij: untouched. Driving tells nothing about the map.
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# Smolec says "P is updated with A" and writes neither Q nor the cross blocks down.
-
-
-# %% slideshow={"slide_type": "fragment"}
-def predict(x, P, odometry, Q):
-    """Drive: odometry (3,) is the motion in the robot's own frame, Q its covariance."""
-    x, P = x.copy(), P.copy()
-    moved = compose(x[:3], odometry)
-    dx, dy = moved[:2] - x[:2]
-    A = np.array([[1, 0, -dy], [0, 1, dx], [0, 0, 1]])
-    x[:3] = moved
-    P[:3, :3] = A @ P[:3, :3] @ A.T + Q
-    P[:3, 3:] = A @ P[:3, 3:]
-    P[3:, :3] = P[:3, 3:].T
-    return x, P
-
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# A is lesson 04's: the step turned by 90°, whatever the robot is driven by.
-
-# %% [markdown] slideshow={"slide_type": "slide"}
-# ## What predicting costs
-#
-# **Question.** P has (3 + 2N)² numbers. How many does `predict` touch?
-#
-# **Predict** for N = 100 landmarks: some 40 000, some 1000, nine?
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-rng = np.random.default_rng(6)
-step, Q_step = np.array([0.3, 0.01, 0.1]), np.diag([0.02, 0.01, 0.012]) ** 2
-for N in (1, 10, 100, 1000):
-    n = 3 + 2 * N
-    before = np.eye(n) + 0.1
-    _, after = predict(rng.standard_normal(n), before, step, Q_step)
-    print(f"N = {N:4}: {np.sum(after != before):5} changed of {n * n:7}; 9 + 8 N = {9 + 8 * N}")
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# O(N), a stripe along two edges: the corner's 9, and of each landmark's 12 the 8 with the robot's x
-# and y. (What it shares with the heading stays, since A's last row is 0 0 1.) Whoever multiplies
-# F P Fᵀ as full matrices pays O(N³) for the same numbers.
-
-# %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* Ask: does driving change the *correlation* of robot and landmark? A P_ri
-# hardly changes, yet P_rr grows by Q, so the correlation falls. Driving forgets, by noise.
-
-# %% [markdown] slideshow={"slide_type": "slide"}
-# ## Augment: a landmark is born
-#
-# A new landmark n is placed at g(x_r, z). Its error comes from the pose, by J_xr, and from the
-# measurement, by J_z. Nobody else moves.
-#
-# **Question.** Write [x_r, p_i, p_n] as a function of [x_r, p_i, z]. What is its Jacobian?
-#
-# **Predict** P_ni: the new landmark and an old one have never been seen together. Is it zero?
-
-# %% slideshow={"slide_type": "fragment"}
-JXR, JZ = sp.MatrixSymbol("J_xr", 2, 3), sp.MatrixSymbol("J_z", 2, 2)
-grow = sp.BlockMatrix([[I(3), O(3, 2), O(3, 2)], [O(2, 3), I(2), O(2, 2)], [JXR, O(2, 2), JZ]])
-before = sp.BlockMatrix([[P_rr, P_ri, O(3, 2)], [P_ri.T, P_ii, O(2, 2)], [O(2, 3), O(2, 2), R]])
-after = sp.block_collapse(grow * before * grow.T).blocks
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# The measurement's noise is new, it shares nothing with the state: hence the zeros in `before`.
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-after[2, 2]
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-after[2, 0]
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-after[2, 1]
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# P_nn is (16) of Smolec's, P_nr the transpose of his (17). P_ni is not zero: whatever the robot
-# shares with landmark i, it hands on. One rule for both: **the new rows are J_xr times the robot's
-# rows**, P_n· = J_xr P_r·.
-
-
-# %% slideshow={"slide_type": "fragment"}
-def augment(x, P, z, R):
-    """A landmark seen for the first time, at z = [r, β], is appended."""
-    J_xr, J_z = jacobians.J_xr(x[:3], z), jacobians.J_z(x[:3], z)
-    row = J_xr @ P[:3]
-    P_nn = J_xr @ P[:3, :3] @ J_xr.T + J_z @ R @ J_z.T
-    return np.append(x, models.g(x[:3], z)), np.block([[P, row.T], [row, P_nn]])
-
-
-# %% [markdown] slideshow={"slide_type": "slide"}
-# ## Smolec's (18), and a trap
-#
-# Printed: P_ni = J_xr (P_ri)ᵀ. **Predict** what the machine says to that, with P_ri as it stands in
-# P, and with the block below the diagonal.
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-names = {"J_xr P_ri": P_ri, "J_xr (P_ri)ᵀ, as printed": P_ri.T, "J_xr (P_ir)ᵀ": P_ri.T.T}
-for name, block in names.items():
-    try:
-        print(f"{name:24} {(JXR * block).shape}")
-    except sp.matrices.exceptions.ShapeError:
-        print(f"{name:24} {JXR.shape} times {block.shape}: refused")
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# (18) is right only for who stores the block below the diagonal under the name of the one above.
-# The trap: with a state whose blocks are square, all of these multiply, and one is wrong.
-
-# %% [markdown] slideshow={"slide_type": "slide"}
-# ## Do 2000 robots agree?
-#
-# A robot knows landmark i (they share an error) and now places n. **Question.** The errors of i and
-# of n: do they hang together as the formula says, though no sensor ever saw the two at once?
-
-# %% slideshow={"slide_type": "fragment"}
-rng = np.random.default_rng(6)
-R_sharp = np.diag([0.05, 0.01]) ** 2
-x, P = augment(np.array([0, 0, 0.4]), np.diag([0.15, 0.15, 0.06]) ** 2, [4.0, 0.8], R_sharp)
-x, P = predict(x, P, np.array([1.0, 0.1, 0.2]), Q_step)
-z = np.array([3.0, -0.9])
-x_grown, P_grown = augment(x, P, z, R_sharp)
-true_states = rng.multivariate_normal(x, P, 2000)
-sights = rng.multivariate_normal(z, R_sharp, 2000)
-born = np.array([models.g(s[:3], w) for s, w in zip(true_states, sights, strict=True)])
-samples = np.hstack([true_states, born])
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-sigma = np.sqrt(np.diag(P_grown))
-off = np.abs(np.cov(samples.T) - P_grown) / np.outer(sigma, sigma)
-for name, block in {"P_nn": np.s_[5:, 5:], "P_nr": np.s_[5:, :3], "P_ni": np.s_[5:, 3:5]}.items():
-    print(f"{name}: samples and formula differ by {off[block].max():.2f} of the two σ, at most")
-
-# %% slideshow={"slide_type": "slide"}
-pair = [4, 6]  # the y of landmark i and the y of landmark n
-independent = np.diag(np.diag(P_grown)[pair])
-claims = {"P with P_ni": P_grown[np.ix_(pair, pair)], "P_ni forgotten": independent}
-fig, ax = views.cloud(samples[:500, pair], claims, "An old landmark and a new one", size=(5, 4))
-ax.set(xlabel="y of landmark i [m]", ylabel="y of landmark n [m]")
-views.show(
-    fig,
-    "Samples form a leaning streak that the ellipse with P_ni covers and a straight "
-    "one without it does not.",
+ask(
+    "06-second",
+    "A robot with a heading off by **0.08 rad** placed a landmark and looks again. Its sensor's "
+    "bearings are off by **0.02 rad**. How large is the innovation of the second bearing?",
+    {
+        "about 0.08 rad: as large as the heading's error": "the robot expects the landmark where it "
+        "put it, and it put it there with this very heading. The error cancels.",
+        "about 0.03 rad: as large as two errors of the sensor": "one for each look; the robot's own "
+        "error is in the landmark as well, and the difference does not show it.",
+        "zero: the robot has not moved": "it would be zero if the sensor did not err.",
+    },
+    right="about 0.03 rad: as large as two errors of the sensor",
 )
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** the streak leans: where landmark i lies farther up than believed, so does n. They share
-# the robot that placed them. The dashed ellipse, without P_ni, allows what never happens (upper
-# left) and cuts off what does.
-
-# %% [markdown] slideshow={"slide_type": "slide"}
-# ## The covariance grows, as a picture
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# ### A thousand robots look twice
 #
-# A small story: the robot starts exactly known, sees landmark a, drives on, sees b. We draw the
-# *correlations* P_ij / (σ_i σ_j): they have no unit, so x, θ and landmarks fit into one picture.
-#
-# **Predict** at which of the three moments robot and a, robot and b, a and b get a colour.
+# We let 1000 robots do it. They all believe the same pose, and each is really somewhere else. Beside
+# them we ask two filters what innovation they expect. One keeps $P_{\mathrm ri}$, the covariance between
+# the errors of robot and landmark; the other has thrown it away.
 
 # %% slideshow={"slide_type": "fragment"}
-stages = {}
-Q_slip = np.diag([0.05, 0.03, 0.02]) ** 2
-x, P = augment(np.zeros(3), np.zeros((3, 3)), [2.0, 0.9], R_sharp)
-stages["a placed"] = P
-for _ in range(10):
-    x, P = predict(x, P, step, Q_slip)
-stages["3 m driven"] = P
-x, P = augment(x, P, [2.5, 0.5], R_sharp)
-stages["b placed"] = P
-story = x, P
+BELIEVED, SEEN = np.array([0, 0, 0.4]), np.array([5.0, 0.8])
+R = np.diag([0.1, 0.02]) ** 2
+
+
+def innovations(P_rr):
+    """Innovations (1000, 2) of the second look, of robots that are really off by P_rr."""
+    rng = np.random.default_rng(6)
+    poses = rng.multivariate_normal(BELIEVED, P_rr, 1000)
+    first, second = rng.multivariate_normal([0, 0], R, (2, 1000))
+    landmarks = models.g(poses, SEEN - first)
+    v = models.h(poses, landmarks) + second - models.h(BELIEVED, models.g(BELIEVED, SEEN))
+    return np.column_stack([v[:, 0], wrap(v[:, 1])])
 
 
 # %% slideshow={"slide_type": "fragment"}
-def strip(stages, names, size=(11, 3.6)):
-    """Correlation matrices of several covariances, side by side."""
-    fig, all_axes = views.panels(list(stages), size, shared=False)
-    for ax, P in zip(all_axes, stages.values(), strict=True):
-        blocks = names[: 1 + (len(P) - 3) // 2]
-        views.correlation(evaluation.correlation(P), blocks, ax=ax)
-        ax.set_aspect("equal", adjustable="box")
-        ax.set(xlabel=None, ylabel=None)
+def expected(P_rr):
+    """The covariance S of that innovation: without the robot's share in the landmark, and with it."""
+    mak = MAK(BELIEVED, P_rr)
+    mak.add(["a"], [SEEN], R)
+    apart = mak.P
+    apart[:3, 3:] = apart[3:, :3] = 0
+    step = mak.update(["a"], [SEEN], R)
+    return step.H @ apart @ step.H.T + R, step.S
+
+
+# %% slideshow={"slide_type": "subslide"} answers="06-second"
+def second_look(place_sigma, heading_sigma):
+    P_rr = np.diag([place_sigma, place_sigma, heading_sigma]) ** 2
+    v, (apart, together) = innovations(P_rr), expected(P_rr)
+    fig, ax = views.chart("innovation of the range [m]", "innovation of the bearing [rad]")
+    fig.set_size_inches(7, 4)
+    layers = {
+        "1000 robots": Points("scan", v),
+        "without $P_{ri}$": Ellipses("naive", [[0, 0]], [apart]),
+        "with $P_{ri}$": Ellipses("corrected", [[0, 0]], [together]),
+    }
+    for label, layer in layers.items():
+        views.draw(ax, layer, linewidth=2, label=label)
+    ax.set(xlim=(-1.5, 1.5), ylim=(-0.5, 0.5))
+    views.legend(ax, loc="upper right")
     return fig
 
 
-# %% slideshow={"slide_type": "slide"}
-views.show(
-    strip(stages, ["robot", "a", "b"]),
-    "Three correlation matrices: first only a's own block has a colour; after driving the robot's "
-    "own block, too; then b, coloured against the robot and white against a.",
+views.explore(
+    second_look,
+    lambda place_sigma, heading_sigma: (
+        f"With a doubt of {place_sigma:.2f} m and {heading_sigma:.2f} rad the robots' innovations "
+        "stay as small as the sensor's noise and fill the ellipse of the filter with P_ri; the one "
+        "without it grows with the doubt."
+    ),
+    place_sigma=(0.0, 0.3, 0.15),
+    heading_sigma=(0.0, 0.15, 0.08),
+)
+P_doubt = np.diag([0.15, 0.15, 0.08]) ** 2
+sigma_seen = innovations(P_doubt)[:, 1].std()
+sigma_apart, sigma_together = (np.sqrt(S[1, 1]) for S in expected(P_doubt))
+
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# The bearings of the 1000 robots scatter by {= sigma_seen:.3f =} rad. The filter that keeps
+# $P_{\mathrm ri}$ expects {= sigma_together:.3f =} rad, the other one {= sigma_apart:.3f =}. Move the sliders:
+# however lost the robots are, their innovations stay as small, since each landmark is lost *with* its robot.
+#
+# The filter without $P_{\mathrm ri}$ gets an innovation far smaller than it feared, and concludes that its pose
+# must be good. It has learned nothing of the kind. That is what became of lesson 05's careful student.
+
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Say it with a boat. You are lost at sea, you throw a buoy overboard and measure how
+# far away it is. However often you measure, you will not find out where you are.
+
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=3
+# ## One state for robot and map
+#
+# An innovation depends on the robot's error *and* on the landmark's, and also on what the two errors have in
+# common (05.2). No filter for the robot alone holds that, and no filter for the landmark. So we put
+# everything that is unknown into **one** state, with one covariance:
+#
+# $$x = \begin{bmatrix} x_{\mathrm r} \\ p_1 \\ \vdots \\ p_N \end{bmatrix}, \qquad
+# P = \begin{bmatrix} P_{\mathrm{rr}} & P_{\mathrm r1} & \cdots & P_{\mathrm rN} \\
+# P_{1\mathrm r} & P_{11} & \cdots & P_{1N} \\ \vdots & \vdots & \ddots & \vdots \\
+# P_{N\mathrm r} & P_{N1} & \cdots & P_{NN} \end{bmatrix}. \tag{06.1}$$
+#
+# The MAK thesis calls this the *map-augmented* Kalman filter. It has $3 + 2N$ numbers in its state, and in $P$
+# the square of that.
+
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# Now the innovation depends on the error of *the state* and on the sensor's noise, and on nothing else.
+# That is all lesson 03 asked for, so its filter can be used as it is. We only have to say what its
+# matrices look like in each of three steps:
+#
+# | step | when | what it does to the state |
+# | --- | --- | --- |
+# | **predict** | the robot has moved | changes the robot's three numbers |
+# | **augment** | a landmark is seen for the first time | appends two numbers |
+# | **update** | a landmark is seen again | corrects all numbers |
+
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=5
+# ## Predict: the landmarks stand still
+#
+# The robot drives, and the map does not. So the step of the whole state is the robot's own step $f$, and
+# for the landmarks it is nothing at all:
+#
+# $$x_{\mathrm r} \leftarrow f(x_{\mathrm r}, u), \qquad p_i \leftarrow p_i. \tag{06.2}$$
+
+# %% slideshow={"slide_type": "fragment"}
+ask(
+    "06-drive",
+    "The robot drives 30 cm and sees nothing. Which blocks of $P$ change?",
+    {
+        "only the robot's own, $P_{\\mathrm{rr}}$": "that one changes. But the robot's error now "
+        "turns into another one, and so does what it shares with each landmark.",
+        "$P_{\\mathrm{rr}}$, and what robot and landmarks share, $P_{\\mathrm ri}$": "the landmarks' "
+        "own blocks stay: driving tells nothing about the map.",
+        "all blocks": "no landmark moves and none is seen, so nothing is learned or lost about the map.",
+    },
+    right="$P_{\\mathrm{rr}}$, and what robot and landmarks share, $P_{\\mathrm ri}$",
 )
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** from an exact pose, a is born without relatives: its error is the sensor's alone. Driving
-# colours the robot's own block (heading and place err together) and nothing else. b is born a
-# relative of the robot, and still a stranger to a: the robot has nothing of a's error to hand on.
-
-# %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* Ask what has to happen for the last white block, a and b, to get a colour.
-# Seeing a again will do it: that is the update, next.
-
-# %% [markdown] slideshow={"slide_type": "slide"}
-# ## Update: H over the whole state
-#
-# Landmark j of N is seen. h depends on the pose and on p_j only.
-#
-# **Predict** the shape of H for N = 4, and which of its columns are not zero when the third
-# landmark is seen.
-
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# The Jacobian of (06.2) holds lesson 04's $A$ for the robot and ones for the map. One landmark $i$ is enough
+# to see the pattern.
 
 # %% slideshow={"slide_type": "fragment"}
-def H_of(x, j):
-    """The Jacobian of the sight of landmark j (0, 1, …) by the whole state: (2, 3 + 2N)."""
-    at = 3 + 2 * j
-    p = x[at : at + 2]
-    H = np.zeros((2, len(x)))
-    H[:, :3] = jacobians.H_robot(x[:3], p)
-    H[:, at : at + 2] = jacobians.H_landmark(x[:3], p)
-    return H
+P_rr, P_ii, Q, R_ = symmetric("P_rr", 3), symmetric("P_ii", 2), symmetric("Q", 3), symmetric("R", 2)
+P_ri, A = sp.MatrixSymbol("P_ri", 3, 2), sp.MatrixSymbol("A", 3, 3)
+O, I = sp.ZeroMatrix, sp.Identity
+P = sp.BlockMatrix([[P_rr, P_ri], [P_ri.T, P_ii]])
+J_drive = sp.BlockMatrix([[A, O(3, 2)], [O(2, 3), I(2)]])
+noise = sp.BlockMatrix([[Q, O(3, 2)], [O(2, 3), O(2, 2)]])
 
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="06-drive"
+driven = derive("P", J_drive * P * J_drive.T + noise, "the recipe of lesson 03")
+driven.step("multiply block by block", blockwise)
 
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-four = np.array([1.2, -0.7, 0.9, 3.0, 1.0, -2.0, 2.0, -1.5, 2.2, 0.5, -3.0])
-H_of(four, 2).round(2)
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# Trust nothing: move each of the eleven numbers by a little and see what the model does.
-
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-def slopes(f, x, step=1e-6):
-    """∂f/∂x by differences, as in lesson 04."""
-    return np.column_stack([(f(x + e) - f(x - e)) / (2 * step) for e in step * np.eye(len(x))])
-
-
-by_differences = slopes(lambda x: models.h(x[:3], x[7:9]), four)
-print("H − differences:", f"{np.abs(H_of(four, 2) - by_differences).max():.6f}")
-print("columns that are not zero:", np.flatnonzero(np.abs(by_differences).max(axis=0) > 1e-9))
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# H = [H_r 0 0 H_p 0]. The thesis prints [0 0 H_r H_p 0 …] in (4.9). Read as blocks, that does not
-# even fit: H_r is three wide and would stand in a landmark's place of two. **The robot comes first
-# in the state, so H_r comes first in H, whichever landmark is seen.**
-
-# %% [markdown] slideshow={"slide_type": "slide"}
-# ## The gain: who learns?
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# The noise of the motion belongs to the robot alone, so it enters in the corner and nowhere else:
 #
-# Landmark i is seen, j is not. K = P Hᵀ S⁻¹, with a row of blocks for each part of the state.
+# $$P_{\mathrm{rr}} \leftarrow A P_{\mathrm{rr}} A^{\mathsf T} + Q, \qquad P_{\mathrm ri} \leftarrow A P_{\mathrm ri},
+# \qquad P_{ij} \leftarrow P_{ij}. \tag{06.3}$$
 #
-# **Question.** H is zero at j. Is K?
+# What robot and landmark have in common is carried along by $A$, and nothing is added to it, while
+# the robot's own doubt grows by $Q$. The map's blocks stay as they are: driving teaches nothing about the map, and
+# spoils nothing in it.
 
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-P = sp.BlockMatrix([[P_rr, P_ri, P_rj], [P_ri.T, P_ii, P_ij], [P_rj.T, P_ij.T, P_jj]])
-H = sp.BlockMatrix([[H_r, H_p, O(2, 2)]])
-PHt = sp.block_collapse(P * H.T).blocks
-PHt[0, 0]
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-PHt[1, 0]
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-PHt[2, 0]
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="06-drive"
+mak = MAK(np.zeros(3), P_doubt)
+mak.add(range(100), np.tile([5.0, 0.8], (100, 1)), R)
+STEP, Q_STEP = np.array([0.3, 0.01, 0.1]), np.diag([0.02, 0.01, 0.012]) ** 2
+before = mak.P
+mak.predict(compose(mak.pose, STEP), Q_STEP)
+changed = np.sum(before != mak.P)
+print(f"100 landmarks: a drive changes {changed} of the {before.size} numbers in P")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# These are the rows for robot, i and j, each still to be multiplied by S⁻¹. The last one: j learns
-# through P_jr, what it shares with the robot, and through P_ji, what it shares with i. Only who is
-# related to neither learns nothing. All of it, in ten lines, for one or for many landmarks of a
-# scan:
+# These are the 9 of the corner and 8 for each landmark, a stripe along two edges. A drive costs a time that grows
+# with $N$, not with $N^2$.
 
-# %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* Three things usually go wrong here: the bearing of v is not wrapped; the
-# heading is not wrapped after the correction; K is applied to the robot and the seen landmark only.
-# The exercise's check finds the first and the last. The second it lets pass: headings that differ
-# by 2π are the same heading, and whoever wraps v never notices.
-
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=7
+# ## Augment: a landmark is born
+#
+# A new landmark $n$ is placed where lesson 04's $g$ puts it, from the robot's pose and the sight $z$:
+#
+# $$p_n = g(x_{\mathrm r}, z). \tag{06.4}$$
+#
+# Two errors go into it: that of the pose, through the Jacobian $J_{\mathrm r}$ of $g$, and that of the
+# sight, through $J_z$. Nobody else's estimate changes.
 
 # %% slideshow={"slide_type": "fragment"}
-def update(x, P, seen, z, R):
-    """Landmarks `seen` (m indices) were seen again at z (m, 2): all of them at once."""
-    H = np.vstack([H_of(x, j) for j in seen])
-    v = z - models.h(x[:3], x[3:].reshape(-1, 2)[seen])
-    v[:, 1] = wrap(v[:, 1])
-    S = H @ P @ H.T + np.kron(np.eye(len(seen)), R)
-    K = P @ H.T @ np.linalg.inv(S)
-    x = x + K @ v.ravel()
-    x[2] = wrap(x[2])
-    return x, P - K @ S @ K.T
+ask(
+    "06-strangers",
+    "The robot knows landmark $i$ and now places landmark $n$. No sight ever held the two at "
+    "once. Is $P_{ni}$, the covariance of their errors, zero?",
+    {
+        "yes: nothing was measured between them": "no measurement is needed: the robot's error is "
+        "in both of them.",
+        "no, if the robot shares an error with $i$": "whatever the robot shares with $i$ it hands on "
+        "to $n$, which it places.",
+        "no: in one state everything is related": "a landmark that was placed from an exactly known "
+        "pose is related to nobody.",
+    },
+    right="no, if the robot shares an error with $i$",
+)
 
-
-# %% [markdown] slideshow={"slide_type": "slide"}
-# ## Predict who moves
-#
-# Back to the story: the robot turned round, drives back, and sees a again, 0.2 rad to the left of
-# where it expected it.
-#
-# **Predict** from the last picture: does b move, though nobody looked at it? And does b become
-# surer?
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# Before the landmark is placed there are three uncertain things: robot, landmark $i$, and the sight. The sight's
+# noise is new, so it shares nothing with the others. Afterwards there are the robot, $i$ and $n$.
 
 # %% slideshow={"slide_type": "fragment"}
-x, P = predict(*story, np.array([0, 0, np.pi]), Q_slip)
-for _ in range(5):
-    x, P = predict(x, P, step * [1, 1, 0], Q_slip)
-z = models.h(x[:3], x[3:5]) + np.array([0.0, 0.2])
-x_after, P_after = update(x, P, [0], z[None], R_sharp)
+J_r, J_z = sp.MatrixSymbol("J_r", 2, 3), sp.MatrixSymbol("J_z", 2, 2)
+J_new = sp.BlockMatrix([[I(3), O(3, 2), O(3, 2)], [O(2, 3), I(2), O(2, 2)], [J_r, O(2, 2), J_z]])
+P_z = sp.BlockMatrix([[P_rr, P_ri, O(3, 2)], [P_ri.T, P_ii, O(2, 2)], [O(2, 3), O(2, 2), R_]])
 
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-H = H_of(x, 0)
-K = P @ H.T @ np.linalg.inv(H @ P @ H.T + R_sharp)
-sigma, sigma_after = np.sqrt(np.diag(P)), np.sqrt(np.diag(P_after))
-for name, rows in {"robot": np.s_[:2], "a": np.s_[3:5], "b": np.s_[5:7]}.items():
-    print(
-        f"{name:5} largest entry of K {np.abs(K[rows]).max():.2f},"
-        f" moves {100 * np.hypot(*(x_after - x)[rows]):2.0f} cm,"
-        f" σ {100 * np.hypot(*sigma[rows]):.0f} → {100 * np.hypot(*sigma_after[rows]):.0f} cm"
-    )
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="06-strangers"
+grown = derive("P", J_new * P_z * J_new.T, "the same recipe; rows: robot, i, n")
+grown.step("multiply block by block", blockwise)
 
-# %% slideshow={"slide_type": "slide"}
-fig, ax = views.axes("Landmark a was seen again", size=(7, 4.2))
-for name, (mean, cov) in {"naive": (x, P), "corrected": (x_after, P_after)}.items():
-    parts = [slice(0, 2), slice(3, 5), slice(5, 7)]
-    layer = Ellipses(name, [mean[s] for s in parts], [cov[s, s] for s in parts])
-    when, line = ("before", "dashed") if name == "naive" else ("after", "solid")
-    views.draw(ax, layer, label=when, linestyle=line)
-ways = [[*x[s], *x_after[s]] for s in parts]
-views.draw(ax, Segments("truth", ways), linewidth=2.5, label="moved")
-for name, s in zip(["robot", "a", "b"], parts, strict=True):
-    ax.annotate(name, x_after[s], xytext=(18, 12), textcoords="offset points", fontsize=12)
-for line, style in zip(views.legend(ax).legend_handles, ["dashed", "solid"], strict=False):
-    line.set_linestyle(style)
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# The corner is new: the pose's error and the sight's, each carried over by its Jacobian.
+#
+# $$P_{nn} = J_{\mathrm r} P_{\mathrm{rr}} J_{\mathrm r}^{\mathsf T} + J_z R J_z^{\mathsf T}. \tag{06.5}$$
+#
+# The other new blocks follow one rule. The new landmark is tied to the others only through the robot, so **its rows
+# are the robot's rows, carried over by $J_{\mathrm r}$**:
+#
+# $$P_{n\mathrm r} = J_{\mathrm r} P_{\mathrm{rr}}, \qquad P_{ni} = J_{\mathrm r} P_{\mathrm ri}. \tag{06.6}$$
+
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# ### Do 2000 robots agree?
+#
+# (06.6) says that the errors of $i$ and $n$ go together, though no sight ever compared the two. We test it on
+# robots that really err.
+# Each has placed landmark $i$, drives on, and places $n$.
+
+# %% slideshow={"slide_type": "fragment"}
+R_SHARP, Z_NEW = np.diag([0.05, 0.01]) ** 2, np.array([3.0, -0.9])
+mak = MAK([0, 0, 0.4], np.diag([0.15, 0.15, 0.06]) ** 2)
+mak.add(["i"], [[4.0, 0.8]], R_SHARP)
+mak.predict(compose(mak.pose, [1.0, 0.1, 0.2]), Q_STEP)
+rng = np.random.default_rng(6)
+states = rng.multivariate_normal(mak.x, mak.P, 2000)  # what is really so: robot, i
+sights = rng.multivariate_normal(Z_NEW, R_SHARP, 2000)
+samples = np.hstack([states, models.g(states[:, :3], sights)])
+mak.add(["n"], [Z_NEW], R_SHARP)
+
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="06-strangers"
+sigma = np.sqrt(np.diag(mak.P))
+off = np.abs(np.cov(samples.T) - mak.P) / np.outer(sigma, sigma)
+for name, rows in {"P_nn": np.s_[5:, 5:], "P_nr": np.s_[5:, :3], "P_ni": np.s_[5:, 3:5]}.items():
+    print(f"{name}: robots and formula differ by at most {off[rows].max():.2f} of the two σ")
+rho_in = correlation(mak.P)[4, 6]
+
+# %% slideshow={"slide_type": "subslide"} answers="06-strangers"
+pair = mak.P[np.ix_([4, 6], [4, 6])]
+claims = {"$P$ with $P_{ni}$": pair, "$P_{ni}$ forgotten": np.diag(np.diag(pair))}
+fig, ax = views.cloud(
+    samples[:500][:, [4, 6]], claims, "An old landmark and a new one", size=(8, 5)
+)
+ax.set(xlabel="y of landmark i [m]", ylabel="y of landmark n [m]")
 views.show(
     fig,
-    "Ellipses before and after: those of the robot and of b shrink and move, that of "
-    "a stays nearly as it was.",
+    f"The robots form a streak that leans (correlation {rho_in:.2f}); the ellipse with P_ni covers it, "
+    "and the upright one without P_ni does not.",
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** b moved and its ellipse shrank, unseen: it had been placed by the robot, and the robot
-# learned how wrong it was. a hardly moved: it was the sure one. The information came from a and
-# went to who needed it.
+# Where landmark $i$ lies farther up than believed, so does $n$: the correlation is {= rho_in:.2f =}. The same robot
+# placed both. Without $P_{ni}$ the filter would expect cases that hardly ever happen, at the upper left, and rule
+# out some that do, at the upper right.
 
-# %% slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=4
+# ## The covariance grows
+#
+# Here is a small story. The robot starts at an exactly known pose, sees landmark $a$, drives on for 3 m, and sees
+# landmark $b$. After each event we draw its **correlations**, $P_{ij} / (\sigma_i \sigma_j)$. They have no
+# unit, so positions, headings and landmarks fit into one picture.
+#
+# Before you look: which blocks will be white, at each of the three moments?
+
+# %% slideshow={"slide_type": "fragment"}
+Q_SLIP, moments = np.diag([0.05, 0.03, 0.02]) ** 2, {}
+story = MAK(np.zeros(3), np.zeros((3, 3)))
+story.add(["a"], [[2.0, 0.9]], R_SHARP)
+moments["a is placed"] = correlation(story.P)
+for _ in range(10):
+    story.predict(compose(story.pose, STEP), Q_SLIP)
+moments["3 m are driven"] = correlation(story.P)
+story.add(["b"], [[2.5, 0.5]], R_SHARP)
+moments["b is placed"] = correlation(story.P)
+
+# %% slideshow={"slide_type": "subslide"}
+fig, _ = views.correlations(moments, ["robot", "a", "b"])
 views.show(
-    strip({"before a is seen again": P, "after": P_after}, ["robot", "a", "b"], size=(8, 3.8)),
-    "Correlations before the update, where a is white against all others, and after it, where "
-    "every block has a colour.",
+    fig,
+    "At first only a's own block has a colour; after the drive the robot's own block, too; then b, "
+    "coloured against the robot and white against a.",
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** after one update no block is white. Everyone is now related to everyone, and it stays so:
-# this is why P cannot be kept as N little matrices. Lesson 07 asks what happens if one tries.
-
-# %% [markdown] slideshow={"slide_type": "slide"}
-# ## The whole filter
+# Landmark $a$ was placed from an exact pose. The only error in it is the sensor's, so it is related to nobody.
+# Driving colours the robot's own block, because its heading and its place err together. Then $b$ is born as a
+# relative of the robot, and still a stranger to $a$: the robot has nothing of $a$'s error to hand on.
 #
-# Three functions, some thirty lines. What is left is to call them in the right order, and to know
-# which landmark stands where.
+# What has to happen before the last white blocks get a colour?
 
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=8
+# ## Update: who learns?
+#
+# Landmark $i$ is seen again. What is expected of it, $h(x_{\mathrm r}, p_i)$, depends on five numbers of the state:
+# three of the robot and two of the landmark. So most columns of its Jacobian are zero:
+#
+# $$H = \begin{bmatrix} H_{\mathrm r} & 0 & \cdots & H_{\mathrm p} & \cdots & 0 \end{bmatrix}. \tag{06.7}$$
+#
+# The robot comes first in the state, so $H_{\mathrm r}$ comes first in $H$. $H_{\mathrm p}$ stands where landmark
+# $i$ stands.
 
-# %% slideshow={"slide_type": "fragment"}
-class TextbookSlam(Estimator):
-    """EKF-SLAM with known ids, from the three functions above."""
+# %% slideshow={"slide_type": "subslide"}
+ask(
+    "06-unseen",
+    "In the story, the robot turns round and sees $a$ again, to the left of where it expected it. "
+    "Nobody looks at $b$. What happens to the estimate of $b$?",
+    {
+        "nothing: $H$ is zero at $b$": "$H$ is, but the gain is $P H^{\\mathsf T} S^{-1}$, and $P$ "
+        "relates $b$ to the robot.",
+        "it moves, and grows surer": "the robot learns how wrong it is, and with that how wrong "
+        "everything is that it placed.",
+        "it moves, but stays as unsure as it was": "what moves an estimate takes part of its doubt "
+        "away: $K S K^{\\mathsf T}$ is subtracted.",
+    },
+    right="it moves, and grows surer",
+)
 
-    def __init__(self, robot, sensor):
-        super().__init__()
-        self.x, self.P, self.ids = np.zeros(3), np.zeros((3, 3)), []
-        self.robot, self.R = robot, np.diag([sensor.range_sigma, sensor.bearing_sigma]) ** 2
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# The gain is $K = P H^{\mathsf T} S^{-1}$. $H$ has only two blocks that are not zero, so each row of the gain has two
+# terms. For a landmark $j$ that nobody looked at, lesson 05 has found (05.12):
+#
+# $$K_j = \left( P_{j\mathrm r} H_{\mathrm r}^{\mathsf T} + P_{ji} H_{\mathrm p}^{\mathsf T} \right) S^{-1}. \tag{06.8}$$
+#
+# So it learns through what it shares with the robot, and through what it shares with the landmark in sight. Only a
+# landmark that is related to neither learns nothing. With this gain the update is lesson 03's, for all
+# $3 + 2N$ numbers at once:
+#
+# $$x \leftarrow x + K v, \qquad P \leftarrow P - K S K^{\mathsf T}. \tag{06.9}$$
+#
+# Angles are wrapped, as ever: the bearing in $v$, and the heading in $x$.
 
-    def step(self, reading):
-        seen = reading.observations
-        known = np.isin(seen.ids, self.ids)
-        self.move(reading.odometry)
-        self.see(seen.ids[known], seen.z[known])
-        self.place(seen.ids[~known], seen.z[~known])
-        self.pose = self.x[:3]
-        self.record(reading.time)
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Three things usually go wrong when students write this. The bearing in $v$ is not wrapped; the
+# heading is not wrapped after the correction; the gain is applied to the robot and the landmark in sight only. The
+# exercise notices the first and the last. It lets the second pass, since headings that differ by $2\pi$ are the
+# same heading.
 
-    def move(self, odometry):
-        Q = Q_arc(self.x[:3], odometry, self.robot)
-        self.x, self.P = predict(self.x, self.P, odometry, Q)
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# ### The story goes on
+#
+# The robot turns round, drives 1.5 m back, and sees $a$ again, 0.2 rad to the left of where it expects it.
 
-    def see(self, ids, z):
-        if len(ids):
-            rows = [self.ids.index(i) for i in ids]
-            self.x, self.P = update(self.x, self.P, rows, z, self.R)
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="06-unseen"
+story.predict(compose(story.pose, [0, 0, np.pi]), Q_SLIP)
+for _ in range(5):
+    story.predict(compose(story.pose, STEP * [1, 1, 0]), Q_SLIP)
+x, P_was = story.x.copy(), story.P
+z = models.h(x[:3], x[3:5]) + np.array([0, 0.2])
+story.update(["a"], [z], R_SHARP)
+parts = {"robot": np.s_[:2], "a": np.s_[3:5], "b": np.s_[5:7]}
+far = {name: 100 * np.hypot(*(story.x - x)[rows]) for name, rows in parts.items()}
+for name, rows in parts.items():
+    was, now = (100 * np.sqrt(np.trace(each[rows, rows])) for each in (P_was, story.P))
+    print(f"{name:5} moves {far[name]:4.1f} cm, its σ goes from {was:4.1f} to {now:4.1f} cm")
 
-    def place(self, ids, z):
-        for i, one in zip(ids, z, strict=True):
-            self.x, self.P = augment(self.x, self.P, one, self.R)
-            self.ids.append(i)
-
+# %% slideshow={"slide_type": "subslide"} answers="06-unseen"
+fig, ax = views.axes("Landmark a was seen again", size=(8, 6))
+for name, label, mean, cov in [
+    ("predicted", "before", x, P_was),
+    ("corrected", "after", story.x, story.P),
+]:
+    ellipses = Ellipses(
+        name, [mean[s] for s in parts.values()], [cov[s, s] for s in parts.values()]
+    )
+    views.draw(ax, ellipses, label=label)
+moves = [[*x[rows], *story.x[rows]] for rows in parts.values()]
+views.draw(ax, Segments("truth", moves), linewidth=2.5, label="moved")
+for name, rows in parts.items():
+    ax.annotate(name, story.x[rows], xytext=(18, 12), textcoords="offset points", fontsize=12)
+views.legend(ax)
+views.show(
+    fig,
+    f"The ellipses of the robot and of b shrink, and both move, by {far['robot']:.0f} and "
+    f"{far['b']:.0f} cm; a moves by {far['a']:.1f} cm.",
+)
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# Q_arc is W C Wᵀ, lesson 04's Q, for a robot that drives arcs.
+# Nobody looked at $b$, and yet it moved by {= far["b"]:.0f =} cm and grew surer. It had been placed by the robot, and
+# the robot has learned how wrong it was. $a$ moved by {= far["a"]:.1f =} cm only, for it was the sure one: the
+# information went from $a$ to whoever needed it.
 
-# %% [markdown] slideshow={"slide_type": "slide"}
-# ## Round a loop
+# %% slideshow={"slide_type": "subslide"} answers="06-unseen"
+pictures = {"before a is seen again": correlation(P_was), "after": correlation(story.P)}
+fig, _ = views.correlations(pictures, ["robot", "a", "b"], size=(9, 4.5))
+weakest = np.abs(pictures["after"][5:7, 3:5]).max()
+views.show(
+    fig,
+    "Before the update a is white against all others; after it every block has a colour, and that of "
+    f"a and b reaches {weakest:.2f}.",
+)
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# After one update no block is white. From now on everyone is related to everyone, which is why $P$ cannot be kept as
+# $N$ little matrices. Lesson 07 asks what happens to those who try.
+
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=5
+# ## Once round a loop
 #
-# `sim:landmarks` is a circle of 4 m radius with twenty landmarks; the robot sees 2.5 m far. One
-# round takes 84 steps, we drive 100.
+# These three steps are the whole filter. In each step of a run, the robot **predicts** its drive, **updates** by the
+# landmarks that it knows, and **augments** by those that are new. The package has the filter as `MAK`, and
+# `MakSlam` drives it through a run.
 #
-# **Question.** New landmarks come into view and old ones go out of it. **Predict** the robot's error
-# over the steps, beside odometry's: always small, growing, growing and then not?
+# The run is simulated: a circle of 4 m radius with twenty landmarks, of which the robot sees those within 2.5 m. Once
+# round takes 84 steps, and we drive 100.
 
 # %% slideshow={"slide_type": "fragment"}
-LOOP, SEED = Loop(steps=100), 16
-source = LandmarkRun(LOOP, np.random.default_rng(SEED))
-kept = []  # x, P and ids after every step
+LOOP = Loop(steps=100)
+source = LandmarkRun(LOOP, np.random.default_rng(16))
+kept = []  # the filter after each step
 
 
 def keep(reading, slam):
-    kept.append((slam.x.copy(), slam.P.copy(), list(slam.ids)))
+    kept.append(slam.filter.marginal(slam.filter.ids))  # a copy
 
 
-result = run(source, TextbookSlam(source.robot, source.sensor), keep)
+result = run(source, MakSlam(source.robot, source.sensor), keep)
+
+# %% slideshow={"slide_type": "subslide"}
+ask(
+    "06-drift",
+    "The robot starts exactly known, and drives round once among landmarks it has never seen. How does its "
+    "error of position go on until it comes back to the first ones?",
+    {
+        "it stays small: there is always a landmark in sight": "but each was placed by the robot itself. "
+        "A map of its own making cannot tell it where it is.",
+        "it grows, if mostly more slowly than odometry's": "each landmark is held for a while and then "
+        "replaced by newer ones, each placed with the error of that moment.",
+        "it grows exactly as odometry's does": "while a landmark stays in sight, it does tell how far "
+        "the robot has moved since.",
+    },
+    right="it grows, if mostly more slowly than odometry's",
+)
 
 
-# %% slideshow={"slide_type": "slide"}
-truth = source.truth.poses[:, :2]
-errors = {
-    "the filter's error": np.hypot(*(result.trajectory.poses[:, :2] - truth).T),
-    "odometry's error": np.hypot(*(result.naive.poses[:, :2] - truth).T),
-    "the filter's σ": [np.sqrt(np.trace(P[:2, :2])) for _, P, _ in kept],
-}
-fig, ax = views.curves(np.arange(101), errors, "step", "position [m]", size=(6.5, 3.2))
-own = errors["the filter's error"]
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="06-drift"
+runs = [LandmarkRun(LOOP, np.random.default_rng(seed)) for seed in range(20)]
+drives = [broken_slam.drive(one, MAK(np.zeros(3), np.zeros((3, 3)))) for one in runs]
+steps_before = np.s_[:70]
+
+
+def rms_before(poses, one):
+    return np.sqrt(np.mean(np.sum((poses - one.truth.poses)[steps_before, :2] ** 2, axis=1)))
+
+
+by_filter = np.array([rms_before(poses, one) for (poses, _), one in zip(drives, runs, strict=True)])
+by_wheels = np.array([rms_before(two_halves.by_wheels(one), one) for one in runs])
+print(f"20 runs, 70 steps: median error {np.median(by_filter):.2f} m, ", end="")
+print(f"wheels {np.median(by_wheels):.2f} m; smaller in {np.sum(by_filter < by_wheels)} runs")
+
+
+# %% slideshow={"slide_type": "subslide"} answers="06-drift"
+def distance(poses):
+    return np.hypot(*(poses - source.truth.poses)[:, :2].T)
+
+
+own, wheels = distance(result.trajectory.poses), distance(result.naive.poses)
+claimed = [np.sqrt(np.trace(each.block([0, 1]))) for each in kept]
+errors = {"the filter's error": own, "odometry's error": wheels, "the filter's σ": claimed}
+fig, ax = views.curves(np.arange(101), errors, "step", "position [m]", size=(9, 4.5))
 views.show(
     fig,
     f"The filter's error grows to {own.max():.1f} m at step {own.argmax()} and falls to "
-    f"{100 * own[-1]:.0f} cm, its σ with it; odometry's error goes on growing.",
+    f"{100 * own[-1]:.0f} cm, its σ with it; odometry's error goes on growing to {wheels[-1]:.1f} m.",
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** while all landmarks are new the filter drifts, here for fifty steps slower than odometry
-# and in the end as far: a map of its own making cannot tell it where it is. It knows that: σ grows
-# along with the error. Then, at step 71, something happens that odometry has no part in.
+# While all landmarks are new, the filter drifts: a map of its own making cannot tell the robot where it is. In this
+# run its error reaches {= own.max():.1f =} m. In {= np.sum(by_filter < by_wheels) =} of 20 such runs it drifts less
+# than the wheels. It *knows* that it drifts, for its σ grows along with its error. And then, at step
+# {= own.argmax() + 1 =}, something happens that odometry has no part in.
 
-# %% [markdown] slideshow={"slide_type": "slide"}
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=6
 # ## The loop closes
 #
-# The robot has come nearly round, and the landmarks it saw first come into view again.
-#
-# **Predict** which ellipses shrink: those of the landmarks seen now, those of the last ones, all?
-
+# The robot has come nearly round, and the landmarks that it saw first come into view again.
 
 # %% slideshow={"slide_type": "fragment"}
-def picture(k):
-    """Layers of the map after step k."""
-    x, P, ids = kept[k]
-    marks = [slice(i, i + 2) for i in range(3, len(x), 2)]
-    return [
-        Points("truth", source.landmarks[ids]),
-        Ellipses("landmark", [x[s] for s in marks], [P[s, s] for s in marks]),
-        Poses("truth", source.truth.poses[: k + 1]),
-        Poses("naive", result.naive.poses[: k + 1]),
-        Poses("corrected", result.trajectory.poses[: k + 1]),
-        Ellipses("robot", [x[:2]], [P[:2, :2]]),
-    ]
-
-
-NAMES = {"landmark": "landmarks, 95 %", "robot": "robot, 95 %", "naive": "odometry alone"}
-
-
-def draw_map(ax, k):
-    for layer in picture(k):
-        if isinstance(layer, Points):
-            views.draw(ax, layer, marker="+", mew=1, markersize=7, label="true landmarks")
-        else:
-            views.draw(ax, layer, label=NAMES.get(layer.name, layer.name))
-
-
-# %% slideshow={"slide_type": "fragment"}
-first_again = next(
-    k for k in range(40, 101) if set(source.seen(source.truth.poses[k])) & set(kept[0][2])
-)
-before, after = first_again - 1, first_again + 5
-
-# %% slideshow={"slide_type": "slide"}
-titles = [f"step {before}: about to close", f"step {after}: closed"]
-fig, all_axes = views.panels(titles, size=(9.6, 3.8))
-for ax, k in zip(all_axes, (before, after), strict=True):
-    draw_map(ax, k)
-views.legend(all_axes[1], loc="upper left", bbox_to_anchor=(1, 1))
-views.show(fig, "Before, the ellipses grow along the round; six scans later all of them are small.")
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** six scans, and every ellipse has shrunk: those on the far side too, which the robot has
-# not seen for forty steps. The first landmarks are the surest of the map; the robot meets them,
-# learns its own error, and with it the error of all that it placed on the way. By how much, told in
-# the order in which they were found:
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-(x0, P0, ids0), (x1, P1, _) = kept[before], kept[after]
-
-
-def areas(P):
-    """The areas of the landmarks' ellipses, but for a factor."""
-    return np.sqrt([np.linalg.det(P[i : i + 2, i : i + 2]) for i in range(3, len(P0), 2)])
-
-
-shrunk = 1 - areas(P1) / areas(P0)
-print(f"{np.sum(shrunk > 0)} of {len(ids0)} ellipses shrank; by (first to last found)")
-print(" ".join(f"{share:.0%}" for share in shrunk))
-error = [np.hypot(*(x[:2] - source.truth.poses[k][:2])) for x, k in ((x0, before), (x1, after))]
-print(f"the robot's error fell from {100 * error[0]:.0f} cm to {100 * error[1]:.0f} cm")
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# Who was placed late, by a robot far from sure, learns most; the first ones had little to learn.
-
-# %% slideshow={"slide_type": "slide"}
-stages = {f"step {k}": kept[k][1] for k in (before, after)}
-order = [str(i) for i in ids0]
-views.show(
-    strip(stages, ["robot", *order], size=(7, 3.9)),
-    "Correlation matrices before and after closing the loop: pale among the first "
-    "landmarks, deep colours among the later ones, and many blocks changed by the closing.",
-)
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** landmarks stand in the order in which they were found. The first ones, placed from a pose
-# almost exact, are pale: they share little. The later ones share the error that the robot had by
-# then, and are the closer relatives the later they came. Closing the loop changes them all, also
-# pairs that were never in view together.
-
-# %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* This is the moment of the lesson; leave time for it. Ask: could a program
-# that stores each landmark with its own 2×2 covariance do that? It could shrink what it sees.
-
-# %% [markdown] slideshow={"slide_type": "slide"}
-# ## Break it: what is printed
-#
-# Smolec's (15) reads X = K · innovation, without the old X, and his text never updates P.
-#
-# **Predict** both: what does the map look like, and what does the robot believe of its error?
-
-
-# %% slideshow={"slide_type": "fragment"}
-class Forgets(TextbookSlam):
-    """(15) as printed: X = K · innovation."""
-
-    def see(self, ids, z):
-        x = self.x
-        super().see(ids, z)
-        if len(ids):
-            self.x = self.x - x
-
-
-class NeverSure(TextbookSlam):
-    """P is not updated."""
-
-    def see(self, ids, z):
-        P = self.P
-        super().see(ids, z)
-        self.P = P
-
-
-# %% slideshow={"slide_type": "fragment"}
-def weigh(make, seeds=range(20), loop=LOOP):
-    """Mean over runs: landmark error [m], robot's error [m], its claimed σ [m], NEES, at the end."""
-    rows = []
-    for seed in seeds:
-        source = LandmarkRun(loop, np.random.default_rng(seed))
-        slam = run(source, make(source.robot, source.sensor)).estimator
-        off = slam.x[3:].reshape(-1, 2) - source.landmarks[slam.ids]
-        error = slam.x[:3] - source.truth.poses[-1]
-        error[2] = wrap(error[2])
-        P = slam.P[:3, :3]
-        rows.append(
-            [
-                np.sum(off**2, axis=1).mean(),
-                np.sum(error[:2] ** 2),
-                np.trace(P[:2, :2]),
-                evaluation.nees(error, P),
-            ]
-        )
-    squares = np.mean(rows, axis=0)
-    return [*np.sqrt(squares[:3]), squares[3]]
-
-
-def tell(makers):
-    print(f"{'':34} map [m]  robot [m]  claimed [m]   NEES")
-    for name, make in makers.items():
-        *metres, nees = weigh(make)
-        # beyond, P is nearly singular: the last digits are this processor's rounding
-        told = f"{nees:6.1f}" if nees < 1000 else "> 1000"
-        print("{:34} {:7.2f} {:10.2f} {:12.2f} {}".format(name, *metres, told))
-
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-tell(
+ask(
+    "06-shrink",
+    "The robot sees its first landmarks again. Whose ellipses shrink in the next six steps?",
     {
-        "the filter": TextbookSlam,
-        "(15) as printed, X = K · innovation": Forgets,
-        "P is never updated": NeverSure,
+        "those of the landmarks it sees now": "they are the surest of the whole map and have least to learn.",
+        "those of the last ones, which it has just left": "theirs do; but are they the only ones to have "
+        "been placed by a robot that was wrong?",
+        "those of nearly all landmarks": "the robot's error is in everything that it placed, and it has "
+        "just found out how large that error is.",
+    },
+    right="those of nearly all landmarks",
+)
+
+# %% slideshow={"slide_type": "fragment"}
+first = set(kept[0].ids)
+closing = next(k for k in range(40, 101) if set(source.seen(source.truth.poses[k])) & first)
+before, after = kept[closing - 1], kept[closing + 5]
+
+
+# %% slideshow={"slide_type": "fragment"} answers="06-shrink"
+def map_of(source, mak, way, naive, k):
+    """The map after step k, beside the truth: layers by their labels."""
+    return {
+        "true way": Poses("truth", source.truth.poses[: k + 1]),
+        "odometry alone": Poses("naive", naive[: k + 1]),
+        "the filter's way": Poses("corrected", way[: k + 1]),
+        "true landmarks": Points("truth", source.landmarks[mak.ids]),
+        "landmarks, 95 %": Ellipses("landmark", mak.landmarks(), mak.blocks()[2]),
+        "robot, 95 %": Ellipses("robot", [mak.x[:2]], [mak.block([0, 1])]),
     }
+
+
+def draw_map(ax, layers):
+    for label, layer in layers.items():
+        cross = {"marker": "+", "mew": 1, "markersize": 7} if label == "true landmarks" else {}
+        views.draw(ax, layer, label=label, **cross)
+
+
+def at(k):
+    return map_of(source, kept[k], result.trajectory.poses, result.naive.poses, k)
+
+
+# %% slideshow={"slide_type": "subslide"} answers="06-shrink"
+titles = [f"step {closing - 1}: about to close", f"step {closing + 5}: closed"]
+fig, both = views.panels(titles, size=(11, 5.5))
+for ax, k in zip(both, (closing - 1, closing + 5), strict=True):
+    draw_map(ax, at(k))
+views.legend_below(fig)
+
+
+def areas(mak):
+    """The landmarks' ellipses, in the order of the older map: their areas but for a factor."""
+    return np.sqrt(np.linalg.det(mak.blocks()[2]))[: len(before.ids)]
+
+
+shrunk = 1 - areas(after) / areas(before)
+views.show(
+    fig,
+    f"Before the closing the ellipses grow along the loop; six steps later {np.sum(shrunk > 0.2)} of "
+    f"{len(shrunk)} are smaller by a fifth or more.",
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** with (15) every update throws the whole state to near zero, the robot and the map with
-# it: the error is the size of the loop. Without the update of P the filter stays as unsure as
-# odometry is and listens to each new measurement as if it knew nothing: NEES far *below* 3 tells
-# of a filter that claims too little, and its map is worse.
+# {= np.sum(shrunk > 0) =} of {= len(shrunk) =} ellipses shrank within six steps, among them those on the far side,
+# which have long been out of sight. In the order in which the landmarks were found, they lost this share of their
+# area:
 
-# %% [markdown] slideshow={"slide_type": "slide"}
-# ## The order matters
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="06-shrink"
+print(" ".join(f"{share:.0%}" for share in shrunk))
+print(
+    f"the robot's error fell from {100 * own[closing - 1]:.0f} to {100 * own[closing + 5]:.0f} cm"
+)
+
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# The first landmarks, placed from a pose that was almost exact, had little to learn. Those that were placed late,
+# by a robot that was far from sure, learned most. How does the filter know whom to tell? It is written in $P$.
 #
-# In Smolec's program predict() is called *after* the association of landmarks. The robot has moved,
-# its measurement is new, its pose in the state is still the old one.
-#
-# **Predict:** what is wrong with a landmark placed then, and by how much? (A step is 0.3 m.)
-
-
-# %% slideshow={"slide_type": "fragment"}
-class PlacesFirst(TextbookSlam):
-    """New landmarks are placed before the robot's pose is predicted."""
-
-    def step(self, reading):
-        seen = reading.observations
-        known = np.isin(seen.ids, self.ids)
-        self.place(seen.ids[~known], seen.z[~known])
-        self.move(reading.odometry)
-        self.see(seen.ids[known], seen.z[known])
-        self.pose = self.x[:3]
-        self.record(reading.time)
-
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-tell({"predict, update, augment": TextbookSlam, "augment, predict, update": PlacesFirst})
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** each landmark starts a step behind, turned by the step's turn as well, and P says nothing
-# of it. The filter believes its map and bends the robot to it: NEES is far above 3. The error is no
-# noise: it is the same at each sight, so it does not average out.
+# Step through the run, and watch the map and its correlations side by side.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* Smolec's program stands in figures only; what it does is told by its line
-# numbers and prose. Say "probably". Such a bug survives because the map still looks like a map.
+# *For the lecturer:* This is the moment of the lesson; leave time for it. Ask whether a program that stores each
+# landmark with a 2 × 2 covariance of its own could do the same.
 
-# %% [markdown] slideshow={"slide_type": "slide"}
-# ## May P start at zero?
-#
-# Ours does: the robot stands where it starts, by definition, so nothing is in doubt. Smolec warns of
-# it (§2.6): without some doubt on P's diagonal a *singular* matrix often turns up, so put some
-# there, even if you believe the start.
-#
-# **Question.** What does the filter invert? **Predict** what changes if the robot starts with 10 cm
-# and 5° of doubt: its error, what it claims, how sure it is of the distance of two landmarks?
+
+# %% slideshow={"slide_type": "subslide"}
+def at_step(step):
+    mak = kept[step]
+    fig, (left, right) = views.panels([f"step {step}", "correlations"], (11, 5.2), shared=False)
+    for ax in (left, right):
+        ax.set_aspect("equal", adjustable="box")
+    draw_map(left, at(step))
+    left.set(xlim=(-6.5, 6.5), ylim=(-2.8, 10.5))
+    views.correlation(correlation(mak.P), ["r", *map(str, range(len(mak.ids)))], ax=right)
+    right.set(xlabel="landmarks, first to last found", ylabel=None)
+    views.colour_bar(right)
+    return fig
 
 
 # %% slideshow={"slide_type": "fragment"}
-class StartsInDoubt(TextbookSlam):
-    """P starts with 10 cm and 5° on its diagonal."""
-
-    def __init__(self, robot, sensor):
-        super().__init__(robot, sensor)
-        self.P = np.diag([0.1, 0.1, np.radians(5)]) ** 2
-
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-tell({"P starts at zero": TextbookSlam, "P starts at 10 cm, 5°": StartsInDoubt})
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-exact, doubting = (
-    run(source, make(source.robot, source.sensor)).estimator
-    for make in (TextbookSlam, StartsInDoubt)
+views.explore(
+    at_step,
+    lambda step: (
+        f"The map after step {step}, with {len(kept[step].ids)} landmarks: early ones share little "
+        "with the others; the later one was found, the deeper its colours."
+    ),
+    play="step",
+    step=(1, 100, closing - 1),
 )
-maps = [slam.x[3:].reshape(-1, 2) for slam in (exact, doubting)]
-shapes = [np.hypot(*(m[:, None] - m).T) for m in maps]  # all distances within each map
-print(f"landmarks up to {100 * np.hypot(*(maps[0] - maps[1]).T).max():.0f} cm apart,", end=" ")
-print(f"distances between two of them up to {100 * np.abs(shapes[0] - shapes[1]).max():.0f} cm")
-D = np.hstack([-np.eye(2), np.eye(2)])  # of the first two landmarks: p_b − p_a
-for name, P in (("zero", exact.P), ("10 cm", doubting.P)):
-    ab = P[3:7, 3:7]
-    place, apart = np.sqrt(np.trace(ab[:2, :2])), np.sqrt(np.linalg.eigvalsh(D @ ab @ D.T)[0])
-    print(f"P from {name:5}: σ of a's place {100 * place:4.1f} cm, of a to b {100 * apart:.1f} cm")
-try:
-    np.linalg.inv(np.zeros((3, 3)))
-except np.linalg.LinAlgError as error:
-    print("P⁻¹ at the start:", error)
+rho = np.abs(correlation(before.P))
+early, late = rho[3:13, 3:13].mean(), rho[-10:, -10:].mean()
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** what is inverted is S = H P Hᵀ + R, and R alone keeps S regular; in neither run is
-# anything singular. P itself is, at the start: who inverts P (lesson 03's NEES, or a filter that
-# carries P⁻¹) has to wait for the first steps, as we do. And the doubt buys nothing here: both maps
-# have the same shape and are as sure of it, but the second is moved and turned as a whole, so its
-# errors and what it claims of them are some four times as large. It is honest about a question that
-# nobody asked: where the start lies in a frame that begins there. Doubt belongs into P when the
-# frame is given from outside, say by a map that was there before the robot.
+# You begin just before the closing. The landmarks stand in the order in which they were found. The first are pale:
+# the correlations among the first five are {= early:.2f =} on average. Those among the last five are
+# {= late:.2f =}, since each was placed with the error that the robot had by then. Now play on: at the closing
+# almost every block changes, even those of pairs which were never in view together.
 
-# %% [markdown] slideshow={"slide_type": "slide"}
-# ## The package's MAK
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=8
+# ## How far it sees, how well it counts
 #
-# `slamlab.filters.mak.MAK` is the same filter, and `MakSlam` puts it behind a source.
+# Does the filter tell the truth about itself? NEES says so: it is 3 on average where $P$ is right, and larger where
+# the filter is too sure. In the runs so far, the robot sees 2.5 m far, and its turns err by 0.7° a second.
 #
-# **Predict** how far apart the two end after 100 steps: millimetres, or rounding?
+# We now let it see less far, and give it worse wheels. The filter is told of both, exactly.
 
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-apart = []
+# %% slideshow={"slide_type": "fragment"}
+ask(
+    "06-honest",
+    "The robot sees only **1.5 m** far, and its turns are **2.5 times** as noisy. The filter knows both numbers. "
+    "Does it still tell the truth about its error?",
+    {
+        "yes: it knows every noise, and it keeps every correlation": "that would be enough if $f$ and $h$ were "
+        "linear, or the errors small beside the distances to the landmarks.",
+        "no, it is too sure": "at the closing the robot is off by nearly as much as it can see, and no "
+        "straight line describes what such an error does to a bearing.",
+        "no, it is too modest": "more noise makes $P$ larger, and rightly so: the errors are larger, too.",
+    },
+    right="no, it is too sure",
+)
 
 
-def compare(reading, slam):
-    x, P, _ = kept[len(apart)]
-    apart.append(max(np.abs(slam.filter.x - x).max(), np.abs(slam.filter.P - P).max()))
+# %% slideshow={"slide_type": "fragment"}
+def driven_with(sight, turn_noise, count=12):
+    """Runs of a loop with this sight [m] and noise of its turns [°/s]; poses and covariances."""
+    loop = replace(LOOP, range_max=sight, omega_sigma=np.radians(turn_noise))
+    for seed in range(count):
+        one, mak = (
+            LandmarkRun(loop, np.random.default_rng(seed)),
+            MAK(np.zeros(3), np.zeros((3, 3))),
+        )
+        yield one, *broken_slam.drive(one, mak), mak
 
 
-packaged = run(source, MakSlam(source.robot, source.sensor), compare)
-print(f"{len(apart)} steps, largest difference in x and P below 1e-9: {max(apart) < 1e-9}")
+SETTLED, LIMITS = 10, band(3, 12)  # P is zero at first: NEES means nothing yet
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# Rounding. What it does differently is thrift:
-#
-# - P is symmetric, so it keeps *one triangle*, in place; new landmarks go to memory allocated
-#   ahead.
-# - A scan of m landmarks is *one* update. With S = L Lᵀ and B = P Hᵀ L⁻ᵀ, P ← P − B Bᵀ: a change of
-#   rank 2m, for which no gain and no inverse is formed.
 
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-mak = MAK(np.zeros(3), np.zeros((3, 3)))
-mak.add(["a", "b", "c"], [[2.0, 0.9], [3.0, -0.5], [2.5, 2.0]], R_look)
-mak.predict(compose(mak.pose, step), Q_step)
-before = mak.P
-z = models.h(mak.pose, mak.landmarks()[[0, 2]]) + np.array([[0.05, 0.01], [-0.1, 0.02]])
-made = mak.update(["a", "c"], z, R_look)
-print("B", made.B.shape, " K", made.K.shape)
-print(f"B Bᵀ − K S Kᵀ: {np.abs(made.B @ made.B.T - made.K @ made.S @ made.K.T).max():.6f}")
-print(f"P − (before − B Bᵀ): {np.abs(mak.P - (before - made.B @ made.B.T)).max():.6f}")
+def mean_nees(drives):
+    return two_halves.mean_nees([each[:3] for each in drives], SETTLED)
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# What a scan costs in a map of 200 landmarks, on the machine that made this page:
 
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-ignore-output"]
-from timeit import repeat
-
-big = MAK(np.zeros(3), np.diag([0.1, 0.1, 0.05]) ** 2, capacity=200)
-around = np.column_stack([np.linspace(2, 6, 200), np.linspace(-3, 3, 200)])
-big.add(range(200), around, R_look)
-again, rows = models.h(big.pose, big.landmarks()[:5]), list(range(5))
-x, P = big.x.copy(), big.P
-times = {
-    "textbook": min(repeat(lambda: update(x, P, rows, again, R_look), number=3, repeat=5)) / 3,
-    "package": min(repeat(lambda: big.update(rows, again, R_look), number=3, repeat=5)) / 3,
+# %% slideshow={"slide_type": "fragment"} answers="06-honest"
+by_sight = {sight: list(driven_with(sight, 1.8)) for sight in (1.5, 4.0)}
+short, far_sighted = map(mean_nees, by_sight.values())
+better = {
+    sight: sum(
+        two_halves.rms(one, way) < two_halves.rms(one, two_halves.by_wheels(one))
+        for one, way, *_ in each
+    )
+    for sight, each in by_sight.items()
 }
-for name, seconds in times.items():
-    print(f"{name:9} {1000 * seconds:6.2f} ms for an update with 5 of 200 landmarks")
+peak = SETTLED + short.argmax()
 
-# %% [markdown] slideshow={"slide_type": "slide"}
-# ## Removing a landmark
+
+def off_at_closing(one, way, *_):
+    """How far off the robot is just before it sees one of its first landmarks again [m]."""
+    in_sight = [set(one.seen(pose)) for pose in one.truth.poses]
+    first = set.union(*in_sight[:10])
+    k = next(k for k in range(50, 101) if in_sight[k] & first)
+    return np.hypot(*(way - one.truth.poses)[k - 1, :2])
+
+
+at_closing = {
+    sight: np.median([off_at_closing(*each) for each in drives])
+    for sight, drives in by_sight.items()
+}
+
+# %% slideshow={"slide_type": "subslide"} answers="06-honest"
+as_before = mean_nees(driven_with(2.5, 0.7))
+
+
+def sight_and_noise(sight, turn_noise):
+    drives = list(driven_with(sight, turn_noise))
+    one, way, _, mak = drives[4]
+    values = mean_nees(drives)
+    fig, (left, right) = views.panels(["one of 12 runs", "all 12 runs"], (11, 5.2), shared=False)
+    left.set_aspect("equal", adjustable="box")
+    draw_map(left, map_of(one, mak, way, two_halves.by_wheels(one), 100))
+    right.set_aspect("auto")
+    steps = np.arange(SETTLED, 101)
+    right.plot(steps, values, color=views.COLOURS["corrected"], lw=2, label="chosen robot")
+    before = views.COLOURS["before"]
+    right.plot(steps, as_before, color=before, lw=2, ls="dashed", label="2.5 m, 0.7°/s")
+    views.band(right, *LIMITS, "95 % band")
+    right.set(
+        xlabel="step", ylabel="mean NEES [1]", yscale="log", ylim=(1, max(100, 1.5 * values.max()))
+    )
+    views.legend_below(fig)
+    return fig
+
+
+# %% slideshow={"slide_type": "fragment"} answers="06-honest"
+views.explore(
+    sight_and_noise,
+    lambda sight, turn_noise: (
+        f"With a sight of {sight:.1f} m and turns that err by {turn_noise:.1f}° a second: the map of one run, "
+        "and the mean NEES of all beside that of the first robot, which stays near its band."
+    ),
+    sight=(1.0, 5.0, 1.5),
+    turn_noise=(0.2, 3.0, 1.8),
+)
+
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# With a short sight and poor wheels, NEES is {= short.mean():.1f =} on average, and {= short.max():.0f =} at
+# its peak. With the same wheels and a sight of 4 m it is {= far_sighted.mean():.1f =}; the first robot's was
+# {= as_before.mean():.1f =}. The robot's error is smaller than the wheels' in {= better[1.5] =} of the 12 runs with
+# the short sight, and in {= better[4.0] =} with the long one.
 #
-# A landmark may turn out to be a chair that was moved. **Question.** What has to be done to P when
-# it goes? **Predict** whether the others get less sure.
+# No block is missing here. The peak is at step {= peak =}, as the loop closes. When the robot sees its first
+# landmarks again, it is off by {= at_closing[1.5]:.1f =} m (median), and they stand at most 1.5 m away. Over such
+# an error a bearing does not follow a straight line. With a sight of 4 m it is off by {= at_closing[4.0]:.2f =} m.
+
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# ### Are the Jacobians taken at the wrong place?
+#
+# A filter takes them where it believes to be. We can be kinder, and take them at the truth, which only a
+# simulation knows.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-before, left = mak.P, [0, 1, 2, 3, 4, 7, 8]  # rows of robot, a, c
-mak.remove(["b"])
-print("left:", mak.ids, " P unchanged for them:", np.array_equal(mak.P, before[np.ix_(left, left)]))
+worse = replace(LOOP, range_max=1.5, omega_sigma=np.radians(1.8))
+tried = [consistency.errors_of(seed, worse) for seed in range(12)]
+
+
+def nees_with(jacobians):
+    return np.mean([nees(*(each[SETTLED:] for each in one[jacobians][:2])) for one in tried])
+
+
+print(f"mean NEES: Jacobians at the estimate {nees_with('standard'):.1f}, ", end="")
+print(f"at the truth {nees_with('ideal'):.1f}")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# Its rows and columns are struck out, that is all: leaving out a component of a Gaussian
-# (*marginalising*) changes nobody else. What b once taught the others stays with them.
+# It does not help here: over errors as large as this no straight line will do, wherever it touches the curve. What
+# helps is to keep the errors small. A farther sight does so in two ways, for more landmarks hold the
+# heading, and the loop closes earlier. Lesson 07 shows a case in which the place of the Jacobians does matter.
+
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* The steps of a run hang together, so an excursion beyond the band is one event, not ten.
+# `python -m slamlab.studies.consistency` drives a hundred runs of seven rounds each, with standard, first-estimates
+# and ideal Jacobians on the same readings, and writes the table.
+
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=3
+# ## The order matters
+
+# %% slideshow={"slide_type": "fragment"}
+ask(
+    "06-order",
+    "Somebody's program first places the new landmarks of a scan, then predicts the drive, then updates. The "
+    "robot drives 0.3 m a step. What happens?",
+    {
+        "nothing: in the end all three steps are done": "the sight was made *after* the drive; it is placed from "
+        "a pose that the robot had left.",
+        "the errors average out over many sights": "the displacement is the same for each landmark, a step "
+        "backwards along the way: it is no noise.",
+        "landmarks land a step behind, and $P$ knows nothing of it": "the filter then bends the robot to a map "
+        "that it believes too much.",
+    },
+    right="landmarks land a step behind, and $P$ knows nothing of it",
+)
+
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="06-order"
+ten = runs[:10]
+right_order = broken_slam.at_the_end(ten)
+wrong_order = broken_slam.at_the_end(ten, places_first=True)
+last = [(two_halves.by_wheels(one) - one.truth.poses)[-1, :2] for one in ten]
+wheels_last = np.sqrt(np.mean(np.sum(np.square(last), axis=1)))
+print(f"{'10 runs, at the end':28} map [m]  robot [m]  claimed [m]  NEES")
+table = {"predict, update, augment": right_order, "augment, predict, update": wrong_order}
+for name, end in table.items():
+    print(f"{name:28} {end.landmarks:6.2f} {end.robot:10.2f} {end.claimed:12.2f} {end.nees:7.1f}")
+print(f"{'wheels alone':28} {wheels_last:17.2f}")
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# The map errs {= wrong_order.landmarks / right_order.landmarks:.1f =} times as much, and NEES is
+# {= wrong_order.nees:.0f =} instead of {= right_order.nees:.1f =}. The map still looks like a map, and the robot is
+# still better than its wheels. Such a mistake survives unless somebody computes NEES.
+
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=2
+# ## One lie
+#
+# Everyone learns from every sight. What if a sight is false? We go back to the moment when the loop closes, and let
+# the sensor report an old landmark farther away than it is.
+
+# %% slideshow={"slide_type": "fragment"}
+readings = list(source)
+NOISE = two_halves.R(source)
+
+
+def told(k, lie):
+    """The filter after the drive of step k + 1 and one sight of the oldest landmark, long by `lie`."""
+    mak = kept[k].marginal(kept[k].ids)
+    predict(mak, readings[k + 1], source.robot)
+    seen = readings[k + 1].observations
+    known = [j for j, id in enumerate(seen.ids) if id in mak.ids]
+    j = min(known, key=lambda j: mak.ids.index(seen.ids[j]))
+    return mak, mak.update([seen.ids[j]], [seen.z[j] + [lie, 0]], NOISE)
+
+
+# %% slideshow={"slide_type": "subslide"}
+def one_lie(range_too_long_by):
+    (mak, step), (honest, _) = told(closing - 1, range_too_long_by), told(closing - 1, 0.0)
+    fig, ax = views.axes(f"NIS of this sight: {step.nis:.1f}", size=(8, 6))
+    moves = np.hstack([honest.landmarks(), mak.landmarks()])
+    layers = map_of(source, mak, [mak.pose], [], closing)
+    del layers["odometry alone"], layers["the filter's way"]
+    draw_map(ax, layers | {"moved by the lie": Segments("naive", moves)})
+    views.draw(ax, Poses("robot", mak.pose), label="robot")
+    views.legend_below(fig)
+    return fig
+
+
+# %% slideshow={"slide_type": "fragment"}
+views.explore(
+    one_lie,
+    lambda range_too_long_by: (
+        f"A single sight that is {range_too_long_by:.1f} m too long moves the robot and the landmarks that it "
+        "placed late, far out of their ellipses when the lie is large."
+    ),
+    range_too_long_by=(0.0, 3.0, 2.0),
+)
+nis = [told(k, 0.0)[1].nis for k in range(1, 100)]
+(lied, lie_step), (honest, _) = told(closing - 1, 2.0), told(closing - 1, 0.0)
+carried = np.hypot(*(lied.landmarks() - honest.landmarks()).T)
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# One lie of 2 m carries {= np.sum(carried > 0.3) =} of the {= len(carried) =} landmarks off by more than 0.3 m, one
+# of them by {= carried.max():.1f =} m. The ellipses are as small as if the sight had been true, since the new $P$
+# in (06.9) does not depend on $v$.
+#
+# But the filter could have known. $S$ is computed before anybody looks, and it says how large an innovation may be.
+# Lesson 03's $v^{\mathsf T} S^{-1} v$ (NIS) is 2 on average for an honest sight. In {= len(nis) =} steps of this
+# run the oldest landmark in sight had {= np.mean(nis):.1f =} on average, and at most {= max(nis):.0f =}. The lie of
+# 2 m has {= lie_step.nis:.0f =}.
+
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=2
+# ## News that no sensor brings
+#
+# Nothing in (06.8) and (06.9) insists on a range and a bearing. They need an $h$ of the state, its Jacobian $H$
+# over the *whole* state, and an $R$. A surveyor tells the robot where landmark $b$ of our story stands, to a
+# centimetre. Then $h$ is $p_b$ itself: $H$ has ones in $b$'s columns, and zeros everywhere else. (`correct` takes
+# $H$ without its columns of zeros, and is told which columns are left.)
+
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+place, R_PLAN = story.landmarks()[1] + [0.03, -0.04], np.eye(2) * 0.01**2
+x, sigma = story.x.copy(), np.sqrt(np.diag(story.P))
+story.correct(place - x[5:7], np.eye(2), story.rows(["b"]), R_PLAN)
+now = np.sqrt(np.diag(story.P))
+for name, rows in parts.items():
+    moved, was, is_now = np.hypot(*(story.x - x)[rows]), *(np.hypot(*s[rows]) for s in (sigma, now))
+    print(f"{name:5} moves {100 * moved:.1f} cm, σ from {100 * was:.1f} to {100 * is_now:.1f} cm")
+
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# The robot moves as well, though nobody saw anything. The more precise the news, the smaller is its $R$. If the
+# news is certain, $R$ is zero, and that will do as long as $S$ can be inverted.
+#
+# A landmark can also leave: a chair may have been moved. Its rows and columns of $x$ and $P$ are struck out, and
+# that is all. Nobody else changes, and what the landmark once taught the others stays with them.
+
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+P_left = story.P[np.ix_([0, 1, 2, 5, 6], [0, 1, 2, 5, 6])]
+story.remove(["a"])
+print("left:", story.ids, " P of robot and b unchanged:", np.array_equal(story.P, P_left))
 
 # %% [markdown] slideshow={"slide_type": "slide"}
-# ## Without a notebook
+# ## Literature
 #
-# The same from a terminal: `slamlab run sim:landmarks --estimator mak`. With `--out FOLDER` it
-# writes the trajectory, the map and a summary. `sim:landmarks` drives about seven rounds.
+# R. Smith, M. Self and P. Cheeseman, "Estimating uncertain spatial relationships in robotics", in *Autonomous Robot
+# Vehicles*, Springer, 1990: the state that holds robot and map, with all its covariances.
+#
+# M. W. M. G. Dissanayake, P. Newman, S. Clark, H. F. Durrant-Whyte and M. Csorba, "A solution to the simultaneous
+# localization and map building (SLAM) problem", *IEEE Transactions on Robotics and Automation* 17(3), 2001: why the
+# correlations have to be kept, and where they lead.
+#
+# S. J. Julier and J. K. Uhlmann, "A counter example to the theory of simultaneous localization and map building",
+# *IEEE International Conference on Robotics and Automation*, 2001: EKF-SLAM grows too sure.
+#
+# **Read next:** H. Durrant-Whyte and T. Bailey, "Simultaneous localization and mapping: part I", *IEEE Robotics and
+# Automation Magazine* 13(2), 2006.
+
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=1
+# ## What you can do now
+#
+# You can build EKF-SLAM from three steps, name every block of its covariance and who made it, watch a loop close, and
+# tell by NEES when the filter is too sure of itself.
+#
+# **What comes next:** [lesson 07](07_correlations.ipynb) looks at the white and the coloured blocks: why correlations
+# cannot be dropped, what they cost, and ways round that cost.
+#
+# The sections below this one are optional.
+#
+# **Exercise:** [06 · EKF-SLAM](../exercises/ex06_ekf_slam.ipynb). You write augment, update and the whole filter,
+# tell it that two of its landmarks are one, and keep it from believing lies.
+
+# %% [markdown] slideshow={"slide_type": "slide"}
+# ## Deeper: may P start at zero?
+#
+# In this lesson it does: the map's frame begins where the robot stands, so nothing about its pose is in doubt.
+# Smolec warns of it (section 2.6): without some doubt on the diagonal of $P$ a singular matrix often turns up, so
+# put some there, even if you believe the start. Does anything go wrong with zero, and what does the doubt do?
+
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+P_DOUBT = np.diag([0.1, 0.1, np.radians(5)]) ** 2
+doubting = broken_slam.at_the_end(ten, P_start=P_DOUBT)
+print(f"{'10 runs, at the end':28} map [m]  robot [m]  claimed [m]  NEES")
+for name, end in {"P starts at zero": right_order, "P starts at 10 cm, 5°": doubting}.items():
+    print(f"{name:28} {end.landmarks:6.2f} {end.robot:10.2f} {end.claimed:12.2f} {end.nees:7.1f}")
+
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+maks = {
+    name: MAK(np.zeros(3), start) for name, start in [("zero", 0 * P_DOUBT), ("doubt", P_DOUBT)]
+}
+for mak in maks.values():
+    broken_slam.drive(source, mak)
+zero, doubt = (each.landmarks() for each in maks.values())
+between = [np.hypot(*(each[:, None] - each).T) for each in (zero, doubt)]  # all distances in a map
+print(f"landmarks differ by up to {100 * np.hypot(*(zero - doubt).T).max():.0f} cm,", end=" ")
+print(f"distances between landmarks by up to {100 * np.abs(between[0] - between[1]).max():.0f} cm")
+
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# Nothing goes wrong with zero. What is inverted is $S = H P H^{\mathsf T} + R$, and $R$ alone keeps it regular. Only
+# those who invert $P$ itself, as NEES does, have to wait for the first steps.
+#
+# The doubt buys nothing here. Both maps have the same shape, but for a few centimetres; the second is shifted and
+# turned as a whole, and its claims grow with its errors. It is honest about a question that nobody asked: where the
+# start lies in a frame that begins there. Doubt belongs in $P$ when the frame is given from outside, say by a map
+# that was there before the robot.
+
+# %% [markdown] slideshow={"slide_type": "slide"}
+# ## Deeper: how the package saves time
+#
+# `MAK` computes (06.9) with less work than it is written with. $P$ is symmetric, so one triangle of it is kept. And a
+# scan of $m$ landmarks is a single update: with the Cholesky factor $L$ of $S = L L^{\mathsf T}$ and
+# $M = P H^{\mathsf T} L^{-\mathsf T}$ (`B` in the code) it is $P \leftarrow P - M M^{\mathsf T}$, for which neither a
+# gain nor an inverse is needed.
+
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+mak = kept[60].marginal(kept[60].ids)
+P_then, seen = mak.P, mak.ids[-3:]
+step = mak.update(seen, models.h(mak.pose, mak.landmarks()[-3:]) + np.array([0.05, 0.01]), NOISE)
+print("B", step.B.shape, " K", step.K.shape)
+print(f"B Bᵀ and K S Kᵀ agree: {np.allclose(step.B @ step.B.T, step.K @ step.S @ step.K.T)}")
+print(f"P − B Bᵀ is the new P: {np.allclose(mak.P, P_then - step.B @ step.B.T)}")
+
+# %% [markdown] slideshow={"slide_type": "slide"}
+# ## Deeper: a calm display
+#
+# The EKF note adds a step: after the update, a recursive filter smooths what is *shown*. Its formula is lost in our
+# copy. The plainest one keeps a share $\lambda$ of the old gap between the shown pose $s$ and the estimate:
+#
+# $$s \leftarrow s \oplus o, \qquad s \leftarrow \hat x + \lambda\,(s - \hat x), \tag{06.10}$$
+#
+# where $o$ is the motion told by the wheels. A landmark stands still, so it has only the second half. `MakSlam`
+# offers both. Is what is shown more accurate for some $\lambda > 0$, or only calmer?
+
+
+# %% slideshow={"slide_type": "fragment"}
+def shown(share, count=6):
+    """Error of the shown pose once the loop is closed, its jumps, error of shown landmarks [cm]."""
+    squares = []
+    for one in runs[:count]:
+        slam = MakSlam(one.robot, one.sensor, smoothing=share, landmark_smoothing=share)
+        way = run(one, slam).trajectory.poses
+        driven = compose(way[:-1], [reading.odometry for reading in list(one)[1:]])
+        landmarks = slam.landmarks() - one.landmarks[slam.filter.ids]
+        pairs = [(way - one.truth.poses)[84:], way[1:] - driven, landmarks]
+        squares.append([np.mean(np.sum(each[:, :2] ** 2, axis=1)) for each in pairs])
+    return 100 * np.sqrt(np.mean(squares, axis=0))
+
+
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+smoothed = {share: shown(share) for share in (0.0, 0.5, 0.8, 0.95)}
+for share, (error, jump, landmark) in smoothed.items():
+    print(f"λ {share:.2f}: pose off by {error:4.1f} cm, jumps by {jump:3.1f} cm; ", end="")
+    print(f"landmarks off by {landmark:.1f} cm")
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# It is calmer, and more accurate in none of these. The estimate has made use of every measurement so far, and
+# mixing the old gap into it brings back what the last one has just refuted. For a display the calm may be worth
+# that; a controller should get the estimate.
+
+# %% [markdown] slideshow={"slide_type": "slide"}
+# ## Deeper: without a notebook
+#
+# The same filter runs from a terminal. `sim:landmarks` drives about seven rounds, and with `--out FOLDER` the command
+# also writes the trajectory, the map and a summary.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-ignore-output"]
 import subprocess
@@ -921,220 +1051,49 @@ command = [sys.executable, "-c", "from slamlab.cli import main; main()"]  # slam
 words = ["run", "sim:landmarks", "--estimator", "mak"]
 print(subprocess.run(command + words, capture_output=True, text=True).stdout)
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# In a program it is `run(source, MakSlam(source.robot, source.sensor))`, as above: any source with
-# landmark observations will do.
-
 # %% [markdown] slideshow={"slide_type": "slide"}
-# ## Does it tell the truth about itself?
+# ## In print
 #
-# One run proves little. We drive 30 loops, each with landmarks and noise of its own, and average
-# the NEES of the pose at each step: lesson 03's test. Then again with a worse robot: turns four
-# times as noisy, bearings to 5° instead of 2°. The filter is told.
+# Optional: what our two sources print of this lesson's formulas. (Smolec's program stands in figures only. What it
+# does is told by line numbers and prose, so the last row may do it an injustice.)
 #
-# **Predict:** it knows each noise exactly and keeps every correlation. Is it consistent in both?
+# | place | printed | right | harm |
+# | --- | --- | --- | --- |
+# | Smolec, prediction | "$P$ is updated with $A$" | (06.3), with $Q$ and $P_{\mathrm ri}$ | too sure; wrong relations |
+# | Smolec (18) | $P_{ni} = J_{\mathrm r} (P_{\mathrm ri})^{\mathsf T}$ | $J_{\mathrm r} P_{\mathrm ri}$, (06.6) | shapes do not fit |
+# | MAK thesis (4.9) | $H = [\,0\;\; 0\;\; H_{\mathrm r}\;\; H_{\mathrm p}\;\; 0 \cdots]$ | (06.7) | shapes do not fit |
+# | Smolec (15) | $x = K v$ | $x + K v$, (06.9) | the map collapses |
+# | Smolec, update | $P$ is left as it was | (06.9) | never sure, worse map |
+# | Smolec, program | predicts after placing | "The order matters" | landmarks a step behind |
 
-# %% slideshow={"slide_type": "fragment"}
-RUNS, SETTLED = 30, 10  # the pose's covariance is zero at first and cannot be inverted
-WORSE = Loop(steps=100, omega_sigma=0.05, bearing_sigma=np.radians(5))
+# %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
+swung = sp.block_collapse(J_drive * P * J_drive.T)
+print("prediction, right − printed:", sp.block_collapse(driven.result - swung).blocks[0, 0])
+H_r, H_p = sp.MatrixSymbol("H_r", 2, 3), sp.MatrixSymbol("H_p", 2, 2)
+blocks = sp.BlockMatrix([[P_rr, P_ri, P_ri], [P_ri.T, P_ii, P_ii], [P_ri.T, P_ii, P_ii]])
+for name, formula in {
+    "(18)": lambda: J_r * P_ri.T,
+    "(4.9)": lambda: sp.BlockMatrix([[O(2, 3), O(2, 2), H_r, H_p]]) * blocks,
+}.items():
+    try:
+        print(name, formula().shape)
+    except sp.ShapeError:
+        print(name, "is refused: the shapes do not fit")
 
-
-def nees_of(loop, seed):
-    """NEES of the pose at each step of a run."""
-    source, rows = LandmarkRun(loop, np.random.default_rng(seed)), []
-    slam = MakSlam(source.robot, source.sensor)
-    for reading, truth in zip(source, source.truth.poses, strict=True):
-        slam.step(reading)
-        error = slam.pose - truth
-        error[2] = wrap(error[2])
-        rows.append((error, slam.filter.block([0, 1, 2])))
-    errors, P = map(np.array, zip(*rows[SETTLED:], strict=True))
-    return evaluation.nees(errors, P)
-
-
-means = {
-    name: np.mean([nees_of(loop, seed) for seed in range(RUNS)], axis=0)
-    for name, loop in [("this robot", LOOP), ("a worse one", WORSE)]
-}
-
-# %% slideshow={"slide_type": "slide"}
-low, high = evaluation.band(3, RUNS)
-steps = np.arange(SETTLED, LOOP.steps + 1)
-fig, ax = views.curves(steps, means, "step", "mean NEES of the pose", size=(6.5, 3.2))
-views.band(ax, low, high, "band, 95 %")
-ax.set_ylim(0)
-views.legend(ax, loc="lower right")
-views.show(
-    fig,
-    "This robot's NEES stays in the band, the worse one's climbs out of it, falls back "
-    "when the loop closes and climbs out again.",
-)
+# %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
+forgetful = broken_slam.at_the_end(ten, broken_slam.Forgetful)
+never = broken_slam.at_the_end(ten, broken_slam.NeverSurer)
+print(f"{'10 runs, at the end':28} map [m]  robot [m]  claimed [m]  NEES")
+table = {"the filter": right_order, "x = K v": forgetful, "P is never updated": never}
+for name, end in table.items():
+    # where P is nearly singular the last digits are this processor's rounding
+    told_nees = f"{end.nees:7.1f}" if end.nees < 1000 else "  > 1000"
+    print(f"{name:28} {end.landmarks:6.2f} {end.robot:10.2f} {end.claimed:12.2f} {told_nees}")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** this robot's curve stays in the band: with all correlations kept, EKF-SLAM is honest here.
-# The worse one's leaves it for the second half of the round, while its heading is unsure, comes
-# back as the loop closes (about step 80), and is out again from step 89 on. No block is missing: the
-# Jacobians are straight lines taken where the robot *believes* to be (lesson 04's banana), and what
-# the filter was too sure of it stays too sure of. Lesson 07 looks at
-# both: at the gain from better places for the Jacobians, and at what dropped blocks cost.
-
-# %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* The steps of a run hang together, so one excursion is one event, not ten.
-# `python -m slamlab.studies.consistency` drives a hundred runs of seven rounds and writes the
-# table: standard, first-estimates and ideal Jacobians on the same readings.
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-for name, mean in means.items():
-    print(f"{name:11} mean {mean.mean():.1f}, steps above the band {np.mean(mean > high):.0%}")
-
-# %% [markdown] slideshow={"slide_type": "slide"}
-# ## One more step: a recursive filter behind the filter
+# With (15) each update throws the robot and the map to near zero, and the error becomes as large as the loop.
+# Without the update of $P$ the filter listens to each sight as if it knew nothing. Its NEES is far *below* 3: it
+# is much too modest, and its map errs {= never.landmarks / right_order.landmarks:.1f =} times as much.
 #
-# The EKF note adds a step: after the update, a recursive filter lowers the noise of the robot's
-# position. Its formula is lost; the plainest one keeps a *shown* pose s beside the estimate x̂:
-#
-# 1. s ← s ⊕ odometry, as the robot moves,
-# 2. s ← x̂ + λ (s − x̂): a share λ of the old gap to the estimate is kept.
-#
-# λ = 0 shows the estimate. **Predict:** is the shown pose nearer to the truth for some λ > 0? Is it
-# smoother?
-
-
-# %% slideshow={"slide_type": "fragment"}
-def shown(estimates, driven, keep):
-    """The shown poses for a share λ = `keep`, from estimates (n, 3) and odometry (n, 3)."""
-    s, poses = np.zeros(3), []
-    for x, u in zip(estimates, driven, strict=True):
-        gap = compose(s, u) - x
-        gap[2] = wrap(gap[2])
-        s = x + keep * gap
-        poses.append(s)
-    return np.array(poses)
-
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# `MakSlam` has it as an option. Is it the same?
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-driven = np.array([reading.odometry for reading in source])
-estimates = packaged.trajectory.poses
-by_option = run(source, MakSlam(source.robot, source.sensor, smoothing=0.8)).trajectory.poses
-print(f"difference {np.abs(wrap(shown(estimates, driven, 0.8) - by_option)).max():.6f}")
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# Over 40 loops: the error on the way, the error once the loop is closed (the last 16 steps), and by
-# how much the shown pose jumps beside the odometry from one step to the next.
-
-# %% slideshow={"slide_type": "fragment"}
-runs = []
-for seed in range(40):
-    one = LandmarkRun(LOOP, np.random.default_rng(seed))
-    way = run(one, MakSlam(one.robot, one.sensor)).trajectory.poses
-    runs.append((one.truth.poses, way, np.array([reading.odometry for reading in one])))
-
-
-def rms(squares):
-    return 100 * np.sqrt(np.mean(squares))  # [cm]
-
-
-def weigh_shown(keep):
-    errors, jumps = [], []
-    for truth, way, driven in runs:
-        poses = shown(way, driven, keep)
-        errors.append(np.sum((poses - truth)[:, :2] ** 2, axis=1))
-        jumps.append(np.sum((poses[1:] - compose(poses[:-1], driven[1:]))[:, :2] ** 2, axis=1))
-    errors = np.array(errors)
-    return rms(errors[:, :84]), rms(errors[:, 84:]), rms(jumps)
-
-
-# %% slideshow={"slide_type": "slide"}
-shares = np.array([0, 0.2, 0.4, 0.6, 0.8, 0.9, 0.95])
-on_the_way, closed, jump = np.transpose([weigh_shown(share) for share in shares])
-lines = {"error once the loop is closed": closed, "jump beside the odometry": jump}
-fig, ax = views.curves(shares, lines, "share λ of the old gap", "root mean square [cm]")
-ax.set_ylim(0)
-views.show(fig, "The jumps fall with λ to a fifth; the error rises, slowly and then steeply.")
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** the shown pose gets calmer with every bit of λ and never more accurate; beyond 0.6 it is
-# plainly less so, once the loop is closed. Before, all drift together and λ hardly matters. The
-# estimate is the best that can be made of the measurements so far; who mixes an old gap into it
-# mixes in what the last measurement has just refuted. For a display the calm may be worth it; a
-# controller should get the estimate.
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-for row in zip(shares, on_the_way, closed, jump, strict=True):
-    print("λ {:.2f}: error {:4.1f} cm on the way, {:4.1f} cm closed; jump {:3.1f} cm".format(*row))
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# Where the price is paid: move λ and look at the moment the loop closes.
-
-
-# %% slideshow={"slide_type": "slide"}
-def at_closure(λ, estimates=estimates, driven=driven, truth=source.truth.poses):
-    tracks = {"estimate, λ = 0": 0, f"shown, λ = {λ:.2f}": λ}
-    off = {
-        name: np.hypot(*(shown(estimates, driven, keep) - truth)[60:, :2].T)
-        for name, keep in tracks.items()
-    }
-    fig, ax = views.curves(np.arange(60, 101), off, "step", "error of position [m]", size=(6, 3))
-    ax.set_ylim(0)
-    return fig
-
-
-views.explore(
-    at_closure,
-    "The estimate's error drops at once as the loop closes, the shown pose's decays slowly.",
-    λ=(0.0, 0.95, 0.8),
-)
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** the filter learns its error within a few scans. The shown pose glides after it and is
-# plainly the worse one for more than ten steps.
-
-# %% [markdown] slideshow={"slide_type": "slide"}
-# The note smooths the landmarks, too. They stand still, so their step 1 falls away:
-# $m \leftarrow \hat{m} + \lambda\,(m - \hat{m})$ for each one *shown*; the filter keeps its own.
-#
-# **Predict:** does that cost as much as it did for the pose?
-
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-def landmarks_shown(keep):
-    """How far shown landmarks are off at the end and move from step to step, ten drives [cm]."""
-    errors, moves = [], []
-    for seed in range(10):
-        one, before = LandmarkRun(LOOP, np.random.default_rng(seed)), {}
-        slam = MakSlam(one.robot, one.sensor, landmark_smoothing=keep)
-        for reading in one:
-            slam.step(reading)
-            now = dict(zip(slam.filter.ids, slam.landmarks(), strict=True))
-            moves += [np.sum((now[i] - before[i]) ** 2) for i in before]
-            before = now
-        errors += [np.sum((p - one.landmarks[i]) ** 2) for i, p in now.items()]
-    return rms(errors), rms(moves)
-
-
-for share in (0, 0.5, 0.8, 0.95):
-    print("λ {:.2f}: error {:.1f} cm, step {:.2f} cm".format(share, *landmarks_shown(share)))
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** as for the pose, the calm is paid for, and never does the error fall. Up to λ = 0.8 the
-# price is small, at 0.95 it is plain: when the loop closes all estimates move at once, and the shown
-# landmarks have not caught up by the end of the drive.
-
-# %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* Ask where smoothing *does* make sense: where the future is used as well, as in
-# lesson 15.
-
-# %% [markdown] slideshow={"slide_type": "slide"}
-# ## What you can do now
-#
-# Build EKF-SLAM from three functions, name every block of its covariance and who made it, and tell
-# by NEES and by a map which one was forgotten.
-#
-# **Next:** [lesson 07](07_correlations.ipynb) looks at the white and the coloured blocks: why
-# correlations cannot be dropped, why they only grow, and what they cost.
-#
-# **Exercise:** [write predict, augment, H, update and the whole
-# filter](../exercises/ex06_ekf_slam.ipynb), and have them judged by what robots really do.
+# (18) would be right if $P_{\mathrm ri}$ named the block below the diagonal. Where all blocks are square, both
+# readings multiply, and no program complains about the wrong one.

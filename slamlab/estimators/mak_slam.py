@@ -141,7 +141,10 @@ class MakSlam(Estimator):
         return pairs, [k for k in new if not crowded[k].any()]
 
     def _smoothed(self, odometry):
-        """The pose to show: s ← s ⊕ odometry, then (1 − smoothing) of the way to the estimate."""
+        """The pose to show: s ← s ⊕ odometry, then (1 − smoothing) of the way to the estimate.
+
+        Equation (06.10).
+        """
         back = compose(self.pose, odometry) - self.filter.pose
         back[2] = wrap(back[2])
         shown = self.filter.pose + self.smoothing * back

@@ -1,7 +1,7 @@
 """MAK, the map-augmented Kalman filter: EKF-SLAM with every correlation kept (MAK thesis, 4.3).
 
-State [x_r p_1 … p_N]. Lesson 06 builds the textbook form; this one does the same on one triangle
-of P in place: a scan of m landmarks costs one symmetric update of rank 2m.
+State [x_r p_1 … p_N], equation (06.1). Lesson 06 derives the textbook form; this one does the same
+on one triangle of P in place: a scan of m landmarks costs one symmetric update of rank 2m.
 """
 
 import numpy as np
@@ -55,6 +55,7 @@ class MAK(AugmentedState):
 
         P_rr ← A P_rr Aᵀ + Q,  P_ri ← A P_ri, where A = [[1, 0, −Δy], [0, 1, Δx], [0, 0, 1]] for
         every motion that is driven in the robot's own frame, Δ being its displacement.
+        Equation (06.3).
 
         Parameters
         ----------
@@ -86,7 +87,7 @@ class MAK(AugmentedState):
         """EKF measurement update by landmarks in the map, all observations of a scan at once.
 
         P ← P − K S Kᵀ with K = P Hᵀ S⁻¹ (the Kalman gain), as P − B Bᵀ with B = P (L⁻¹ H)ᵀ and
-        S = L Lᵀ.
+        S = L Lᵀ. Equation (06.9), with the H of (06.7).
 
         Parameters
         ----------
@@ -143,7 +144,7 @@ class MAK(AugmentedState):
     def add(self, ids, z, R):
         """Landmark initialisation by state augmentation: new landmarks enter (Smolec (16), (17)).
 
-        P_nn = J_xr P_rr J_xrᵀ + J_z R J_zᵀ,  P_n· = J_xr P_r·
+        P_nn = J_xr P_rr J_xrᵀ + J_z R J_zᵀ,  P_n· = J_xr P_r·. Equations (06.4) to (06.6).
 
         Parameters
         ----------

@@ -6,6 +6,9 @@
   table, ``three_costs``
 - ``two_halves``, ``halves_in_turn``, ``agreeing_poses``: the laps of lesson 05, run where they
   stand
+- ``broken_slam``: EKF-SLAM with one thing wrong, for lesson 06
+- ``shared_errors``, ``forgetting``, ``observability``: the experiments of lesson 07
+- ``small_errors``: what a Jacobian foretells, and what a wrong one does, in lesson 04
 - ``intel_maps``: the maps of a real log that lesson 01 shows; ``a2_at_rest``: statistics of a real
   lidar, for lesson 02
 - ``arena_logs``: the six data sets as files; ``paired_statistics``, ``study_command``: what they

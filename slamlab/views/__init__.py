@@ -29,7 +29,7 @@ from slamlab.views.legends import legend, legend_below
 from slamlab.views.linked_map import linked
 from slamlab.views.live import apart, live
 from slamlab.views.loglog_plot import growth
-from slamlab.views.matrix_plot import correlation
+from slamlab.views.matrix_plot import colour_bar, correlation, correlations
 from slamlab.views.resampling_wheel import wheel
 from slamlab.views.scan_overlay import overlay
 from slamlab.views.showing import png, show
@@ -47,7 +47,9 @@ __all__ = [
     "chart",
     "cloud",
     "colour",
+    "colour_bar",
     "correlation",
+    "correlations",
     "curves",
     "draw",
     "encoder",

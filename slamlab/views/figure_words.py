@@ -29,7 +29,8 @@ def words(fig):
 def _panel(kind, axes_, titles):
     named = ", ".join(" ".join(title.split()) for title in titles if title)
     many = len(titles) > 1
-    start = f"{COUNTS.get(len(titles), len(titles))} {kind}s" if many else kind
+    kinds = "matrices" if kind == "matrix" else f"{kind}s"
+    start = f"{COUNTS.get(len(titles), len(titles))} {kinds}" if many else kind
     parts = [start[0].upper() + start[1:], f" ({named})" if named else ""]
     return "".join(parts) + (f": {axes_}." if axes_ else ".")
 

@@ -3,7 +3,7 @@
 import numpy as np
 
 from slamlab.views.colours import COLOURS
-from slamlab.views.figures import chart
+from slamlab.views.figures import chart, panels
 
 # ends that stay apart with any kind of colour vision; nothing is white
 _COLOUR_MAP = "RdBu_r"
@@ -39,7 +39,7 @@ def correlation(rho, names, title=None, ax=None, size=(4.8, 4.2)):
     if own:
         _, ax = chart(None, None, None, size)
     ax.grid(False)
-    picture = ax.imshow(rho, cmap=_COLOUR_MAP, vmin=-1, vmax=1, interpolation="nearest")
+    ax.imshow(rho, cmap=_COLOUR_MAP, vmin=-1, vmax=1, interpolation="nearest")
     inner = edges[1:-1] - 0.5
     ax.hlines(inner, -0.5, edges[-1] - 0.5, color=COLOURS["guide"], linewidth=0.6)
     ax.vlines(inner, -0.5, edges[-1] - 0.5, color=COLOURS["guide"], linewidth=0.6)
@@ -49,8 +49,45 @@ def correlation(rho, names, title=None, ax=None, size=(4.8, 4.2)):
     ax.set_yticks(middles[::every], labels=names[::every])
     ax.tick_params(length=0)
     if own:
-        bar = ax.figure.colorbar(picture, ax=ax, shrink=0.8, label="correlation")
-        bar.set_ticks([-1, 0, 1])
+        colour_bar(ax)
     if title:
         ax.set_title(title)
     return ax.figure, ax
+
+
+def correlations(rhos, names, size=(11, 4)):
+    """Draw correlation matrices side by side, of a map that grows, with one colour bar for all.
+
+    Parameters
+    ----------
+    rhos : dict, title to (3 + 2N, 3 + 2N) correlations
+    names : names of the blocks of the largest; a smaller one has the first of them
+    size : (width, height) of the whole figure [80 pixels of the page]
+
+    Returns
+    -------
+    (Figure, list of Axes)
+
+    Raises
+    ------
+    ValueError : numbers that are no correlations
+    """
+    fig, all_axes = panels(list(rhos), size, shared=False)
+    for ax, rho in zip(all_axes, rhos.values(), strict=True):
+        correlation(rho, names[: (len(rho) - 1) // 2], ax=ax)
+        ax.set_aspect("equal", adjustable="box")
+        ax.set(xlabel=None, ylabel=None)
+    colour_bar(all_axes)
+    return fig, all_axes
+
+
+def colour_bar(axes):
+    """Colour bar of correlation matrices, beside the axes that they are drawn in.
+
+    Parameters
+    ----------
+    axes : Axes, or a list of them
+    """
+    first = np.ravel(axes)[0]
+    bar = first.figure.colorbar(first.images[0], ax=axes, shrink=0.8, label="correlation")
+    bar.set_ticks([-1, 0, 1])

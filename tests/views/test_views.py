@@ -175,6 +175,8 @@ def test_the_words_of_a_figure_tell_its_panels_apart():
     assert figure_words.words(fig) == "Chart (growth): n (logarithmic) across, error [m] up."
     fig = views.correlation(np.eye(5), ["robot", "a"], "left")[0]
     assert figure_words.words(fig).startswith("Matrix (left)")
+    fig, _ = views.correlations({"before": np.eye(3), "after": np.eye(5)}, ["robot", "a"])
+    assert figure_words.words(fig).startswith("Two matrices (before, after)")
 
 
 def test_a_figure_without_text_is_refused():
