@@ -40,7 +40,8 @@ def test_the_solution_drives_in_the_sandbox_as_it_does_outside():
     outside = drive(Solution, arena().readings, Budget(*[np.inf] * 4))
     assert not inside.mistakes
     for name in ("online", "covariances", "trajectory", "points"):
-        np.testing.assert_array_equal(getattr(inside, name), getattr(outside, name))
+        # BLAS rounds as it likes with another number of threads
+        np.testing.assert_allclose(getattr(inside, name), getattr(outside, name), 0, 1e-9)
     assert inside.seconds > 0
 
 
