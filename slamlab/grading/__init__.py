@@ -9,8 +9,9 @@ Read in this order:
 - ``staging``, ``import_closure``, ``hidden_packages``, ``checks_stub``: what a worker holds;
   ``sandbox`` (``bubblewrap``, ``landlock``, ``seccomp``), ``quotas``, ``tree_removal``,
   ``isolation``; ``probe`` and ``probe_drives``: the self-test
-- ``gradebook``, ``gradebook_rows``, ``database``, ``marks``, ``late_policy``, ``toml_files``:
-  attempts, overrides, late policy
+- ``gradebook``, ``gradebook_rows``, ``database``, ``ledger``, ``older_gradebooks``, ``marks``,
+  ``late_policy``, ``toml_files``: attempts, overrides, late policy
+- ``evidence``, ``course_digests``, ``rejudging``: what is kept to judge again by another version
 - ``feedback``, ``redaction``, ``class_report``, ``similarity``, ``grade_tables``,
   ``nbgrader_gradebook``: feedback pages, reports, exports
 - ``term``: a course file, a roster, downloads of Moodle and Canvas, releases

@@ -32,6 +32,9 @@ class Record:
     fingerprints : task to a hash of its functions, see :mod:`slamlab.grading.similarity`
     failed : bool, whether it was the grader that failed: not kept, but tried again
     policy : the late policy that held, as :meth:`LatePolicy.stored` makes it; None for none
+    seen : int or None, the counter of when the judge first saw it
+    kept : "cells" and "outputs" to the hash of what is kept of them
+    contents : hash to bytes, of what is to be kept; stored apart from the record
     """
 
     submission: str
@@ -52,6 +55,9 @@ class Record:
     fingerprints: dict[str, str] = field(default_factory=dict)
     failed: bool = False
     policy: dict | None = None
+    seen: int | None = None
+    kept: dict[str, str] = field(default_factory=dict)
+    contents: dict[str, bytes] = field(default_factory=dict, compare=False, repr=False)
 
     @property
     def graded(self):

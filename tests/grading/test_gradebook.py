@@ -160,7 +160,7 @@ def test_a_database_that_cannot_be_opened_is_told_in_one_line(url):
 def test_a_grader_killed_at_any_moment_loses_nothing_and_doubles_nothing(tmp_path, kills):
     folder, out = tmp_path / "class", tmp_path / "out"
     folder.mkdir()
-    names = [f"s{i:02}_04.ipynb" for i in range(6 * kills)]
+    names = [f"s{i:03}_04.ipynb" for i in range(6 * kills)]
     for i, name in enumerate(names):
         (folder / name).write_text(notebook(f"x = {i}", fake.SOLUTION, exercise="04"))
     start = "import sys; from slamlab.cli import main; sys.exit(main())"
