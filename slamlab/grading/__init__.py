@@ -11,8 +11,9 @@ Read in this order:
   ``isolation``; ``probe`` and ``probe_drives``: the self-test
 - ``gradebook``, ``gradebook_rows``, ``database``, ``ledger``, ``older_gradebooks``, ``marks``,
   ``late_policy``, ``toml_files``: attempts, overrides, late policy
-- ``evidence``, ``course_digests``, ``rejudging``: what is kept to judge again by another version
-- ``feedback``, ``redaction``, ``class_report``, ``similarity``, ``grade_tables``,
+- ``evidence``, ``course_digests``, ``rejudging``, ``rejudge_report``: judging again, by another
+  version, what is kept of an attempt
+- ``feedback``, ``redaction``, ``local_times``, ``class_report``, ``similarity``, ``grade_tables``,
   ``nbgrader_gradebook``: feedback pages, reports, exports
 - ``term``: a course file, a roster, downloads of Moodle and Canvas, releases
 """

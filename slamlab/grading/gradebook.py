@@ -61,7 +61,7 @@ class Gradebook:
         Parameters
         ----------
         records : list of Record
-        why : str or None, why those that were there are stored anew
+        why : str or None, why those that are there are judged anew; they stay at their places then
 
         Returns
         -------
@@ -74,9 +74,10 @@ class Gradebook:
             new, changed = 0, []
             for entry in entries:
                 mine = LEDGER.c.about == chains.about(entry.submission)
-                before = chains.bodies(connection, "attempt", mine)
-                new += all(one["key"] != entry.body["key"] for one in before)
-                if not before or before[-1]["record"] != json.loads(entry.text)["record"]:
+                before = _newest_of_each(chains.bodies(connection, "attempt", mine))
+                key, record = entry.body["key"], json.loads(entry.text)["record"]
+                new += key not in before
+                if before.get(key) != record or not (why or key == list(before)[-1]):
                     changed.append(entry)
             chains.append(connection, changed, self.who)
             contents.store(connection, kept)
@@ -152,11 +153,11 @@ class Gradebook:
         -------
         dict, key to Record, the oldest first
         """
-        found = {}
-        for body in self._read(lambda connection: chains.bodies(connection, "attempt")):
-            found.pop(body["key"], None)  # an older version that was handed in again is the newest
-            found[body["key"]] = body["record"]
-        return {key: gradebook_rows.stored_record(record) for key, record in found.items()}
+        found = self._read(lambda connection: chains.bodies(connection, "attempt"))
+        return {
+            key: gradebook_rows.stored_record(record)
+            for key, record in _newest_of_each(found).items()
+        }
 
     def latest_attempts(self):
         """The attempt that counts: the latest of each submission.
@@ -242,6 +243,16 @@ class Gradebook:
 
     def _write(self, work):
         return self._database.transact(work, writes=True)
+
+
+def _newest_of_each(bodies):
+    """Attempt's key to what holds of it, in the order of attempts."""
+    found = {}
+    for body in bodies:
+        if "why" not in body:  # an older version that was handed in again is the newest
+            found.pop(body["key"], None)
+        found[body["key"]] = body["record"]
+    return found
 
 
 def _attempt(record, why):

@@ -26,10 +26,10 @@ VERDICT = Verdict("99-double", 1.0, 3.0, (LAW,), "square", "you squared")
 ODD = "Zoë \0 \udce9 'quoted' \"twice\"\n=1+1"
 
 
-def record(name="anna.ipynb", sha="a" * 64, **more):
+def record(name="anna.ipynb", sha="a" * 64, student="anna", **more):
     made = {"exercise": "99", "verdicts": (VERDICT,), "sha256": sha, "seed": "b" * 64}
     made |= {"cells": {3: "ValueError: x"}, "notes": ("odd",), "titles": {"99-double": "Double"}}
-    return Record(name, "anna", **(made | more))
+    return Record(name, student, **(made | more))
 
 
 def programs_of_postgres():

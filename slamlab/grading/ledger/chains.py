@@ -81,6 +81,11 @@ def row_hash(row):
     return hashlib.sha256(canonical([row[name] for name in HASHED]).encode()).hexdigest()
 
 
+def loaded(row):
+    """What a row says; None where it was forgotten."""
+    return None if row["body"] is None else json.loads(row["body"])
+
+
 def about(submission):
     """By what the rows of a submission are found."""
     return submission and hashlib.sha256(submission.encode()).hexdigest()

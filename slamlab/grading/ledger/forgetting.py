@@ -1,7 +1,5 @@
 """Forgetting: a student's name and content are deleted, the hashes stay, so that chains hold."""
 
-import json
-
 import sqlalchemy as sa
 
 from slamlab.grading.ledger import chains, contents, sightings
@@ -22,7 +20,7 @@ def forget(connection, student, who):
     list of Record's plain form, what was deleted of attempts
     """
     of_all = [row for row in chains.rows(connection) if row["body"] is not None]
-    told = [(row, json.loads(row["body"])) for row in of_all]
+    told = [(row, chains.loaded(row)) for row in of_all]
     mine = [body["record"] for row, body in told
             if row["kind"] == "attempt" and body["record"]["student"] == student]  # fmt: skip
     names = {record["submission"] for record in mine}
