@@ -1,6 +1,7 @@
 """Who gains and who loses when attempts are judged again, and why."""
 
 from slamlab.exercises.report import number
+from slamlab.exercises.task import UNCHANGED
 from slamlab.grading.grade_tables import write_table
 from slamlab.grading.marks import mark
 
@@ -69,12 +70,15 @@ def _of_laws(was, verdict):
     old, new = ({law.name: law for law in v.laws} for v in (was, verdict))
     if not old or not new:
         return [] if verdict.problem else ["it can be judged now"]
-    told = [f"“{name}” is gone" for name in old if name not in new]
+    # that of the arguments stands only where another one earns
+    told = [f"“{name}” is gone" for name in old if name not in new and name != UNCHANGED.name]
     for name, law in new.items():
         before = old.get(name)
         state = "is broken" if law.failed else "holds"
-        if before is None:
+        if before is None and name != UNCHANGED.name:
             told.append(f"“{name}” is new and {state}")
+        elif before is None:
+            continue
         elif bool(before.failed) != bool(law.failed):
             told.append(f"“{name}” {state} now")
         elif before.max_points != law.max_points:

@@ -25,8 +25,9 @@ def write_term(course, standings, marks):
     """
     write_table(course.results / "grades.csv", _over_all(standings))
     for id, of_exercise in standings.items():
-        if any(standing.attempts for standing in of_exercise):
-            write_table(course.results / id / "grades.csv", exercise_rows(of_exercise, course.zone))
+        table = course.results / id / "grades.csv"
+        if table.exists() or any(standing.attempts for standing in of_exercise):
+            write_table(table, exercise_rows(of_exercise, course.zone))
     exercises = [catalogue.exercise(id) for id in course.exercises]
     newest = sorted(marks, key=lambda made: made.record.submission)
     write_table(course.results / "submissions.csv", submission_rows(newest, exercises))
