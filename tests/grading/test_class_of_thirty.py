@@ -9,7 +9,7 @@ import pytest
 from slamlab.cli import main
 from tests.grading import fake
 from tests.grading.conftest import notebook, workers
-from tests.grading.test_gradebook import forget, postgres  # noqa: F401
+from tests.grading.test_gradebook import forget, postgres, server  # noqa: F401
 from tests.grading.test_rejudging import FAILS, LAZY, WRONG, know, milder
 
 DUE = datetime(2026, 12, 1, 11, tzinfo=UTC).timestamp()

@@ -14,7 +14,7 @@ from slamlab.grading.gradebook import Gradebook, default_url
 from slamlab.grading.ledger import chain_proof
 from slamlab.grading.records import Record
 from slamlab.grading.term import term
-from tests.grading.test_gradebook import forget, postgres  # noqa: F401
+from tests.grading.test_gradebook import forget, postgres, server  # noqa: F401
 
 DUE = datetime(2026, 12, 1, 11, tzinfo=UTC)
 GRACE, PER_DAY, AT_MOST = timedelta(minutes=10), 0.1, 0.5

@@ -9,7 +9,7 @@ import sqlalchemy as sa
 from slamlab.grading import gradebook_rows
 from slamlab.grading.gradebook import Gradebook, GradebookError
 from slamlab.grading.ledger import chain_merging, chain_proof, chains, contents
-from tests.grading.test_gradebook import book, forget, postgres, record  # noqa: F401
+from tests.grading.test_gradebook import book, forget, postgres, record, server  # noqa: F401
 
 
 def url(folder, name="grades"):
