@@ -30,7 +30,8 @@ class Gradebook:
     def __init__(self, url, who=None):
         self._database = Database(url, gradebook_rows.TABLES)
         self.who = gradebook_rows.storable(who or self._database.account)[:200]
-        self._write(lambda connection: older_gradebooks.adopt(connection, self.who))
+        if self._read(older_gradebooks.is_older):
+            self._write(lambda connection: older_gradebooks.adopt(connection, self.who))
 
     def __enter__(self):
         return self

@@ -15,6 +15,11 @@ _OVERRIDES = sa.Table(
 )  # fmt: skip
 
 
+def is_older(connection):
+    """Whether a database has tables from before the ledger."""
+    return {_ATTEMPTS.name, _OVERRIDES.name} <= set(sa.inspect(connection).get_table_names())
+
+
 def adopt(connection, who):
     """Take over the rows of older tables, and drop these, within a transaction that writes.
 
@@ -23,8 +28,7 @@ def adopt(connection, who):
     connection : sqlalchemy.Connection
     who : str
     """
-    there = set(sa.inspect(connection).get_table_names())
-    if not {_ATTEMPTS.name, _OVERRIDES.name} <= there:
+    if not is_older(connection):  # another process was first
         return
     entries = []
     for row in connection.execute(sa.select(_ATTEMPTS).order_by(_ATTEMPTS.c.id)).mappings():
