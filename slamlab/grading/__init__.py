@@ -3,7 +3,8 @@
 Read in this order:
 
 - ``submissions``, ``notebooks``: what was handed in; ``preflight``: warnings about its form
-- ``judge``: one submission; ``batch``, ``dask_cluster``: a folder of them; ``records``
+- ``judge``, ``task_judging``: one submission; ``batch``, ``dask_cluster``: a folder of them;
+  ``records``
 - ``worker_pool``, ``zygote``, ``forked_workers``, ``fresh_workers``, ``worker_client``, ``worker``,
   ``wire_protocol``: fork server (zygote) and sandboxed processes, serialisation between them
 - ``staging``, ``import_closure``, ``hidden_packages``, ``checks_stub``: what a worker holds;

@@ -13,11 +13,8 @@ from dataclasses import replace
 from pathlib import Path
 
 from slamlab import __version__
-from slamlab.exercises.drives import StudentError
-from slamlab.exercises.run_task import recognised
-from slamlab.exercises.task import OPEN_SEED
-from slamlab.grading import course_digests, redaction, similarity, submissions
-from slamlab.grading.evidence import GRADED, OPEN, Evidence
+from slamlab.grading import course_digests, similarity, submissions, task_judging
+from slamlab.grading.evidence import Evidence
 from slamlab.grading.gradebook_rows import attempt_key
 from slamlab.grading.ledger import contents
 from slamlab.grading.records import Record
@@ -128,9 +125,11 @@ def judge_notebook(
     with WorkerClient(exercise, cells, workers.start, stop, unredacted) as client:
 
         def answer(task, call, sets):
-            return answer_of(client, evidence, task, call, sets)
+            return task_judging.answer_of(client, evidence, task, call, sets)
 
-        verdicts = exercise.verdicts(lambda task: judge_task(task, seed, answer, unredacted))
+        verdicts = exercise.verdicts(
+            lambda task: task_judging.judge_task(task, seed, answer, unredacted)
+        )
     seconds = {"wall": time.monotonic() - begin}
     seconds |= {"judge_cpu": time.thread_time() - judging, "worker_cpu": client.cpu}
     return {
@@ -143,64 +142,6 @@ def judge_notebook(
         "titles": {task.id: task.title for task in exercise.tasks},
         **_kept(cells, evidence),
     }
-
-
-def answer_of(client, evidence, task, call, sets):
-    """What a worker answers to a call, kept as evidence.
-
-    Parameters
-    ----------
-    client : WorkerClient
-    evidence : Evidence
-    task, call, sets : as of :meth:`Evidence.keep`
-
-    Returns
-    -------
-    set's name to name to array, or to the StudentError met there
-
-    Raises
-    ------
-    StudentError, WorkerStartError
-    """
-    try:
-        answers = client.run(task, sets)
-    except StudentError as error:
-        evidence.keep(task, call, sets, error)
-        raise
-    evidence.keep(task, call, sets, answers)
-    return answers
-
-
-def judge_task(task, seed: bytes, answer, unredacted=False):
-    """Judge one task with the inputs of a seed.
-
-    Parameters
-    ----------
-    task : Task
-    seed : bytes
-    answer : (task, call, sets) -> answers, of a worker or as they were kept; may raise StudentError
-    unredacted : bool
-
-    Returns
-    -------
-    Verdict
-    """
-
-    def answered(call, seed):
-        sets = task.draw(seed)
-        return sets, answer(task, call, sets)
-
-    try:
-        verdict = task.judge(*answered(GRADED, seed))
-        if verdict.problem and not unredacted:
-            verdict = replace(verdict, problem=redaction.redact_measured(verdict.problem))
-        return (
-            verdict
-            if verdict.full
-            else recognised(task, verdict, lambda: answered(OPEN, OPEN_SEED))
-        )
-    except StudentError as error:
-        return task.failed(error.kind, error.message)
 
 
 def _kept(cells, evidence):

@@ -8,7 +8,7 @@ import json
 from dataclasses import dataclass, replace
 
 from slamlab.exercises import catalogue
-from slamlab.grading import course_digests, gradebook_rows, isolation, judge
+from slamlab.grading import course_digests, gradebook_rows, isolation, judge, task_judging
 from slamlab.grading.evidence import Evidence, KeptAnswers, NotKept
 from slamlab.grading.ledger import chains, contents
 from slamlab.grading.worker_client import WorkerClient
@@ -143,7 +143,7 @@ def _rejudge(record, exercise, kept, workers):
             before = known.get(task.id)
             if before and before.kind != "needs" and record.judges.get(task.id) == digests[task.id]:
                 return before
-            return judge.judge_task(task, bytes.fromhex(record.seed), calls.answer)
+            return task_judging.judge_task(task, bytes.fromhex(record.seed), calls.answer)
 
         verdicts = tuple(exercise.verdicts(judge_one).values())
     after = replace(
@@ -193,11 +193,11 @@ class CallsAgain:
         return self._client is not None
 
     def answer(self, task, call, sets):
-        """The answers to a call, see :func:`judge.judge_task`."""
+        """The answers to a call, see :func:`task_judging.judge_task`."""
         try:
             return self._answers.answer(task, call, sets)
         except NotKept:
             if self._client is None:
                 cells = kept_cells(self._record, self._kept)
                 self._client = WorkerClient(self._exercise, cells, self._start)
-        return judge.answer_of(self._client, self.evidence, task, call, sets)
+        return task_judging.answer_of(self._client, self.evidence, task, call, sets)

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from slamlab.exercises import catalogue
-from slamlab.grading import course_digests, judge
+from slamlab.grading import course_digests, judge, task_judging
 from slamlab.grading.evidence import KeptAnswers, NotKept
 from slamlab.grading.ledger import contents
 from slamlab.grading.rejudging import AT_ONCE, CallsAgain
@@ -90,7 +90,7 @@ def _judged_again(record, exercise, kept, start):
     answers = KeptAnswers(kept.get(record.kept.get("outputs")), exercise)
     seed = bytes.fromhex(record.seed)
     with CallsAgain(record, exercise, kept, answers, start or _nothing_is_run) as calls:
-        verdicts = exercise.verdicts(lambda task: judge.judge_task(task, seed, calls.answer))
+        verdicts = exercise.verdicts(lambda task: task_judging.judge_task(task, seed, calls.answer))
     for verdict in record.verdicts:
         again = verdicts[verdict.task]
         if _earned(again) != _earned(verdict):
