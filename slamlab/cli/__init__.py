@@ -7,7 +7,8 @@ Read in this order:
 - ``emulate``, ``record``, ``replay``: devices
 - ``progress``, ``reset`` (and update): a student's own folder
 - ``check``, ``grade``, ``grade_output``, ``term_verbs`` (init, release), ``gradebook_verbs``
-  (merge, adjust, export): exercises; ``contest``: students' own SLAMs
+  (merge, adjust, export), ``ledger_verbs`` (rejudge, verify, forget): exercises; ``contest``:
+  students' own SLAMs
 - ``rehearse``, ``print_handout``: a lesson before and after its lecture
 - ``common``: what several share
 
@@ -21,9 +22,11 @@ from importlib import import_module
 from slamlab import __version__
 
 COMMANDS = ("run", "live", "film", "convert", "emulate", "record", "replay", "check", "grade",
-            "term_verbs", "gradebook_verbs", "contest", "progress", "reset", "rehearse",
-            "print_handout")  # fmt: skip
-SUBCOMMANDS = {"grade": ("init", "release", "merge", "adjust", "export")}
+            "term_verbs", "gradebook_verbs", "ledger_verbs", "contest", "progress", "reset",
+            "rehearse", "print_handout")  # fmt: skip
+SUBCOMMANDS = {
+    "grade": ("init", "release", "merge", "adjust", "export", "rejudge", "verify", "forget")
+}
 """Subcommands, written as two words; a folder of such a name is given as ./merge."""
 
 

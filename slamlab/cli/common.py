@@ -57,7 +57,7 @@ def estimator_options(arguments):
     return {name: value for name, value in given.items() if value is not None}
 
 
-def add_course_options(parser):
+def add_course_options(parser, policy=True):
     """Add the options of every command on a gradebook; a course file gives what is left out."""
     parser.add_argument("--course", metavar="FILE", type=Path, help=COURSE)
     parser.add_argument(
@@ -68,12 +68,26 @@ def add_course_options(parser):
         metavar="URL",
         help="the gradebook, a database that SQLAlchemy speaks to; default: DIR/grades.db, SQLite",
     )
+    add_who_option(parser)
+    if not policy:
+        return
     parser.add_argument(
         "--policy",
         metavar="FILE",
         type=Path,
         help='late policy: per_day = 0.1, at_most = 0.5, [due], "04" = 2026-12-01T23:59Z; '
         "stored with each mark. A course file has its own",
+    )
+
+
+def add_who_option(parser):
+    """Add the option that says who acts."""
+    parser.add_argument(
+        "--as",
+        metavar="NAME",
+        dest="who",
+        help="who acts, as it stands with each change; default: the account of the database, or "
+        "of this machine",
     )
 
 

@@ -114,21 +114,22 @@ def _grade(arguments, scratch):
     if term and arguments.worksheet:
         term.keep_worksheet(arguments.exercise, arguments.worksheet)
     found, secret = batch.prepare_grading(arguments.folder, arguments.out, scratch, secret, make)
-    found = term.join(found, arguments.exercise) if term else found
+    everything = found = term.join(found, arguments.exercise) if term else found
     found = batch.select_shard(found, arguments.shard) if arguments.shard else found
     policy = late_policy.load(arguments.policy) if arguments.policy else term and term.policy
     if not arguments.scheduler:
         isolation.ensure_level(arguments.isolation)
     with (
-        Gradebook(arguments.db or default_url(arguments.out)) as book,
+        Gradebook(arguments.db or default_url(arguments.out), arguments.who) as book,
         WorkerPool(arguments.isolation) as workers,
         signals_as_interrupt(),
     ):
         kept = batch.kept_policies(book)
+        seen = book.sight(batch.content_hashes(everything))
         known = {} if arguments.regrade else book.attempts()
         graded = _graded(arguments, found, secret, workers, known)
-        words = arguments.out, book, arguments.exercise, policy, arguments.regrade, kept, term
-        records = with_progress(batch.store_records(graded, *words), len(found))
+        words = arguments.out, book, arguments.exercise, policy, arguments.regrade, kept
+        records = with_progress(batch.store_records(graded, *words, term, seen), len(found))
         return records, term.summary(book, records) if term else []
 
 
