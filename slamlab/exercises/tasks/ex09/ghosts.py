@@ -57,9 +57,9 @@ def _step(name, points, maps, most, asks):
 # by the lesson's rule none has, since the three things stay in the map
 STEPS = (
     _step("better", 0.5, 6, 3, "What does a map hold that believes every line it sees?"),
-    _step("good", 1.5, 6, 1, "A thing stood for a dozen scans. What gives it away afterwards?"),
-    _step("clean", 2, 7, 1, "Which walls do you lack: those the robot saw only shortly?"),
-    _step("right", 1.5, 5, 0, "Where does the robot think it is when it comes round again?"),
+    _step("good", 1, 6, 1, "A thing stood for a dozen scans. What gives it away afterwards?"),
+    _step("clean", 1.5, 7, 1, "Which walls do you lack: those the robot saw only shortly?"),
+    _step("right", 2.5, 5, 0, "Where does the robot think it is when it comes round again?"),
 )
 
 
