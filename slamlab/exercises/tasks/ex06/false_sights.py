@@ -98,7 +98,7 @@ FALSE_SIGHTS = Task(
         ),
         _step("good", 1, "it errs by less than 45 cm", 0.45),
         _step("careful", 1, "and the mean NEES of its pose is below 15", 0.45, 15),
-        _step("honest", 1, "which is below 7, where 3 is right", 0.45, 7),
+        _step("honest", 1, "which is below 8, where 3 is right", 0.45, 8),
     ),
     needs=("06-augment", "06-update"),
 )

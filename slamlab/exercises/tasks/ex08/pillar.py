@@ -214,7 +214,9 @@ PILLAR = Task(
             "more readings of a wall than of the pillar",
             lambda rng: clouds(rng, [(24, 26, 0)], 230),
         ),
-        Probe("a pillar and a wall whose readings come by turns", _by_turns, ("inside", "refitted")),
+        Probe(
+            "a pillar and a wall whose readings come by turns", _by_turns, ("inside", "refitted")
+        ),
         Probe("readings at the edge of the band", _at_the_edge, ("refitted",)),
         Probe(
             "a thin pillar",
