@@ -25,8 +25,8 @@ test: lint clients  ## Set up and run every test; TEST_ARGS go to pytest
 		$(RUN) pytest @tests/notebooks/nbval.args notebooks exercises solutions
 	$(RUN) course.known_faults $(FAULTS)
 
-test-all: test  ## Also walk through every notebook in a real browser
-	$(RUN) pytest -m walk tests/browser
+test-all: test  ## Also walk through every notebook in a real browser, and a whole department
+	$(RUN) pytest -m walk tests/browser tests/grading/test_department.py
 
 soak: env  ## Run what takes long, or needs a machine that has nothing else to do
 	$(RUN) pytest -m soak

@@ -1,4 +1,4 @@
-"""Live view in a real browser: latency from a click to the picture, frame rate.
+"""Live views in a real browser, in a notebook and by ``slamlab live``: latency, frame rate.
 
 Against an ipywidgets.Image that gets a full redraw by matplotlib, in the same notebook and run;
 and from a click to the answer while a source keeps one waiting for a second.
@@ -12,6 +12,7 @@ from pathlib import Path
 
 import nbformat
 
+from benchmarks import live_page
 from benchmarks.common import Missing, main, row
 from tests.browser.jupyter import Unavailable, Visit, chromium, jupyterlab
 from tests.browser.live import View
@@ -138,4 +139,4 @@ def rows(visit, quick):
 
 
 if __name__ == "__main__":
-    sys.exit(main({TITLE: run}, "python -m benchmarks.live"))
+    sys.exit(main({TITLE: run, live_page.TITLE: live_page.run}, "python -m benchmarks.live"))

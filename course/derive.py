@@ -130,7 +130,8 @@ def _cell(cell, exercise, stubs):
         metadata |= {"slamlab": {"minutes": cell.minutes}}
     if cell.answers:  # folded until the question is answered
         told = metadata.get("slamlab", {}) | {"answers": cell.answers}
-        metadata |= {"slamlab": told, "jupyter": {"outputs_hidden": True}}
+        folded = "outputs_hidden" if cell.type == "code" else "source_hidden"
+        metadata |= {"slamlab": told, "jupyter": {folded: True}}
     text = glossary.filled(cell.text)
     if cell.check:
         metadata |= check_metadata(exercise.task(cell.check))

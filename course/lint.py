@@ -149,8 +149,10 @@ def _questions(source):
             if not id.startswith(f"{source.number}-") or id in asked:
                 yield cell, f"call the question {source.number}-…, and each one differently"
             asked.add(id)
-        if cell.answers and (cell.type != "code" or cell.answers not in asked):
+        if cell.answers and cell.answers not in asked:
             yield cell, f"answers a question {cell.answers!r} that no cell before it asks"
+        if cell.answers and cell.type == "markdown" and heading(cell.text):
+            yield cell, "a heading is not folded: put it before the question"
 
 
 def _first_and_last_cell(source):

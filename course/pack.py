@@ -14,7 +14,7 @@ ROOT = Path(__file__).resolve().parents[1]
 HANDOUT = Path(__file__).parent / "handout"  # files that students get in place of the project's
 FOLDERS = ("notebooks", "exercises", "slamlab", "labextension")
 FILES = ("LICENSE", "lab.py", "pyproject.toml", "environment.yml", "requirements.lock",
-         "docs/robots.md")  # fmt: skip
+         "docs/live.md", "docs/robots.md")  # fmt: skip
 LECTURERS_FOLDERS = (*FOLDERS, "solutions", "docs", "course")
 LECTURERS_FILES = (*FILES[:-1], "README.md", "Makefile", "CONTRIBUTING.md",
                    "requirements-test.lock")  # fmt: skip

@@ -31,10 +31,12 @@ project          worlds nobody has seen, and what a student's own SLAM is worth 
 coursework       a student's folder: progress, reset, update
 parallel         many runs on processes or a Dask cluster
 grading          judge, sandbox, gradebook, late policy, similarity report
+contest          a class's own SLAMs on the same hidden worlds: a board, a page each
 checks           what notebooks call: ``check``, ``hint``, ``ask``, ``validate``
 lecturing        a lesson's slides rehearsed and printed, in a browser without a window
 studies          tables of many runs, each made by a command
 listening        one guard for whatever listens on the network
+console          SLAM live in a page of the browser, driven there: ``slamlab live``
 audience         a lecture's class: its phones see the slide and are asked; ``audience.start``
 cli              the command ``slamlab``
 

@@ -330,6 +330,16 @@ def test_what_is_new_is_marked_where_it_stands(old, new, expected):
 # what is shown
 
 
+def test_the_robot_is_a_roman_r_and_a_range_an_italic_one():
+    P_ri, P_rr = sp.MatrixSymbol("P_ri", 3, 2), symmetric("P_rr", 3)
+    P_r1 = sp.MatrixSymbol("P_r1", 3, 3)
+    steps = derive("P_nr", P_ri.T * P_rr * P_r1 * sp.Symbol("sigma_r"), "so")
+    shown = steps._repr_mimebundle_()["text/html"]
+    robots = r"P_{n\mathrm{r}} =", r"P_{\mathrm{r}i}^{T}", r"P_{\mathrm{rr}}", r"P_{\mathrm{r}1}"
+    for each in (*robots, r"\sigma_{r}"):
+        assert each in shown
+
+
 def shown():
     wrong = sp.Matrix([[1, 0, d * sp.sin(theta)], [0, 1, d * sp.cos(theta)]])
     steps = derive("A", partials(f, pose)).step("a < b & c", differentiate(x, y))

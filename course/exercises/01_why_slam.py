@@ -396,7 +396,7 @@ def _():
 #
 # Only places are scored: how far all poses of all tracks are off (the root of the mean square, rms).
 # Sixteen robots drive one route. The first step of the ladder asks for less than 2.2 m, the second for
-# less than 0.7 m and the third for less than 0.19 m. Dead reckoning is off by about 4 m.
+# less than 0.7 m and the third for less than 0.165 m. Dead reckoning is off by about 4 m.
 #
 # There is at least one lap. Each lap is a round trip to the left or to the right in steps of about half
 # a metre, and all its turns together, including the one in the dock, are one full turn. A house has

@@ -1,20 +1,21 @@
 # %% [markdown]
-# # 04 · Models and Jacobians: exercise
+# # Exercise 04 · Models and Jacobians
 #
-# **You will be able to** write the Jacobians of EKF-SLAM as functions, derive that of a sensor
-# which is in no book, say how uncertain a new landmark is and with whom it shares its error, and do
-# better than a Jacobian where it fails.
+# **You will be able to** write the Jacobians of EKF-SLAM as functions, derive that of a sensor which
+# is in no book, say how unsure a new landmark is and with whom it shares its error, and do better than
+# a tangent where the tangent fails.
 #
-# **60 minutes. Before:** lesson 04.
+# **60 minutes. Before:** lesson [04 · Models and
+# Jacobians](../notebooks/04_models_and_jacobians.ipynb).
 #
 # Replace each `raise NotImplementedError(...)` by your code, run the cell, then run the check below
 # it, as often as you like. A check tries random inputs and others that are as special as the text
 # allows. Where a law is broken it shows a small input that breaks it, and `hint("04-camera")` in a
 # cell of your own leads on.
 #
-# Metres and radians throughout. `x` is a pose `[x, y, θ]`, `p` a landmark, `u = [d, Δθ]` a drive,
-# `z = [r, β]` a range and a bearing, counter-clockwise from the robot's heading. Angles may be any
-# number, beyond π as well. Functions must leave their arguments as they are.
+# All lengths are in metres, all angles in radians. `x` is a pose `[x, y, θ]`, `p` a landmark, `u = [d,
+# Δθ]` a drive, `z = [r, β]` a range and a bearing; bearings count counter-clockwise from the robot's
+# heading. Angles may be any number, also beyond $\pi$. No function may change the arrays it is given.
 
 # %%
 import numpy as np
@@ -24,18 +25,19 @@ from slamlab.checks import attempt, check
 from slamlab.models import f_odometry, g, h
 
 # %% [markdown]
-# ## H: what a step of the robot does to what it sees
+# ## 1 · H: what a step of the robot does to what it sees
 #
-# `h(x, p)` says at which range and bearing a robot at `x` sees a landmark at `p`:
+# `h(x, p)` says at which range and bearing a robot at the pose $x$ sees a landmark at $p$:
 #
 # $$r = \sqrt{(p_x-x)^2+(p_y-y)^2}, \qquad \beta = \operatorname{atan2}(p_y-y,\ p_x-x) - \theta$$
 #
-# **Predict first.** The robot stands at the origin, looks along +x and sees a landmark 2 m ahead.
-# It steps 1 cm to its left. Does the range change? Does the bearing grow or shrink? Which entry of
-# H says so, and what must its sign be?
+# **Predict first.** The robot stands at the origin, looks along the x axis and sees a landmark 2 m ahead.
+# Now it steps 1 cm to its left. Does the range change? Does the bearing grow or shrink? Which entry of
+# $H_{\mathrm r}$ says so, and which sign must it have?
 #
-# **Your task.** The (2, 3) matrix of derivatives of `h` by the robot's x, y, θ. The landmark may
-# lie in any direction, behind the robot too, but never at the robot itself.
+# **Your task.** Return the 2 × 3 matrix of the derivatives of $h$ with respect to $x$, $y$ and
+# $\theta$ of the robot. The landmark may lie in any direction, behind the robot too, but never at the
+# robot itself.
 
 
 # %%
@@ -56,8 +58,9 @@ def H_robot(x, p):
 check("04-h-robot")
 
 # %% [markdown]
-# Your H against the model itself: move the robot by a little and compare. The two rows of each pair
-# must agree but for a share of the step's size.
+# Now hold your $H_{\mathrm r}$ against the model itself: move the robot by a little, and compare what changes.
+# The two rows of each pair should be almost equal. What is left comes from the bend of $h$, and becomes smaller
+# faster than the step does.
 
 
 # %%
@@ -71,17 +74,17 @@ def _():
 
 
 # %% [markdown]
-# ## J_xr and J_z: where a new landmark comes from
+# ## 2 · Where a new landmark comes from
 #
-# A landmark seen for the first time is put where the robot believes to see it, at `g(x, z)`:
+# A landmark that is seen for the first time is put where the robot believes to see it, at `g(x, z)`:
 #
 # $$p_x = x + r\cos(\theta+\beta), \qquad p_y = y + r\sin(\theta+\beta)$$
 #
-# **Predict first.** The robot's heading is 0.01 rad off. By how much is a landmark misplaced that
-# it sees at 1 m? At 8 m? Does it matter whether the landmark is ahead or to the side?
+# **Predict first.** The heading of the robot is 0.01 rad off. How far off is a landmark that it sees at 1 m,
+# and one that it sees at 8 m? Does it matter whether the landmark is ahead or to the side?
 #
-# **Your task.** The derivatives of `g` by the pose, `J_xr` (2, 3), and by the measurement, `J_z`
-# (2, 2), for any range `r` > 0.
+# **Your task.** Return the derivatives of $g$ with respect to the pose, $J_{\mathrm r}$ (2 × 3, `J_xr` in the
+# code), and with respect to the measurement, $J_z$ (2 × 2), for any range $r > 0$.
 
 
 # %%
@@ -112,18 +115,19 @@ def J_z(x, z):
 check("04-jxr-jz")
 
 # %% [markdown]
-# ## How sure is a new landmark?
+# ## 3 · How sure is a new landmark?
 #
-# The pose has the covariance `P` (3, 3), the measurement the covariance `R` (2, 2), and the two err
-# independently. The landmark computed from both has a covariance of its own, `P_nn` (2, 2), and
-# one with the pose, `P_rn` (3, 2): row for x, y, θ of the robot, column for x, y of the landmark.
+# The pose has the covariance $P$ (3 × 3), the measurement has the covariance $R$ (2 × 2), and the two errors
+# have nothing to do with each other. The landmark that is computed from both has a covariance of its own,
+# $P_{nn}$ (2 × 2), and one with the pose, $P_{\mathrm rn}$ (3 × 2), whose rows are for $x$, $y$, $\theta$ of the
+# robot and whose columns are for $x$ and $y$ of the landmark.
 #
-# **Predict first.** If the robot truly stands 10 cm farther east than it believes, where is the
-# landmark truly? Can `P_rn` be zero?
+# **Predict first.** If the robot truly stands 10 cm farther east than it believes, where is the landmark
+# truly? Can $P_{\mathrm rn}$ be zero?
 #
-# **Your task.** Both, to first order, with your `J_xr` and `J_z`. `P` and `R` may be full matrices:
-# errors of x, y and θ may go together, and so may those of range and bearing. The heading is known
-# to 0.05 rad or better. The check takes the slopes of `g` itself and carries `P` and `R` through
+# **Your task.** Return both, to first order, with your `J_xr` and `J_z`. `P` and `R` may be full matrices:
+# the errors of $x$, $y$ and $\theta$ may go together, and so may those of range and bearing. The heading is
+# known to 0.05 rad or better. The check takes the slopes of $g$ itself and carries $P$ and $R$ through
 # them.
 
 
@@ -146,8 +150,8 @@ def new_landmark(x, P, z, R):
 check("04-new-landmark")
 
 # %% [markdown]
-# And the picture: 500 robots where the belief says they may be, each placing the landmark where it
-# sees it. 95 of 100 should lie inside your ellipse.
+# Now the picture: 500 robots stand where the belief says they may be, and each places the landmark where it sees
+# it. About 95 of 100 should lie inside your ellipse.
 
 
 # %%
@@ -160,32 +164,32 @@ def _():
     poses, seen = rng.multivariate_normal(x, P, 500), rng.multivariate_normal(z, R, 500)
     placed = np.array([g(pose, one) for pose, one in zip(poses, seen, strict=True)])
     line = layers.Poses("the line of sight", [x, [*g(x, z), x[2] + z[1]]])
-    fig, _ = views.cloud(placed, {"your P_nn, 95 %": P_nn}, layers=[line])
+    fig, _ = views.cloud(placed, {"your P_nn, 95 %": P_nn}, layers=[line], centre=g(x, z))
     views.show(
         fig, alt=f"{len(placed)} places where the landmark may be, and the ellipse of your P_nn."
     )
 
 
 # %% [markdown]
-# ## A camera beside the robot's centre
+# ## 4 · A camera beside the robot's centre
 #
-# A camera measures no range. It tells at which column of its image a landmark appears, and it
-# seldom sits where the robot's centre is: ours is mounted `mount = [a, b]`, a metres ahead of the
-# centre and b metres to the left of it (either may be negative), and it looks along the robot's
-# heading. In the camera's own frame, with X ahead and Y to the left, a landmark appears at the column
+# A camera measures no range. It tells in which column of its image a landmark appears, and it seldom
+# sits at the centre of the robot. Ours is mounted at `mount = [a, b]`, $a$ metres ahead of the centre
+# and $b$ metres to the left of it (either may be negative), and it looks along the robot's heading. In
+# the camera's own frame, with $X$ ahead and $Y$ to the left, a landmark appears in the column
 #
-# $$u = -F\,\frac{Y}{X}$$
+# $$u = -F\,\frac{Y}{X},$$
 #
-# counted from the middle of the image to the right, in pixels; F, the focal length, is in pixels,
-# too. No book prints the Jacobian of *this* camera on *this* robot. You do not need a book.
+# counted from the middle of the image to the right, in pixels. $F$, the focal length, is in pixels,
+# too. No book prints the Jacobian of *this* camera on *this* robot, and you do not need a book.
 #
-# **Predict first.** The robot turns to the left by a little. For a camera at the robot's centre, does
-# a far landmark's column depend on how far it is? And for a camera 30 cm ahead of the centre: what
-# does it do besides turning?
+# **Predict first.** The robot turns a little to the left. If the camera is at the robot's centre, does the
+# change of a landmark's column depend on how far away the landmark is? And what does a camera that is 30 cm
+# ahead of the centre do, besides turning?
 #
-# **Your task.** First write X and Y in x, y, θ, p_x, p_y, a, b. Then differentiate the quotient. Return
-# `u` and its derivatives `H` by x, y, θ, p_x, p_y, in this order. The landmark is always in front
-# of the camera (X ≥ 0.5 m).
+# **Your task.** First write $X$ and $Y$ in terms of $x$, $y$, $\theta$, $p_x$, $p_y$, $a$ and $b$. Then
+# differentiate the quotient. Return `u` and its derivatives `H` with respect to $x$, $y$, $\theta$, $p_x$,
+# $p_y$, in this order. The landmark is always in front of the camera ($X \ge 0.5$ m).
 
 
 # %%
@@ -211,8 +215,8 @@ def camera(x, p, mount, F):
 check("04-camera")
 
 # %% [markdown]
-# Does the mount matter? A robot turns on the spot, the landmark is 2 m ahead. The slope of the solid
-# curve at 0 is the third entry of your H; the dashed one is the same camera at the centre.
+# Does the mount matter? The robot turns on the spot, and the landmark is 2 m ahead. The slope of the solid curve
+# at 0 is the third entry of your `H`; the dashed curve belongs to the same camera at the centre.
 
 
 # %%
@@ -234,12 +238,12 @@ def _():
 
 
 # %% [markdown]
-# ## Make it better: a drive with an unsure heading
+# ## 5 · Make it better: a drive with an unsure heading
 #
-# A robot was carried to another room. It believes its heading to ±0.3 rad at best and ±0.8 rad at
-# worst, and it drives a few metres. The linearised step says where it may be now: at
-# $f(\hat x, u)$, with $A P A^\top + W C W^\top$, where `C` (2, 2) is the covariance of the drive's
-# own noise. Here it is, ready made, and what 500 robots say to it:
+# A robot was carried to another room. It knows its heading to 0.3 rad at best and to 0.8 rad at worst,
+# and it drives a few metres. The linearised step of the lesson says that it is now at $f(\hat x, u)$, with
+# the covariance $A P A^{\mathsf T} + W C W^{\mathsf T}$, where $C$ (2 × 2) is the covariance of the drive's
+# own noise. Here that step is, ready made, and what 500 robots say to it:
 
 
 # %%
@@ -272,27 +276,30 @@ def show_drive(method, name):
 attempt(lambda: show_drive(linearised, "linearised, 95 %"))
 
 # %% [markdown]
-# **See:** the ellipse lies in front of most robots, is too long and far too thin.
+# The ellipse lies in front of most robots; it is too long and far too thin.
 #
-# **Predict first.** A belief has one mean and one covariance, so the banana itself cannot be told. Which
-# ellipse would you draw? Is its middle nearer to the start than the linearised one, or farther away?
+# **Predict first.** A belief has one mean and one covariance, so it cannot draw a banana. Which ellipse
+# would you draw? Is its middle nearer to the start than that of the linearised one, or farther away?
 #
-# **Your task.** Any method goes: return the `mean` (3,) and the `covariance` (3, 3) of the pose after
-# the drive. `P` and `C` may be full matrices and are positive definite; pose and drive err
-# independently, both as Gaussians. The heading's σ is 0.8 rad at most (and may be tiny), the distance
-# 6 m at most, and it may be zero or negative; the wheels err by 0.6 m and 0.3 rad at most. Whether you
-# wrap the mean's angle is up to you; but mind that `f_odometry` wraps the headings it returns, and
-# think of what the average of 179° and −179° is.
+# **Your task.** Return the `mean` (3,) and the `covariance` (3, 3) of the pose after the drive, by any method
+# you like. `P` and `C` may be full matrices and are positive definite; the errors of pose and drive have
+# nothing to do with each other, and both are Gaussian. The $\sigma$ of the heading is 0.8 rad at most (and may
+# be tiny). The distance is 6 m at most, and may be zero or negative. The wheels err by 0.6 m and 0.3 rad at
+# most. Whether you wrap the angle of the mean is up to you. But mind that `f_odometry` wraps the headings it
+# returns, and think of what the average of 179° and −179° is.
+
+# %% [markdown]
+# ### How you are scored
 #
-# You are scored by *surprise*. If the robot ends at $e$, a belief $N(m, S)$ is surprised by
+# By *surprise*. If the robot ends at $e$, a belief with the mean $m$ and the covariance $P$ is surprised by
 #
-# $$\tfrac12 (e-m)^\top S^{-1} (e-m) + \tfrac12 \ln\det (2\pi S)$$
+# $$\tfrac12 (e-m)^{\mathsf T} P^{-1} (e-m) + \tfrac12 \ln\det (2\pi P)$$
 #
-# nats: much when the end is many standard deviations off (the first term is half the NEES), and also
-# when the ellipse was drawn large to be on the safe side (the second term). On average over all ends,
-# the Gaussian with their true mean and covariance is surprised least. The check knows these exactly
-# and counts how many nats you lose against them in twenty drives and in some special ones. There are
-# four steps:
+# nats: by much if the end is many standard deviations off (the first term is half the NEES), and also if
+# the ellipse was drawn large to be on the safe side (the second term). On average over all ends, the
+# Gaussian with their true mean and covariance is surprised least. The check knows these exactly, and
+# counts how many nats you lose against them in twenty drives and in some special ones. There are four
+# steps:
 #
 # | step | what you lose | for comparison |
 # |---|---|---|
@@ -301,7 +308,7 @@ attempt(lambda: show_drive(linearised, "linearised, 95 %"))
 # | 3 | at most 0.01 nat in half of the drives | |
 # | 4 | at most 0.01 nat in *every* drive | |
 #
-# One nat lost means that the true ends seem e ≈ 2.7 times less likely than they should.
+# To lose one nat means that the true ends seem $\mathrm e \approx 2.7$ times less likely than they should.
 
 
 # %%
@@ -339,8 +346,8 @@ def unsure_drive(x, P, u, C):
 check("04-unsure-drive")
 
 # %% [markdown]
-# Your ellipse over the same 500 robots. It is wide where the linearised one was thin: this is what
-# an honest filter must admit.
+# Here is your ellipse over the same 500 robots. It is wide where the linearised one was thin: that much
+# doubt an honest filter has to admit.
 
 
 # %%
@@ -352,6 +359,5 @@ def _():
 # %% [markdown]
 # ## Done?
 #
-# Save the notebook. The cell below then says what the grader will say about it;
-# the grader draws other inputs. The next lesson puts H and A to work: localisation in a known map,
-# and a map from known poses.
+# Save the notebook. The cell below then says what the grader will say about it; the grader draws other
+# inputs. **Next:** [lesson 05](../notebooks/05_two_easy_halves.ipynb) puts $H$ and $A$ to work.

@@ -2,18 +2,20 @@
 # # 07 · Correlations: exercise
 #
 # **You will be able to** follow how landmarks come to share an error, pass on what was learned of
-# some to all others, fuse estimates honestly that share an error, show what becomes of a filter
+# some to all the others, fuse estimates honestly that share an error, show what becomes of a filter
 # that forgets, and find out how large a shared error is when nobody tells you.
 #
-# **60 minutes. Before:** lessons 03 to 07.
+# **60 minutes. Before:** lessons [03](../notebooks/03_kalman_filter.ipynb) to
+# [07](../notebooks/07_correlations.ipynb).
 #
-# Replace each `raise NotImplementedError(...)` by your code, run the cell, then run the check below
-# it, as often as you like. A check tries random inputs, some of them at the edge of what a task
-# promises, and tells you which law is broken. No task may change the arrays it is given: the caller
+# Replace each `raise NotImplementedError(...)` by your code, run the cell, and then the check below
+# it, as often as you like. A check tries random inputs, and some at the edge of what a task promises;
+# it tells you which law is broken. No task may change the arrays that it is given, for the caller
 # still needs them.
 #
-# Metres and radians throughout. A covariance that you are given is symmetric and positive definite
-# unless its task says otherwise.
+# Units are metres and radians throughout. A covariance that you are given is symmetric and positive
+# definite, unless its task says otherwise. An error, marked by a tilde, is the truth minus the
+# estimate.
 
 # %%
 import numpy as np
@@ -24,8 +26,8 @@ from slamlab.geometry import compose
 from slamlab.models import H_robot
 
 # %% [markdown]
-# The entries of a covariance are in m², m·rad and rad², which are hard to compare. The correlation
-# is a pure number from −1 to 1. This function is for the pictures:
+# The entries of a covariance are in m², m·rad and rad², which are hard to compare. A correlation is a
+# pure number from −1 to 1. This function makes one of the other, for the pictures:
 
 
 # %%
@@ -38,17 +40,18 @@ def correlation(P):
 # %% [markdown]
 # ## 1 · Two observations
 #
-# The example of the MAK thesis. The state is a robot's pose, three rows, and then two rows for each
-# of two landmarks. The robot sees p1, then p2, and does not move in between. `H_1` and `H_2` are the
-# whole (2, 7) Jacobians $[H_r\ \ H_p\ \ 0]$ and $[H_r\ \ 0\ \ H_p]$.
+# This is the example of the lesson, in numbers. The state is the robot's pose, three rows, and then
+# two rows for each of two landmarks, $p_1$ and $p_2$. The robot sees $p_1$, then $p_2$, and does not
+# move in between. `H_1` and `H_2` are the whole (2, 7) Jacobians
+# $[H_{\mathrm r}\ \ H_{\mathrm p}\ \ 0]$ and $[H_{\mathrm r}\ \ 0\ \ H_{\mathrm p}]$ of (07.2).
 #
-# **Predict first.** Let P be block-diagonal at the start: robot and landmarks share nothing yet.
-# Which blocks of P are non-zero after the first sight? Which after the second? The robot learns
-# something when it sees p2: does p1 get any surer?
+# **Predict first.** The robot learns something when it sees $p_2$. Does $p_1$ become any surer by
+# that, if $P$ is block-diagonal at the start? And if the robot's pose is known exactly?
 #
-# **Your task.** The covariance after the first sight, and after both. The thesis prints its formulas
-# with several slips, so derive them rather than copy. `P` may be block-diagonal, as above, or full
-# from the start, `R` may be full as well, and the numbers may be in mm and mrad.
+# **Your task.** The covariance after the first sighting, and after both. `P` may be block-diagonal, as
+# in the lesson, or full from the start. `R` may be full as well, and the numbers may be in mm and
+# mrad. (If you know the MAK thesis: its formulas are printed with several slips, so derive them
+# rather than copy.)
 
 
 # %%
@@ -75,7 +78,7 @@ def two_updates(P, H_1, H_2, R):
 check("07-two-updates")
 
 # %% [markdown]
-# How the blocks fill up, one sight after the other:
+# Here the blocks fill up, one sighting after the other:
 
 
 # %%
@@ -96,22 +99,26 @@ def _():
 
 
 # %% [markdown]
-# **See:** the last matrix has no white block left. Nobody ever measured from p1 to p2, and still they
-# share an error: the robot's. And p1 got a little surer by the sight of p2.
+# **See:** the last matrix has no white block left. Nobody ever measured from $p_1$ to $p_2$, and still
+# they share an error: the robot's. And the sighting of $p_2$ made $p_1$ a little surer.
 #
 # ## 2 · What one hears of a landmark out of sight
 #
-# You have just seen p1 learn from a sight of p2. In a large map this is expensive: each sight
-# changes every landmark. So let a small program look after the robot and the few landmarks in sight.
-# It starts from what the large map says of them, makes as many sightings of them as it likes, and
-# comes back with `x_seen` and `P_seen`, what is known of these entries *now*. It tells neither what
-# it saw nor how: no H, no R, no innovation. The other landmarks were out of sight all the time.
+# You have just seen $p_1$ learn from a sighting of $p_2$. In a large map this is expensive, since each
+# sighting changes every landmark. So let a small program look after the robot and the few landmarks
+# in sight. It starts from what the large map says of them, makes as many sightings of them as it
+# likes, and comes back with `x_seen` and `P_seen`: what is known of these entries *now*. It tells
+# neither what it saw nor how, so there is no $H$, no $R$, no innovation. The other landmarks were out
+# of sight all the time.
 #
-# They have learned something all the same. Write $s$ for the entries in sight, and split the error
-# of any other entry into a part that follows theirs and a rest that shares nothing with them,
-# $\tilde x_k = G\,\tilde x_s + \text{rest}$. You know such a $G$ from lesson 03: it is a gain. The
-# sightings were of $x_s$ alone, so they say nothing about the rest: neither the rest nor $G$ has
-# changed. That is all you need to find the new x and P.
+# They have learned something all the same. Let $s$ stand for the entries in sight. Split the error of
+# all entries into a part that follows theirs, and a rest that shares nothing with them:
+#
+# $$\tilde x = G\,\tilde x_s + \text{rest}$$
+#
+# You know such a $G$ from lesson 03: it is a gain. The sightings were of $x_s$ alone, so they say
+# nothing about the rest, and neither the rest nor $G$ has changed. That is all you need to find the
+# new $\hat x$ and $P$.
 #
 # **Predict first.** Suppose that the small program comes back with `P_seen = 0`: it knows its entries
 # exactly. How sure are the others then? And what do they learn if they share no error with those in
@@ -142,8 +149,8 @@ def hearsay(x, P, seen, x_seen, P_seen):
 check("07-hearsay")
 
 # %% [markdown]
-# The loop of the lesson, in the second in which it closes: the robot meets the first landmarks again.
-# The filter of the lesson updates the whole map by their sights. You are told only what became of
+# Back to the loop of the lesson, in the second in which it closes: the robot meets the first landmarks
+# again. The lesson's filter updates the whole map by this sighting. You are told only what became of
 # the robot and of the landmarks in sight.
 
 
@@ -182,27 +189,26 @@ def _():
 
 
 # %% [markdown]
-# **See:** the two lower curves lie on each other. The landmarks that were known worst, those met
-# last, learned most from a sight of the first few, and you passed it on without having seen
-# anything yourself. This is how the compressed filter
-# of the lesson can put off the far landmarks and lose nothing.
+# **See:** the two lower curves lie on each other. The landmarks that were known worst, those met last,
+# learned most from a sighting of the first few, and you passed it on without having seen anything
+# yourself. This is why the lesson's compressed filter can put off the far landmarks and lose nothing.
 #
 # ## 3 · Two estimates that share an error
 #
-# The same landmark was estimated twice, as `a` and as `b`, by a robot that was lost by the same
-# bit both times. Their errors $\tilde a, \tilde b$ have covariances `P_a`, `P_b`, and share
-# $P_{ab} = E[\tilde a\,\tilde b^T]$. We look for $x = a + K\,(b - a)$.
+# The same landmark was estimated twice, as $a$ and as $b$, by a robot that was lost by the same bit
+# both times. The errors $\tilde a$ and $\tilde b$ have the covariances `P_a` and `P_b`, and what they
+# share is $P_{ab} = E[\tilde a\,\tilde b^{\mathsf T}]$. We look for $x = a + K\,(b - a)$.
 #
 # Take $b - a$ for the innovation. From lesson 03 you know the best gain, $K = S_{xv} S^{-1}$: the
-# covariance of the error of a with that of the innovation, $\tilde a - \tilde b$, times the inverse
-# of the innovation's own. Then $P = P_a - K S K^T$. But what are $S_{xv}$ and $S$ here?
+# covariance of the error of $a$ with that of the innovation, $\tilde a - \tilde b$, times the inverse
+# of the innovation's own. Then $P = P_a - K S K^{\mathsf T}$. But what are $S_{xv}$ and $S$ here?
 #
-# **Predict first.** `P_a = P_b = I`. How sure is the best x if the two share nothing? And if they
+# **Predict first.** Let `P_a = P_b = I`. How sure is the best x if the two share nothing? And if they
 # share nearly everything?
 #
-# **Your task.** x and its covariance. The two may share nothing, or nearly everything, or err in
-# opposite directions; `P_ab` need not be symmetric. P_a, P_b and P_ab together are the covariance
-# of four numbers and can be inverted.
+# **Your task.** The estimate x and its covariance. The two may share nothing, or nearly everything, or
+# err in opposite directions; `P_ab` need not be symmetric. `P_a`, `P_b` and `P_ab` together are the
+# covariance of four numbers, and it can be inverted.
 
 
 # %%
@@ -223,7 +229,8 @@ def fuse(a, P_a, b, P_b, P_ab):
 check("07-fuse")
 
 # %% [markdown]
-# 500 pairs whose errors have a large share in common, fused by you, and by you without P_ab.
+# Here are 500 pairs whose errors have a large share in common, fused by you. The second ellipse is
+# what your function claims if it is told that they share nothing.
 
 
 # %%
@@ -245,22 +252,24 @@ def _():
 
 
 # %% [markdown]
-# **See:** 95 of 100 errors should lie in your ellipse. The other one claims that two estimates halve
-# a doubt that both have from the same source.
+# **See:** 95 of 100 errors should lie in your ellipse. The other one claims that a second estimate
+# removes a doubt which both have from the same source.
 #
 # ## 4 · SLAM in a corridor
 #
-# A robot in one dimension: `x[0]` is its position, `x[1]`, `x[2]`, … are doors. It drives a way
-# `d` (variance `q`) and then sees door `i` at the distance `z` ahead (variance `r`), negative if
-# the door lies behind: $z = x_i - x_0 + \text{noise}$. All is linear, so the filter is exact.
+# In one dimension all of SLAM is a few lines. `x[0]` is the robot's position, and `x[1]`, `x[2]`, … are
+# doors. The robot drives a way `d`, whose variance is `q`, and then sees door `i` at the distance `z`
+# ahead, negative if the door lies behind. What it sees is $z = x_i - x_0 + \varepsilon$, and the
+# variance of the noise $\varepsilon$ is `r`. (In code `q` and `r` are small letters here, since they
+# are numbers: the $Q$ and $R$ of the lessons.) All is linear, so the filter is exact.
 #
-# **Predict first.** The robot has seen all doors, then drives far and sees door 1 again, 30 cm
-# nearer than expected. Which estimates change? Do those of doors 2 and 3?
+# **Predict first.** The robot has seen all doors, then drives far, and sees door 1 again, 30 cm nearer
+# than expected. Which estimates change? Do those of doors 2 and 3?
 #
-# **Your task.** One step: drive, then see. There may be any number of doors from one on, and robot
-# and doors may share errors from the start. The robot's variance may be 0, and so may `d` and `q`;
-# `r` is positive. The check runs 60 walks with your step and asks whether the errors at the end are
-# as large as your P says (NEES).
+# **Your task.** One step: drive, then see. There may be any number of doors from one on, and robot and
+# doors may share errors from the start. The robot's variance may be 0, and so may `d` and `q`; `r` is
+# positive. The check also drives 60 walks with your step, and asks whether the errors at the end are
+# as large as your $P$ says (NEES).
 
 
 # %%
@@ -287,7 +296,8 @@ def step(x, P, d, q, i, z, r):
 check("07-corridor")
 
 # %% [markdown]
-# And now forget. The same filter, with everything beside the diagonal thrown away after each step:
+# And now forget. This is the same filter, but everything beside the diagonal is thrown away after each
+# step:
 
 
 # %%
@@ -318,36 +328,37 @@ def _():
 
 
 # %% [markdown]
-# **See:** in the grey band 95 of 100 honest filters lie (4 unknowns, so 4 on average). The filter
-# that forgets leaves it as soon as doors come in sight a second time, and gets ever surer of itself:
-# it takes the same old error for news.
+# **See:** for an honest filter the curve lies in the grey band at 95 of 100 steps (there are four
+# unknowns, so NEES is 4 on average). The filter that forgets leaves the band as soon as doors come in
+# sight a second time, and its claim becomes ever more wrong: it takes the same old error for news.
 #
 # ## 5 · An error of unknown size that is shared (open)
 #
-# In this task there is no formula to find. Any method goes, and the check says how far yours gets.
+# In this task there is no formula to find. Any method will do, and the check says how far yours gets.
 #
-# Every morning somebody puts a robot down in the corridor and tells it where it is, but not very
-# well. It passes some doors and reads off the place of each, with an error of its own for each
-# reading, whose standard deviation `sigma` is known. On top of that, *all* readings of a morning are
-# off by the same amount: the error of where the robot was put down. These amounts are normal with
-# mean 0 and the same variance on all mornings of a corridor, but nobody says how large: its root
-# lies between half of `sigma` and twenty times `sigma`. What is the map, and how sure is it?
+# Every morning somebody puts a robot down in the corridor and tells it where it is, though not very
+# exactly. It passes some doors and reads off the place of each. Every reading has an error of its own,
+# whose standard deviation `sigma` is known. On top of that, *all* readings of a morning are off by the
+# same amount: the error of where the robot was put down. These amounts are normal, with mean 0 and the
+# same variance on all mornings of a corridor, but nobody says how large they are. The square root of
+# that variance lies between half of `sigma` and twenty times `sigma`. What is the map, and how sure is
+# it?
 #
-# The plain way takes the mean of each door's readings and divides σ² by their number. It is bad in
-# two respects, and the check scores both: the *error* of the doors, compared with the least that is
+# The plain way takes the mean of each door's readings and divides σ² by their number. It is bad in two
+# respects, and the check scores both: the *error* of the doors, compared with the least that is
 # possible, and *NEES*, of the ways from each door to the next, and of each door by itself.
 #
-# **Predict first.** A morning's error is 1 m, sigma is 2 cm. How well can you know the way between
+# **Predict first.** A morning's error is 1 m, and sigma is 2 cm. How well can you know the way between
 # two neighbouring doors? And if no morning passed both of them?
 #
 # Some thoughts to begin with, if you like. What could be a state here, and what would stand in its
-# covariance? How do the mornings' errors show in the readings, and how large do they seem to be?
-# What does lesson 07 say of a filter that leaves such an error out of its state?
+# covariance? How do the mornings' errors show in the readings, and how large do they seem to be? What
+# does lesson 07 say of a filter that leaves such an error out of its state?
 #
-# **Your task.** The map of the doors. `morning[k]`, `door[k]` and `z[k]` say when which door was read
-# where. Mornings and doors are counted from 0, and none is left out. Each morning has at least two
-# readings, of different doors, and any two doors are linked by a chain of doors in which neighbours
-# were passed on the same morning. The size of the corridor varies.
+# **Your task.** The map of the doors. `morning[k]`, `door[k]` and `z[k]` say when which door was read,
+# and where it seemed to be. Mornings and doors are counted from 0, and none is left out. Each morning
+# has at least two readings, of different doors, and any two doors are linked by a chain of doors in
+# which neighbours were passed on the same morning. The size of the corridor varies.
 
 
 # %%
@@ -377,8 +388,9 @@ def survey(morning, door, z, sigma):
 check("07-mornings")
 
 # %% [markdown]
-# 200 times the same corridor, surveyed on twelve mornings with errors of 30 cm, each reading good to
-# 4 cm. How far off is each door, by the mean of its readings and by you, and what do you claim?
+# The same corridor is surveyed 200 times, each time on twelve mornings with errors of 30 cm, and each
+# reading is good to 4 cm. How far off is each door by the mean of its readings, and by your survey?
+# And what do you claim?
 
 
 # %%
@@ -408,12 +420,14 @@ def _():
 
 
 # %% [markdown]
-# **See:** the first and the last door were passed on two mornings only, and by their mean they are
-# twice as far off as they need be. A map that keeps what its readings share knows them as well as
-# all others: each of the twelve mornings helps, also those on which nobody passed there.
+# **See:** the first and the last door were passed on two mornings only, and by the mean of their
+# readings they are about twice as far off as they need be. A map that keeps what its readings share
+# knows them as well as all others: each of the twelve mornings helps, even those on which nobody
+# passed there.
 #
 # ## Done?
 #
-# Save the notebook. The cell below then says what the grader will say about it;
-# the grader draws other inputs. Correlations stay with you: in lesson 08 the landmarks lose their
-# names, and S, with all it shares, decides which is which.
+# Save the notebook. The cell below then says what the grader will say about it, though the grader
+# draws other inputs. Correlations stay with you: in
+# [lesson 08](../notebooks/08_landmarks_from_scans.ipynb) the landmarks lose their names, and $S$, with
+# all it shares, decides which is which.

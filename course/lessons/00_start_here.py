@@ -235,10 +235,10 @@ for theta in (25, 115):
 # | 01 | [Why SLAM](01_why_slam.ipynb) | a robot that believes its wheels draws a map that does not close | 45 min | 60 min |
 # | 02 | [Sensors and worlds](02_sensors_and_worlds.ipynb) | how a lidar, an infrared and an ultrasonic scanner see a room, and how a real one errs | 60 min | 60 min |
 # | 03 | [The Kalman filter](03_kalman_filter.ipynb) | predict, measure, correct: the gain derived, the filter's word about its own error tested | 60 min | 60 min |
-# | 04 | [Models and Jacobians](04_models_and_jacobians.ipynb) | how a robot moves and measures, and how errors pass through: derived, not believed | 90 min | 60 min |
+# | 04 | [Models and Jacobians](04_models_and_jacobians.ipynb) | how a robot moves and measures, and how errors pass through: derived, not believed | 60 min | 60 min |
 # | 05 | [Two easy halves](05_two_easy_halves.ipynb) | a known map locates the robot, known poses draw the map; both in turn is not SLAM | 50 min | 60 min |
 # | 06 | [EKF-SLAM: the MAK filter](06_ekf_slam.ipynb) | robot and map in one filter, every block of its covariance built before your eyes | 60 min | 60 min |
-# | 07 | [Correlations](07_correlations.ipynb) | why what robot and landmarks share cannot be dropped, what it costs, and ways out | 100 min | 60 min |
+# | 07 | [Correlations](07_correlations.ipynb) | why what robot and landmarks share cannot be dropped, what it costs, and ways out | 90 min | 60 min |
 
 # %% [markdown] slideshow={"slide_type": "subslide"} name="map-of-lessons-2"
 # | | lesson | what it shows | lesson | exercise |

@@ -1,305 +1,226 @@
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=1
 # # 04 · Models and Jacobians
 #
-# **You will be able to** derive every Jacobian that EKF-SLAM needs (H, A, W, J_xr, J_z), test one
-# that you find in a book before you trust it, and say what a wrong one does to a robot.
+# **You will be able to** derive every Jacobian that EKF-SLAM needs, say in words what its entries
+# mean, test one that you find in a book or in a program before you trust it, and say where even a
+# right one fails.
 #
-# **90 minutes** (45 for the derivations, 45 for the errata). **Before:** lesson 00 for notation;
-# partial derivatives; what a covariance is. The update step comes from lesson 03.
+# **60 minutes,** in two parts. **Before:** lesson [00](00_start_here.ipynb) for the symbols, lesson
+# [03](03_kalman_filter.ipynb) for covariances and the update; partial derivatives.
 #
-# Sources: MAK thesis, chapter 3; the EKF note; Smolec, sections 2.6 and 4.1.
-#
-# *Key:* a model says what happens, its Jacobian says what happens to a small error.
+# *Key:* a model says what happens. Its Jacobian says what happens to a small error.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* Each line of a derivation is a cell of its own: press the key, and ask the
-# class for the next line before it appears. The first half stands alone as a lecture; the errata
-# make a second one, or homework in pairs: one types the printed formula, the other predicts the
-# harm.
-#
-# *In 90 minutes:* all of it. *In 45:* up to "Whom a new landmark knows", whose last sentence leads to
-# lesson 07; the errata are homework.
+# *For the lecturer:* Part one is about moving, part two about seeing; each can be a lecture of its
+# own. Every line of a derivation comes at a key press, so ask the class for the next line before
+# you press. Good questions for a poll are the first two, the one on the carried hall, the one on
+# the new landmark and the last. What follows "What you can do now" is for reading at home.
 
 # %% slideshow={"slide_type": "skip"}
 import numpy as np
 import sympy as sp
-from IPython.display import Markdown
 
 from slamlab import models, views
-from slamlab.derivation import derive, differentiate, partials
-from slamlab.models import jacobians, noise, symbolic
+from slamlab.checks import ask
+from slamlab.derivation import derive, differentiate, expectation, partials, symmetric
+from slamlab.evaluation import nees
+from slamlab.filters import Belief
 from slamlab.geometry import wrap
 from slamlab.layers import Poses
+from slamlab.models import jacobians, noise
+from slamlab.models.differences import slopes
+from slamlab.studies import small_errors
+from slamlab.studies.agreeing_poses import share_inside
 
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=5
-# ## What a Jacobian is
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=7
+# ## What a small error becomes
 #
-# A robot believes it stands at the origin with heading 0.7 rad. It is sure of its place to 5 cm and
-# of its heading to 0.1 rad (6°). It drives 3 m.
+# The cart of lesson 03 obeyed a matrix. A robot in the plane does not: it drives where it heads, so
+# sines and cosines come in. Can the Kalman filter still be of use?
 #
-# **Question.** Where may it be now? Say we let 1000 robots start where the belief allows and drive.
-#
-# **Predict** the shape of the 1000 end points: a disc, a streak along the way, a streak across it?
-
-# %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* Take a vote before you go on; what to say to it stands below the picture.
+# Here is such a robot. It believes that it stands at the origin with the heading 0.7 rad (40°). Its
+# place may be off by $\sigma$ = 5 cm in $x$ and in $y$, its heading by $\sigma$ = 0.1 rad (6°). Now
+# it drives 3 m ahead and then turns by 0.3 rad. Its wheels are exact.
 
 # %% slideshow={"slide_type": "fragment"}
-rng = np.random.default_rng(4)
-home, three_metres = np.array([0, 0, 0.7]), np.array([3.0, 0.3])
-P_home = np.diag([0.05, 0.05, 0.1]) ** 2
-starts = rng.multivariate_normal(home, P_home, 1000)
-ends = np.array([models.f_odometry(pose, three_metres) for pose in starts])
+ask(
+    "04-streak",
+    "We let 1000 robots start wherever the belief allows, and drive. What does the cloud of their "
+    "end points look like?",
+    {
+        "a round spot, 5 cm wide": "that is the cloud at the start; but a heading that is off takes "
+        "its robot farther off with every metre.",
+        "a streak along the way": "that is what wheels do that miscount. These wheels are exact: "
+        "every robot drives 3 m.",
+        "a streak across the way": "0.1 rad of heading times 3 m is 0.3 m to the side, six times "
+        "what the place was off by.",
+    },
+    right="a streak across the way",
+)
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# The Jacobian A of the motion f holds, in column j, how the end moves when component j of the start
-# moves by a little. That sentence is a program:
+# %% slideshow={"slide_type": "subslide"}
+x_hat, u = np.array([0, 0, 0.7]), np.array([3.0, 0.3])  # what it believes; distance and turn
+P, exact = np.diag([0.05, 0.05, 0.1]) ** 2, np.zeros((2, 2))
+ends = small_errors.driven(x_hat, P, u, exact, np.random.default_rng(4))
+end = models.f_odometry(x_hat, u)
+way = Poses("the way, as believed", [x_hat, end])
 
-
-# %% slideshow={"slide_type": "fragment"} tags=["code", "nbval-check-output"]
-def slopes(f, x, step=1e-6):
-    """∂f/∂x by differences: move one component of x a little, see what f does."""
-    return np.column_stack([(f(x + e) - f(x - e)) / (2 * step) for e in step * np.eye(len(x))])
-
-
-A_home = slopes(lambda pose: models.f_odometry(pose, three_metres), home)
-A_home.round(3)
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# Near the start, f is as good as the straight map "error of the start → A · error of the start". A
-# straight map turns the covariance P into A P Aᵀ.
-
-# %% slideshow={"slide_type": "slide"}
-way = Poses("the way, as believed", [home, models.f_odometry(home, three_metres)])
-ellipse = {"A P Aᵀ, 95 %": A_home @ P_home @ A_home.T}
-fig, ax = views.cloud(ends, ellipse, "1000 robots after 3 m", layers=[way])
+# %% slideshow={"slide_type": "fragment"} answers="04-streak"
+fig, _ = views.cloud(ends, {}, "Where 1000 robots end", (8, 5), [way])
+along, across = np.array([[np.cos(0.7), np.sin(0.7)], [-np.sin(0.7), np.cos(0.7)]])
+sigmas = [np.std(ends[:, :2] @ axis) for axis in (along, across)]
 views.show(
     fig,
-    f"End points of {len(ends)} robots form a streak across the way; the ellipse A P Aᵀ covers it.",
+    f"End points in a streak across the way: σ is {sigmas[1]:.2f} m across it, {sigmas[0]:.2f} along.",
+)
+
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="04-streak"
+# The streak lies **across** the way: $\sigma$ is {= sigmas[1]:.2f =} m to the side and
+# {= sigmas[0]:.2f =} m ahead. An error of the heading is levered by the distance.
+
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# ### A tangent
+#
+# Call the motion $f$. It is no matrix, but our errors are small, and seen from near a smooth function
+# looks like its tangent. With the error $\tilde x = x - \hat x$,
+#
+# $$f(\hat x + \tilde x) \approx f(\hat x) + A\,\tilde x. \tag{04.1}$$
+#
+# The matrix $A$ of this tangent is the **Jacobian** of $f$. It holds all the slopes: row $i$, column
+# $j$ says how the end's component $i$ moves when the start's component $j$ moves by a little,
+#
+# $$A_{ij} = \left.\frac{\partial f_i}{\partial x_j}\right|_{\hat x}. \tag{04.2}$$
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# By (04.1) a drive turns the error $\tilde x$ into $A \tilde x$. This is the situation of lesson 03,
+# with $A$ for $F$, and the recipe gives the same answer:
+#
+# $$P \leftarrow A P A^{\mathsf T} \tag{04.3}$$
+
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# ### The matrix of our drive
+#
+# The definition (04.2) can be carried out without any calculus: move one component of the start by
+# a millionth, see by how much the end moves, and divide. `slopes` does so, column by column.
+
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+A_here = slopes(lambda x: models.f_odometry(x, u), x_hat)
+A_here.round(3)
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# The first two columns say that an error of the place stays what it is. The third belongs to the
+# heading: for each radian that it is off, the end is off by {= A_here[0, 2]:.2f =} m in $x$ and by
+# {= A_here[1, 2]:.2f =} m in $y$. That is across the way, and 3 m long.
+
+# %% slideshow={"slide_type": "subslide"}
+ellipse = {"A P Aᵀ, 95 %": A_here @ P @ A_here.T}
+fig, _ = views.cloud(ends, ellipse, "Foretold by one matrix", (8, 5), [way], centre=end)
+foretold = share_inside(Belief(end, A_here @ P @ A_here.T), ends)
+views.show(
+    fig,
+    f"The same streak and the ellipse A P Aᵀ round the believed end; {foretold:.0%} lie inside.",
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** the streak lies *across* the way (the robots drove to the upper right), about 0.3 m to
-# either side per standard deviation: 3 m · 0.1 rad. One multiplication with A foretold what 1000
-# robots did.
+# The ellipse was computed without any of the dots, by (04.3). It was drawn round $f(\hat x)$, where the
+# filter believes the robot to be, and of the 1000 robots {= 100 * foretold:.0f =} % end inside; 95 %
+# would be perfect. A Kalman filter that works with such tangents is called *extended*: EKF.
 
-# %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* Most say "along the way", because they think of wheels that slip. Nothing
-# slips here: the control is exact, the streak comes from the heading alone.
-
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=3
-# ## Where a Jacobian fails
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=6
+# ## Where a tangent is not enough
 #
-# **Question.** A is taken at one heading. What if the heading may be far from there?
-#
-# **Predict** what becomes of the streak when σ of the heading is 0.6 rad (34°). Then move the
-# slider.
-
+# The tangent was taken at one heading, 0.7 rad. What if the true heading may be far from there?
 
 # %% slideshow={"slide_type": "fragment"}
-def banana(heading_sigma):
-    P = np.diag([0.05, 0.05, heading_sigma]) ** 2
-    starts = np.random.default_rng(4).multivariate_normal(home, P, 1000)
-    ends = np.array([models.f_odometry(pose, three_metres) for pose in starts])
-    ellipse = {"A P Aᵀ, 95 %": A_home @ P @ A_home.T}
-    fig, _ = views.cloud(ends, ellipse, f"σ of θ: {heading_sigma:.2f} rad", layers=[way])
-    return fig
+ask(
+    "04-bias",
+    "Now σ of the heading is 0.6 rad (34°). Still the filter believes in f(x̂), the end of a robot "
+    "with just the believed heading. Where do the 1000 robots end **on average**?",
+    {
+        "at f(x̂): left and right cancel": "the errors to the sides do cancel. But who heads off to "
+        "a side also gets less far ahead, on whichever side.",
+        "nearer to the start than f(x̂)": "every robot that heads off to a side gets less far ahead "
+        "than the believed one, and none gets farther.",
+        "farther from the start than f(x̂)": "all of them drive 3 m, so none can be farther than "
+        "3 m from where it started.",
+    },
+    right="nearer to the start than f(x̂)",
+)
+
+
+# %% slideshow={"slide_type": "subslide"}
+def drive(heading_sigma, distance):
+    """1000 robots after a drive, and what an EKF believes of them."""
+    u, P = np.array([distance, 0.3]), np.diag([0.05, 0.05, heading_sigma]) ** 2
+    A = jacobians.A_odometry(x_hat, u)
+    ends = small_errors.driven(x_hat, P, u, exact, np.random.default_rng(4))
+    return ends, Belief(models.f_odometry(x_hat, u), A @ P @ A.T)
+
+
+# %% slideshow={"slide_type": "fragment"} answers="04-bias"
+def banana(heading_sigma, distance):
+    ends, b = drive(heading_sigma, distance)
+    way = Poses("the way, as believed", [x_hat, b.x])
+    title = f"{share_inside(b, ends):.0%} of the robots are inside the ellipse"
+    return views.cloud(ends, {"A P Aᵀ, 95 %": b.P}, title, (8, 5), [way], centre=b.x)[0]
 
 
 views.explore(
     banana,
-    "The less sure the heading, the more the end points bend to a banana that the ellipse misses.",
+    lambda heading_sigma, distance: (
+        f"End points after {distance:.1f} m, σ of the heading {heading_sigma:.2f} rad: they bend "
+        "round the start, the ellipse of the tangent is straight; "
+        f"{share_inside(*drive(heading_sigma, distance)[::-1]):.0%} are inside."
+    ),
     heading_sigma=(0.02, 1.5, 0.6),
+    distance=(0.5, 6.0, 3.0),
 )
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** the end points bend round the start like a banana; the ellipse is straight, too long,
-# and its middle holds no robot. At 0.1 rad the two agree. A Jacobian is a promise for *small*
-# errors: an EKF must never let its heading get this bad, for its formulas will not tell.
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="04-bias"
+# The end points bend round the start like a banana. The ellipse is straight, as a tangent is: it is
+# too long, far too thin, and in the wrong place. Move $\sigma$ of the heading down to 0.1 rad, and the two
+# agree. Then lengthen the drive: the bend grows with it, and ever fewer robots are inside.
+
+# %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"] answers="04-bias"
+print("σ of θ   inside   their average is off f(x̂) by")
+for heading_sigma in (0.1, 0.3, 0.6):
+    ends_then, b = drive(heading_sigma, 3.0)
+    off = np.hypot(*(ends_then.mean(axis=0) - b.x)[:2])
+    print(f"{heading_sigma:3} rad {share_inside(b, ends_then):8.0%} {off:13.2f} m")
+
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="04-bias"
+# At 0.6 rad the robots end on average {= off:.2f =} m short of where the filter believes. Nothing in
+# (04.3) tells it so, for a tangent knows nothing of the curve that it touches.
+#
+# **A Jacobian is a promise about small errors.** An EKF must never let its heading get this unsure.
+# Samples (lesson 11) need no tangent, and in the exercise you will do better than (04.3), too.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* Let someone find the σ at which they would stop trusting the ellipse (0.2 to
-# 0.3 rad, most say). Ask: would a longer drive help? No: the banana only grows. Samples (lesson
-# 11) have no such limit.
-
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=2
-# ## The observation model h
-#
-# The robot at (x, y, θ) sees a landmark at (p_x, p_y): at which range r and which bearing β?
-
-# %% slideshow={"slide_type": "fragment"}
-x, y, theta, p_x, p_y, d, beta = sp.symbols("x y theta p_x p_y d beta", real=True)
-r = sp.symbols("r", positive=True)
-turn = sp.symbols("Δθ", real=True)
-pose, landmark = [x, y, theta], [p_x, p_y]
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# The range is Pythagoras:
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-range_of = sp.sqrt((p_x - x) ** 2 + (p_y - y) ** 2)
-range_of
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# The bearing is the landmark's direction in the world, less the robot's heading:
-
-# %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* Ask what atan2 has that tan⁻¹ of the quotient has not (the landmark behind
-# the robot). Leave it at that: the harm is shown below.
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-bearing_of = sp.atan2(p_y - y, p_x - x) - theta
-bearing_of
-
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=6
-# ## H, derived line by line
-#
-# **Question.** Six numbers: how do range and bearing change when the robot's x, y or θ does?
-#
-# **Predict** which of the six is zero, and which is −1 whatever the landmark.
-
-
-# %% slideshow={"slide_type": "fragment"}
-def in_r(expression):
-    """Write r for the root."""
-    return sp.simplify(expression.subs((p_x - x) ** 2 + (p_y - y) ** 2, r**2))
-
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-h = sp.Matrix([range_of, bearing_of])  # the model: change this line
-H_steps = (
-    derive("H", partials(h, pose), "by definition: ∂h/∂(x, y, θ)")
-    .step("by x; the derivative of atan2 has r² below", differentiate(x))
-    .step("by y", differentiate(y))
-    .step("by θ: turning on the spot brings no landmark nearer", differentiate(theta))
-)
-H_robot = H_steps.result
-H_steps.step("the root is r again: give it its name", in_r, given={r: range_of})
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# What is new in a line is blue and underlined, and the machine has checked each line against the
-# one before. Turn left, and the whole world turns right: −1.
-#
-# **Try** `range_of**2`, a sensor that tells the square of the range: every line follows, and in the
-# last one the first row has no r below any more: it grows with the distance.
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# **Read it with units.** The first row has none (metres per metre): it is the unit vector from the
-# landmark to the robot. The second is in rad/m and fades with 1/r: a far landmark says little about
-# where you are, and as much as a near one about where you look.
-
-# %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* What usually goes wrong: the sign of the second row's second entry. Do it
-# with the body: look at a student, step left, the student moves to the right: the bearing shrinks.
-# So −(p_x − x)/r².
-
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=3
-# ## Trust nothing: three ways to the same matrix
-#
-# A derivation can be mistyped, code can be mistyped, a step size can be bad; all three alike,
-# hardly. At one point with nothing special about it we compare the derivation with
-# `slamlab.models.symbolic`, with the fast code in `slamlab.models.jacobians`, and with differences of
-# the model itself.
-
-# %% slideshow={"slide_type": "fragment"}
-POINT = {x: 1.2, y: -0.7, theta: 0.9, p_x: -1.5, p_y: 2.2, d: 1.3, turn: 0.4, r: 3.1, beta: 1.1}
-POSE, LANDMARK, DRIVE, SEEN = (
-    np.array([POINT[symbol] for symbol in names])
-    for names in (pose, landmark, [d, turn], [r, beta])
-)
-
-
-def hold(name, derived, twin, code, differences, point=POINT):
-    """Print by how much a derivation differs from its twin, from the code and from the model."""
-    value = np.array(derived.subs(point).evalf(), dtype=float)
-    print(
-        f"{name:10} − symbolic: {sp.simplify(derived - twin).norm()}"
-        f"   − code: {abs(value - code).max():.6f}"
-        f"   − differences: {abs(value - differences).max():.6f}"
-    )
-
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-by_differences = slopes(lambda pose: models.h(pose, LANDMARK), POSE)
-hold("H_robot", H_robot, symbolic.H_robot, jacobians.H_robot(POSE, LANDMARK), by_differences)
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# Three zeros: the derivation, the code and the model agree.
-
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=3
-# ## The landmark's part of H
-#
-# In SLAM the landmarks are unknown too, so H has columns for them.
-#
-# **Question.** Robot and landmark both move 1 m north. What changes in r and β? **Predict** from
-# that how these columns look, without differentiating.
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-H_landmark = sp.Matrix([range_of, bearing_of]).jacobian(landmark)
-H_landmark.applyfunc(in_r)
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-sp.simplify(H_robot[:, :2] + H_landmark)
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# Nothing changes, so the two parts cancel: only the offset between robot and landmark is seen.
-# That is why SLAM finds a map only up to a shift and a turn: h cannot tell.
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-by_differences = slopes(lambda landmark: models.h(POSE, landmark), LANDMARK)
-by_code = jacobians.H_landmark(POSE, LANDMARK)
-hold("H_landmark", H_landmark, symbolic.H_landmark, by_code, by_differences)
-
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=3
-# ## The innovation must be wrapped
-#
-# The filter corrects by the *innovation*, measured minus predicted. Angles count modulo 2π.
-#
-# **Question.** The robot predicts a bearing of 179° and measures −179°. By how much was it wrong?
-# What does a filter believe that subtracts?
-
-
-# %% slideshow={"slide_type": "fragment"} tags=["code"]
-def update(x, P, z, p, H, R, wrapped=True):
-    """One step of the EKF (lesson 03): a known landmark p was seen at z."""
-    innovation = z - models.h(x, p)
-    if wrapped:
-        innovation[1] = wrap(innovation[1])
-    S = H @ P @ H.T + R
-    K = P @ H.T @ np.linalg.inv(S)
-    return x + K @ innovation, P - K @ S @ K.T
-
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-believed, behind = np.array([0, 0, 0.0]), np.array([-3.0, 0.05])
-measured, P = np.array([3.0, -np.radians(179)]), np.diag([0.1, 0.1, 0.1]) ** 2
-H_behind, R = jacobians.H_robot(believed, behind), noise.R(3, 0.01, 0.02)
-for wrapped in (True, False):
-    after, _ = update(believed, P, measured, behind, H_behind, R, wrapped)
-    print(f"wrapped {wrapped!s:5}: heading {np.degrees(after[2]):7.1f}°, y {after[1]:6.2f} m")
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# Wrapped, the heading moves by 2°. Unwrapped, the filter sees an error of 358° and throws the robot
-# almost once round. No source says "wrap"; every one that runs must.
-
-# %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* This bug shows only when a landmark passes behind the robot: tests with
-# everything in front are green. Ask who has had such a bug in a compass or a clock.
+# *For the lecturer:* Let somebody find the σ at which they would no longer sign for the ellipse.
+# Then ask which of the two, a longer drive or a vaguer heading, is the more dangerous.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=5
-# ## The motion model f, and A
+# ## The motion and its Jacobian A
 #
-# Odometry gives a distance d and a turn Δθ: drive along the old heading, to x + d cos θ and
-# y + d sin θ, then turn, to θ + Δθ.
+# A matrix of numbers holds at one pose only. A filter needs $A$ at every step, so we derive it once,
+# in letters.
 #
-# **Predict** the columns of A: what does an error of the old x do to the new pose? And one of the
-# old θ?
+# Odometry reports a control $u = (d, \Delta\theta)$: the robot drove the distance $d$ along its old
+# heading and then turned by $\Delta\theta$. That is our motion model:
+#
+# $$f(x, u) = \begin{bmatrix} x + d\cos\theta \\ y + d\sin\theta \\ \theta + \Delta\theta
+# \end{bmatrix} \tag{04.4}$$
 
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-f = sp.Matrix([x + d * sp.cos(theta), y + d * sp.sin(theta), theta + turn])  # the model
+# %% slideshow={"slide_type": "fragment"}
+from slamlab.models.symbolic import beta, d, dtheta, p_x, p_y, r, theta, x, y
+
+pose, control, landmark, sight = [x, y, theta], [d, dtheta], [p_x, p_y], [r, beta]
 dx, dy = sp.symbols("Δx Δy", real=True)
+
+# %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
+f = sp.Matrix([x + d * sp.cos(theta), y + d * sp.sin(theta), theta + dtheta])  # the model
 A_steps = (
-    derive("A", partials(f, pose), "by definition: ∂f/∂(x, y, θ)")
+    derive("A", partials(f, pose), "by definition (04.2)")
     .step("by x and by y", differentiate(x, y))
     .step("by θ", differentiate(theta))
 )
@@ -308,748 +229,721 @@ by_hand = sp.Matrix([[1, 0, -dy], [0, 1, dx], [0, 0, 1]])
 A_steps.step("with the step's own Δx and Δy", by_hand, given={dx: f[0] - x, dy: f[1] - y})
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# An error of position stays as it is. An error of heading swings the step's end sideways: (−Δy,
-# Δx) is the step (Δx, Δy) turned by 90°. That was the streak across the way.
+# What is new in a line is blue and underlined, and the machine has checked each line against the
+# one before.
+
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# ### Read it
 #
-# **Try** a robot that turns first: θ + Δθ in cosine and sine. Every line follows, and the last one,
-# written by hand, holds as well. Then take the minus before dy away: that line is refused, with a
-# point where the two differ.
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-by_differences = slopes(lambda pose: models.f_odometry(pose, DRIVE), POSE)
-hold("A", A, symbolic.A_odometry, jacobians.A_odometry(POSE, DRIVE), by_differences)
-
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=1
-# ## W: what the controls' noise does
+# $$A = \begin{bmatrix} 1 & 0 & -\Delta y \\ 0 & 1 & \Delta x \\ 0 & 0 & 1 \end{bmatrix} \tag{04.5}$$
 #
-# **Question.** Now d and Δθ are wrong as well. Which derivative says what that does to the pose,
-# and which shape has it?
+# Here $(\Delta x, \Delta y)$ is the step that the robot made in the world, and $(-\Delta y, \Delta x)$
+# is that step turned by 90°: the streak across the way. You can see it without calculus. If the
+# heading is off, the whole step swings round its start, and its end moves at right angles to it.
+#
+# **Try** a robot that turns *before* it drives: write $\theta + \Delta\theta$ in the cosine and the
+# sine. All lines follow, and (04.5) still holds. Then take the minus before `dy` away: the machine
+# refuses that line, and shows a point where the two differ.
 
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-W = f.jacobian([d, turn])
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=5
+# ## Wheels err, too: W and Q
+#
+# Real wheels slip, so the control has an error $\tilde u$ as well, with a covariance $C$. The tangent of
+# $f$ in the direction of $u$ says what that does, and its matrix is called $W$:
+#
+# $$\tilde x \leftarrow A\,\tilde x + W \tilde u, \qquad W = \frac{\partial f}{\partial u} \tag{04.6}$$
+#
+# The robot's error and this step's slip have nothing to do with each other, so the recipe of lesson
+# 03 adds their covariances:
+#
+# $$P \leftarrow A P A^{\mathsf T} + Q, \qquad Q = W C W^{\mathsf T} \tag{04.7}$$
+
+# %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
+W = f.jacobian(control)
 W
 
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-by_differences = slopes(lambda drive: models.f_odometry(POSE, drive), DRIVE)
-hold("W", W, symbolic.W_odometry, jacobians.W_odometry(POSE, DRIVE), by_differences)
-
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=2
-# ## The steered robot
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# The first column, for an error of the distance, points **along** the heading. The second, for an error
+# of the turn, changes the heading only, as the turn comes last.
 #
-# The MAK thesis drives a car: speed V, steering angle γ, wheel base B, period T (its (2.27)).
+# A look at the units finds many a mistake. $C$ holds the *variances* of $d$ and of $\Delta\theta$, in m²
+# and rad². $W$ carries them to the pose, so that $Q$ has m² in its upper left block and rad² in its corner.
 
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-V, gamma = sp.symbols("V gamma", real=True)
-B, T = sp.symbols("B T", positive=True)
-f_steered = sp.Matrix(
-    [
-        x + T * V * sp.cos(theta + gamma),
-        y + T * V * sp.sin(theta + gamma),
-        theta + T * V / B * sp.sin(gamma),
-    ]
+
+# %% slideshow={"slide_type": "subslide"}
+def wheels(distance_error, heading_sigma):
+    """1000 robots with wheels that err by a share of the distance: with Q and without."""
+    P, C = np.diag([0.05, 0.05, heading_sigma]) ** 2, noise.C_odometry(u, distance_error, 0.1)
+    ends = small_errors.driven(x_hat, P, u, C, np.random.default_rng(4))
+    trusted = A_here @ P @ A_here.T
+    claims = {"A P Aᵀ + Q": trusted + noise.Q(jacobians.W_odometry(x_hat, u), C)}
+    claims |= {"A P Aᵀ, wheels trusted": trusted}
+    title = f"{share_inside(Belief(end, claims['A P Aᵀ + Q']), ends):.0%} inside the solid ellipse"
+    return views.cloud(ends, claims, title, (8, 5), [way], centre=end)[0]
+
+
+# %% slideshow={"slide_type": "fragment"}
+views.explore(
+    wheels,
+    lambda distance_error, heading_sigma: (
+        f"End points with wheels off by {distance_error:.0%} of the way and a heading off by "
+        f"{heading_sigma:.2f} rad. The first widens the cloud along the way, the second across it; "
+        "the solid ellipse follows both, the dashed one only the second."
+    ),
+    distance_error=(0.0, 0.2, 0.1),
+    heading_sigma=(0.0, 0.2, 0.1),
 )
-f_steered
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# **Predict** A: what differs from the odometry's?
+# With wheels that err by 10 % of the distance, the streak has become nearly round. $A$ widens it across the
+# way, $W$ along it: two errors at right angles. A filter that trusts its wheels believes in the dashed
+# ellipse. Set either slider to zero to see the other error alone.
+
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=7
+# ## Part two: what the robot sees, and H
+#
+# So much for moving; this is a good place for a break. Now the robot looks. It sees a landmark at
+# $p = (p_x, p_y)$ and measures a range $r$ and a bearing $\beta$. Pythagoras gives the range. The
+# bearing is the landmark's direction in the world, less the robot's own heading. Together they are
+# the observation model:
+#
+# $$h(x, p) = \begin{bmatrix} \sqrt{(p_x - x)^2 + (p_y - y)^2} \\
+# \operatorname{atan2}(p_y - y,\ p_x - x) - \theta \end{bmatrix} \tag{04.8}$$
+#
+# The filter of lesson 03 needs a matrix $H$ that says how a small error of the pose shows in the
+# measurement. Once more that is the Jacobian.
+
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Ask what atan2 has that the arctangent of the quotient has not. Then do the next
+# derivation with the body: look at a student, step to your left, and let the class say where that student
+# has gone in your view.
+
+
+# %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
+def in_r(expression):
+    """Write r for the root."""
+    return sp.simplify(expression.subs((p_x - x) ** 2 + (p_y - y) ** 2, r**2))
+
+
+root = sp.sqrt((p_x - x) ** 2 + (p_y - y) ** 2)
+h = sp.Matrix([root, sp.atan2(p_y - y, p_x - x) - theta])  # the model
+H_steps = (
+    derive("H_r", partials(h, pose), "by definition")
+    .step("by x; the derivative of atan2 has r² below", differentiate(x))
+    .step("by y", differentiate(y))
+    .step("by θ: turning on the spot brings no landmark nearer", differentiate(theta))
+)
+H_steps.step("the root is r again: give it its name", in_r, given={r: root})
+
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# ### Read it
+#
+# $$H_{\mathrm r} = \frac{\partial h}{\partial x} = \begin{bmatrix}
+# -\dfrac{p_x - x}{r} & -\dfrac{p_y - y}{r} & 0 \\[2ex]
+# \dfrac{p_y - y}{r^2} & -\dfrac{p_x - x}{r^2} & -1 \end{bmatrix} \tag{04.9}$$
+#
+# The roman subscript stands for the robot. The row of the range is the unit vector that points from the
+# landmark to the robot: a step that way is the whole change of the range, a turn changes nothing. In the
+# row of the bearing, the $-1$ says that whoever turns left sees the whole world turn right.
+
+# %% slideshow={"slide_type": "fragment"}
+ask(
+    "04-far",
+    "Another landmark stands in the same direction, twice as far away. What becomes of the first two "
+    "columns of (04.9)?",
+    {
+        "both rows become half as large": "the row of the range is a unit vector: numerator and r "
+        "double together.",
+        "only the row of the bearing becomes half as large": "its numerators double, its r² "
+        "becomes four times as large.",
+        "both stay what they are": "walk past a tower on the horizon and past a lamp post: the bearing "
+        "of which of them changes faster?",
+    },
+    right="only the row of the bearing becomes half as large",
+)
+
+# %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"] answers="04-far"
+here = np.zeros(3)
+for p in ([2.0, 1.0], [4.0, 2.0]):
+    print(f"landmark at {p}:", jacobians.H_robot(here, p).round(3).tolist())
+
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="04-far"
+# Units explain it. The row of the range has none, metres per metre; the row of the bearing is in
+# radians per metre, hence the second $r$ below. So the **bearing** of a far landmark says little about
+# where you are, though as much as that of a near one about where you look. The **range** of a far landmark
+# says as much about where you are as that of a near one.
+#
+# **Try** a sensor that measures the square of the range, `root**2`, in the derivation above. Every line
+# follows.
+
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=5
+# ## What no sight can tell
+#
+# In SLAM the landmark is unknown, too, and $H$ gets columns for it. We need not differentiate again:
+# (04.8) holds only the *differences* of $p$ and $(x, y)$, so the landmark's columns are minus the robot's
+# first two.
+#
+# $$H_{\mathrm p} = \frac{\partial h}{\partial p} = \begin{bmatrix}
+# \dfrac{p_x - x}{r} & \dfrac{p_y - y}{r} \\[2ex]
+# -\dfrac{p_y - y}{r^2} & \dfrac{p_x - x}{r^2} \end{bmatrix} \tag{04.10}$$
+
+# %% slideshow={"slide_type": "fragment"}
+ask(
+    "04-hall",
+    "At night somebody carries the whole hall away, the robot and all landmarks in it: 1 m to the "
+    "north, and turned by 10°. What does the robot see in the morning?",
+    {
+        "all bearings have changed by 10°": "they would if only the robot or only the landmarks had been "
+        "turned. Its heading has turned along with the landmarks.",
+        "some ranges have changed by up to 1 m": "they would if only the robot had been shifted. The "
+        "landmarks came along.",
+        "exactly what it saw before": "ranges and bearings depend on where things stand to each other, "
+        "and that is as before.",
+    },
+    right="exactly what it saw before",
+)
+
+# %% [markdown] slideshow={"slide_type": "subslide"} answers="04-hall"
+# A small shift moves robot and landmark alike. A small turn by $\delta$ about the origin moves a
+# point $(x, y)$ by $\delta\,(-y, x)$ and adds $\delta$ to the heading. If sights cannot tell, $H$ must
+# say zero to both:
+#
+# $$H_{\mathrm r}\begin{bmatrix} 1 & 0 & -y \\ 0 & 1 & x \\ 0 & 0 & 1 \end{bmatrix} + H_{\mathrm p}
+# \begin{bmatrix} 1 & 0 & -p_y \\ 0 & 1 & p_x \end{bmatrix} = 0 \tag{04.11}$$
+
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="04-hall"
+H_r, H_p = h.jacobian(pose), h.jacobian(landmark)
+carried_robot = sp.Matrix([[1, 0, -y], [0, 1, x], [0, 0, 1]])  # columns: both shifts, the turn
+carried_landmark = sp.Matrix([[1, 0, -p_y], [0, 1, p_x]])
+sp.simplify(H_r * carried_robot + H_p * carried_landmark)
+
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="04-hall"
+# So SLAM can find a map only **up to a shift and a turn**. Where the origin is, and where $x$ points to,
+# is for us to choose; the usual choice is the robot's first pose.
+
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=4
+# ## Angles jump, derivatives do not
+#
+# The filter corrects by the innovation $v = z - h(\hat x, p)$, measured minus predicted. One half of it
+# is an angle, and angles start again after a full turn.
+
+# %% slideshow={"slide_type": "fragment"}
+ask(
+    "04-wrap",
+    "A landmark is nearly behind the robot. The predicted bearing is 179°, the measured one −179°. Which "
+    "innovation should the filter get?",
+    right=2,
+    tolerance=0.5,
+    unit="degrees",
+    reason="from 179° on to 181°, which is the same direction as −179°.",
+    wrong={
+        -358: "that is what subtraction says. It is nearly a full turn, and the filter would believe "
+        "that it was wrong by as much.",
+        358: "measured minus predicted has the other sign; and nearly a full turn is a small angle.",
+        -2: "the other way round: the measured bearing lies farther to the left.",
+    },
+)
+
+# %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"] answers="04-wrap"
+predicted, measured = np.array([3.0, np.radians(179)]), np.array([3.0, np.radians(-179)])
+H_behind = jacobians.H_robot(here, models.g(here, predicted))
+P_place, R = np.diag([0.1, 0.1, 0.1]) ** 2, noise.R(3.0, range_error=0.01, bearing_sigma=0.02)
+K = P_place @ H_behind.T @ np.linalg.inv(H_behind @ P_place @ H_behind.T + R)
+v = measured - predicted
+for name, bearing in {"subtracted": v[1], "wrapped": wrap(v[1])}.items():
+    correction = K @ [v[0], bearing]
+    print(f"{name:10}: heading {np.degrees(correction[2]):6.1f}°, y {correction[1]:6.2f} m")
+
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="04-wrap"
+# Subtracted, the innovation throws the robot almost once round; wrapped, it moves the heading by
+# {= abs(np.degrees(correction[2])):.1f =}°. So every filter that works has
+#
+# $$v_\beta = \operatorname{wrap}(z_\beta - h_\beta(\hat x, p)) \in (-\pi, \pi], \tag{04.12}$$
+#
+# though no derivation says it: slopes know nothing of the jump. And all angles are in **radians**, for
+# only then is the slope of the sine a cosine.
+
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* This fault shows only when a landmark passes behind the robot; tests with everything
+# in front stay green. Ask who has had such a bug in a compass or a clock.
+
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=6
+# ## A new landmark
+#
+# A landmark that is seen for the first time goes into the map where pose and sight put it. That is $h$
+# the other way round:
+#
+# $$p = g(x, z) = \begin{bmatrix} x + r\cos(\theta + \beta) \\ y + r\sin(\theta + \beta)
+# \end{bmatrix} \tag{04.13}$$
+#
+# The place will be wrong because the pose is wrong, and because the sight is. Each of the two has its
+# Jacobian.
+
+# %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
+g = sp.Matrix([x + r * sp.cos(theta + beta), y + r * sp.sin(theta + beta)])  # the model
+(
+    derive("J_r", partials(g, pose), "by definition: ∂g by the robot's pose")
+    .step("by x and by y: the landmark goes where the robot goes", differentiate(x, y))
+    .step("by θ: it swings round the robot", differentiate(theta))
+)
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-A_steered = f_steered.jacobian(pose)
-A_steered
+(
+    derive("J_z", partials(g, sight), "by definition: ∂g by range and bearing")
+    .step("by r: along the line of sight", differentiate(r))
+    .step("by β: across it, and the more the farther", differentiate(beta))
+)
+
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# ### Read it
+#
+# With $\varphi = \theta + \beta$, the direction of the landmark in the world,
+#
+# $$J_{\mathrm r} = \begin{bmatrix} 1 & 0 & -r\sin\varphi \\ 0 & 1 & r\cos\varphi \end{bmatrix},
+# \qquad J_z = \begin{bmatrix} \cos\varphi & -r\sin\varphi \\ \sin\varphi & r\cos\varphi
+# \end{bmatrix}. \tag{04.14}$$
+#
+# A landmark is the end of a stick of length $r$ that is fixed to the robot. Shift the robot, and the end
+# goes along; turn it, and the end swings sideways, as the step did in (04.5).
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# How wrong is a sight? The range of our lidar errs by a share $k$ of itself, the bearing by the same
+# $\sigma_\beta$ at every range. A covariance holds the *squares*:
+#
+# $$R = \begin{bmatrix} (k\,r)^2 & 0 \\ 0 & \sigma_\beta^2 \end{bmatrix} \tag{04.15}$$
+
+# %% slideshow={"slide_type": "subslide"}
+ask(
+    "04-stick",
+    "The place of a robot is known to 0.15 m, its heading to 0.08 rad. It sees a landmark 5 m away; the "
+    "range is good to 2 %, the bearing to 0.02 rad. In which direction is the new landmark least sure?",
+    {
+        "along the line of sight": "there only the place of the robot and the range count: 0.15 m and "
+        "2 % of 5 m.",
+        "across the line of sight": "5 m times 0.08 rad is 0.4 m, more than anything else.",
+        "in all directions alike": "the place of the robot does count alike in all directions; but the "
+        "heading swings the landmark to the sides only.",
+    },
+    right="across the line of sight",
+)
+
+
+# %% slideshow={"slide_type": "subslide"} answers="04-stick"
+def first_sight(landmark_range, heading_sigma):
+    """1000 places where a landmark may be that was seen once, and the ellipse of (04.17)."""
+    x_hat, z = np.array([0, 0, 0.4]), np.array([landmark_range, 0.8])
+    P, R = np.diag([0.15, 0.15, heading_sigma]) ** 2, noise.R(landmark_range, 0.02, 0.02)
+    marks = small_errors.placed(x_hat, P, z, R, np.random.default_rng(4))
+    J_r, J_z = jacobians.J_xr(x_hat, z), jacobians.J_z(x_hat, z)
+    P_nn, p = small_errors.new_landmark(P, J_r, J_z, R), models.g(x_hat, z)
+    line = Poses("the line of sight", [x_hat, [*p, 1.2]])
+    title = f"{np.mean(nees(marks - p, P_nn) < 5.99):.0%} of the places are inside the ellipse"
+    return views.cloud(marks, {"P_nn of (04.17), 95 %": P_nn}, title, (8, 5), [line], centre=p)[0]
+
+
+# %% slideshow={"slide_type": "fragment"} answers="04-stick"
+views.explore(
+    first_sight,
+    lambda landmark_range, heading_sigma: (
+        f"Places of a landmark seen once at {landmark_range:.1f} m by robots whose heading is off by "
+        f"{heading_sigma:.2f} rad, and their ellipse: the farther, and the vaguer the heading, the "
+        "wider across the line of sight."
+    ),
+    landmark_range=(1.0, 10.0, 5.0),
+    heading_sigma=(0.0, 0.3, 0.08),
+)
+
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="04-stick"
+# The cloud is wide across the line of sight. Bring the landmark to 1 m, and the cloud is nearly round:
+# the lever is gone. Make the heading vaguer at 10 m, and you meet the banana again. The next section
+# computes the ellipse.
+
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=5
+# ## Whom a new landmark knows
+#
+# Let $n$ be the new landmark. To first order its error is made of the robot's error and of the sight's
+# noise $\varepsilon$:
+#
+# $$\tilde p_n = J_{\mathrm r}\,\tilde x + J_z\,\varepsilon \tag{04.16}$$
+#
+# The map may hold older landmarks. Take one, $i$, whose error has something in common with the
+# robot's: their covariance is $P_{\mathrm ri}$.
+
+# %% slideshow={"slide_type": "fragment"}
+ask(
+    "04-cross",
+    "The new landmark n has just been placed. What is the covariance of its error and that of landmark i, "
+    "which the robot does not see at the moment?",
+    {
+        "zero: the two were never seen together": "they need not be. Landmark i hangs together with the "
+        "robot, and n was placed from where the robot believes to be.",
+        "not zero": "the error of the robot is in n, and it has something in common with that of i.",
+        "unknown, until both are seen at once": "(04.16) says all that is needed.",
+    },
+    right="not zero",
+)
+
+# %% [markdown] slideshow={"slide_type": "subslide"} answers="04-cross"
+# The recipe of lesson 03 answers: multiply two errors, take the expected value. The noise of this sight
+# has nothing to do with any earlier error.
+
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="04-cross"
+x_error, p_i, eps = (sp.MatrixSymbol(n, k, 1) for n, k in [("x", 3), ("p_i", 2), ("eps", 2)])
+P_rr, P_ii, R_ = symmetric("P_rr", 3), symmetric("P_ii", 2), symmetric("R", 2)
+P_ri, J_r, J_z = (sp.MatrixSymbol(*n) for n in [("P_ri", 3, 2), ("J_r", 2, 3), ("J_z", 2, 2)])
+known = {x_error * x_error.T: P_rr, x_error * p_i.T: P_ri, p_i * p_i.T: P_ii, eps * eps.T: R_}
+E = expectation(known)
+p_n = J_r * x_error + J_z * eps
+print("P_nn =", E(p_n * p_n.T))
+print("P_rn =", E(x_error * p_n.T))
+print("P_ni =", E(p_n * p_i.T))
+
+# %% [markdown] slideshow={"slide_type": "subslide"} answers="04-cross"
+# $$\begin{aligned}
+# P_{nn} &= J_{\mathrm r} P_{\mathrm{rr}} J_{\mathrm r}^{\mathsf T} + J_z R J_z^{\mathsf T} \\
+# P_{\mathrm rn} &= P_{\mathrm{rr}} J_{\mathrm r}^{\mathsf T} \\
+# P_{ni} &= J_{\mathrm r} P_{\mathrm ri} \end{aligned} \tag{04.17}$$
+#
+# A new landmark is born as a relative of the robot, and of all that the robot is related to. Whoever sets
+# $P_{\mathrm rn}$ and $P_{ni}$ to zero makes the filter forget that its whole map shares errors. Lesson
+# 07 shows what that costs. (Two students who copied from the same neighbour make the same mistakes, though
+# they have never met.)
+
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=3
+# ## Trust nothing: three ways to the same matrix
+#
+# A derivation can be mistyped, a program can be mistyped, and differences depend on their step size. That
+# all three go wrong in the same way is hardly possible. So at one pose with nothing special about it we
+# hold three against each other: the derivation, the code of `slamlab`, and `slopes` of the model itself.
+
+# %% slideshow={"slide_type": "fragment"}
+at = {x: 1.2, y: -0.7, theta: 0.9, p_x: -1.5, p_y: 2.2, d: 1.3, dtheta: 0.4, r: 3.1, beta: 1.1}
+X, U, LANDMARK, Z = (np.array([at[one] for one in n]) for n in (pose, control, landmark, sight))
+ways = {
+    "A": (A, jacobians.A_odometry(X, U), slopes(lambda x: models.f_odometry(x, U), X)),
+    "W": (W, jacobians.W_odometry(X, U), slopes(lambda u: models.f_odometry(X, u), U)),
+    "H_r": (H_r, jacobians.H_robot(X, LANDMARK), slopes(lambda x: models.h(x, LANDMARK), X)),
+    "H_p": (H_p, jacobians.H_landmark(X, LANDMARK), slopes(lambda p: models.h(X, p), LANDMARK)),
+    "J_r": (g.jacobian(pose), jacobians.J_xr(X, Z), slopes(lambda x: models.g(x, Z), X)),
+    "J_z": (g.jacobian(sight), jacobians.J_z(X, Z), slopes(lambda z: models.g(X, z), Z)),
+}
+
+
+# %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
+def hold(name, formula, code, slope, at=at):
+    """Print by how much a derivation differs from the code and from the slopes of the model."""
+    value = np.array(formula.subs(at).evalf(), dtype=float)
+    off = [abs(value - other).max() for other in (code, slope)]
+    print(f"{name:3}  derivation − code {off[0]:.6f}   derivation − slopes {off[1]:.6f}")
+
+
+for name, three in ways.items():
+    hold(name, *three)
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# Zeros all the way down. Such a test costs a line for each matrix and needs no idea of what the right
+# answer is, and no entry that is wrong at this pose escapes it. Make it your habit.
+
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=5
+# ## What one wrong sign does
+#
+# Suppose we had not tested. In the row of the bearing of $H_{\mathrm r}$, somebody has lost the minus
+# before $(p_x - x)/r^2$. One sign in six entries; everything else is right. A robot stands still and
+# corrects its pose 20 times by three landmarks that it knows.
+
+# %% slideshow={"slide_type": "fragment"}
+ask(
+    "04-sign",
+    "How does the filter fare after 20 sights with one wrong sign in H?",
+    {
+        "its error stays large, and so does its σ": "σ comes from P, and P is computed from H and R "
+        "alone. It shrinks with every sight, whatever is measured.",
+        "its error stays large, but its σ becomes small": "P shrinks with every sight, as it would with "
+        "a right H, while the corrections go astray.",
+        "its error becomes small, only more slowly": "some of the corrections go the wrong way; more of "
+        "them do not help.",
+    },
+    right="its error stays large, but its σ becomes small",
+)
+
+
+# %% slideshow={"slide_type": "subslide"} answers="04-sign"
+def spoiled(factor, landmarks):
+    """Errors of 100 robots whose ∂β/∂y is multiplied by a factor, and what they believe."""
+    (right, _), (wrong, believed) = (small_errors.localised(k, landmarks) for k in (1, factor))
+    steps = np.arange(1, 21)
+    title = f"∂β/∂y times {factor:.2f}".replace("-", "−")
+    fig, ax = views.chart("sights", "place [m]", title, (8, 4))
+    lines = {
+        "error, right H": (right, "corrected", "-"),
+        "error, spoiled H": (wrong, "naive", "--"),
+    }
+    lines |= {"σ believed with spoiled H": (believed, "limit", "-.")}
+    for name, (values, colour, dash) in lines.items():
+        ax.plot(steps, values, dash, color=views.COLOURS[colour], label=name)
+    ax.set(ylim=(0, None), xticks=[1, 5, 10, 15, 20])
+    views.legend(ax)
+    return fig
+
+
+# %% slideshow={"slide_type": "fragment"} answers="04-sign"
+def last(factor, landmarks):
+    """Median error and believed σ after the last sight."""
+    return [each[-1] for each in small_errors.localised(factor, landmarks)]
+
+
+views.explore(
+    spoiled,
+    lambda factor, landmarks: (
+        f"Median errors fall to {last(1, landmarks)[0]:.2f} m with the right H; with one entry "
+        f"spoiled to {last(factor, landmarks)[0]:.2f} m, {last(factor, landmarks)[1]:.2f} m believed."
+    ),
+    factor=(-1.0, 1.0, -1.0),
+    landmarks=(1, 3, 3),
+)
+(right, _), (wrong, believed), (forgiven, _) = last(1, 3), last(-1, 3), last(0.5, 3)
+
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="04-sign"
+# With the wrong sign the median error is {= 100 * wrong:.1f =} cm after 20 sights, with the right $H$
+# {= 100 * right:.1f =} cm. And the filter believes in {= 100 * believed:.1f =} cm: it is sure of
+# something wrong, for no innovation enters $P$ (lesson 03).
+#
+# Move the factor. At one half the error is {= 100 * forgiven:.1f =} cm, nearly as good as right: the
+# next sight mends what the last one missed. A wrong *size* may be forgiven; a wrong *sign* sends the robot the
+# wrong way. Neither can be read off the believed $\sigma$. Only a test finds it.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
-# Again (−Δy, Δx): only the step's direction is another. The noise adds to V and γ, so W has their
-# two columns:
+# ## Literature
+#
+# - C. G. J. Jacobi, "De determinantibus functionalibus", *Journal für die reine und angewandte
+#   Mathematik* 22, 1841: the matrix's name.
+# - G. L. Smith, S. F. Schmidt and L. A. McGee, *Application of statistical filter theory to the optimal
+#   estimation of position and velocity on board a circumlunar vehicle*, NASA TR R-135, 1962: tangents in
+#   the Kalman filter, for the way to the Moon.
+# - R. Smith, M. Self and P. Cheeseman, "Estimating uncertain spatial relationships in robotics", in
+#   *Autonomous Robot Vehicles*, Springer, 1990: the blocks of a new landmark.
+# - S. J. Julier and J. K. Uhlmann, "Unscented filtering and nonlinear estimation", *Proceedings of the
+#   IEEE* 92(3), 2004: better than a tangent.
+#
+# **Read next:** S. Thrun, W. Burgard and D. Fox, *Probabilistic Robotics*, MIT Press, 2005, chapters 5
+# and 6.
+
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=1
+# ## What you can do now
+#
+# You can derive a Jacobian, read it with units and pictures, test it in three ways, and say where it fails:
+# at large errors.
+#
+# **What comes next:** [lesson 05](05_two_easy_halves.ipynb) puts $A$ and $H$ to work. Where am I in a known
+# map, and where are the landmarks if I know where I am?
+#
+# The sections below this one are optional.
+#
+# **Exercise:** [04 · Models and Jacobians](../exercises/ex04_models_and_jacobians.ipynb). You write $H$ and
+# the Jacobians of a new landmark, derive that of a camera which is in no book, and beat the tangent where it
+# fails. The models judge you, not a stored answer.
+
+# %% [markdown] slideshow={"slide_type": "slide"}
+# ## Deeper: a robot that steers
+#
+# The robot of the MAK thesis is a car. It is told a speed $V$ and a steering angle $\gamma$; its axles are
+# $B$ apart, and a step takes the time $T$:
+#
+# $$f(x, u) = \begin{bmatrix} x + T V \cos(\theta + \gamma) \\ y + T V \sin(\theta + \gamma) \\
+# \theta + \tfrac{T V}{B} \sin\gamma \end{bmatrix} \tag{04.18}$$
+#
+# What will be different in $A$?
+
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+from slamlab.models.symbolic import B, T, V, gamma
+
+X_ahead, Y_ahead = x + T * V * sp.cos(theta + gamma), y + T * V * sp.sin(theta + gamma)
+f_steered = sp.Matrix([X_ahead, Y_ahead, theta + T * V / B * sp.sin(gamma)])
+(
+    derive("A", partials(f_steered, pose), "by definition")
+    .step("differentiate", differentiate())
+    .step("name the step", by_hand, given={dx: X_ahead - x, dy: Y_ahead - y})
+)
+
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# Nothing: it is (04.5) again. Whatever drives a robot, an error of its heading swings the step that it
+# makes. Only $W$ is another, for the noise is in $V$ and $\gamma$ now:
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 W_steered = f_steered.jacobian([V, gamma])
 W_steered
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-car, command = (0.5, 0.25), np.array([0.8, -0.3])
-at = POINT | {V: 0.8, gamma: -0.3, B: 0.5, T: 0.25}
-by_pose = slopes(lambda pose: models.f_steered(pose, command, *car), POSE)
-by_command = slopes(lambda command: models.f_steered(POSE, command, *car), command)
-by_code = jacobians.A_steered(POSE, command, *car), jacobians.W_steered(POSE, command, *car)
-hold("A steered", A_steered, symbolic.A_steered, by_code[0], by_pose, at)
-hold("W steered", W_steered, symbolic.W_steered, by_code[1], by_command, at)
-
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=3
-# ## Q: the motion's noise, and units
-#
-# The controls have a covariance C. W carries it over to the pose: Q = W C Wᵀ.
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-s_d, s_turn = sp.symbols("sigma_d sigma_Δθ", positive=True)
-C = sp.diag(s_d**2, s_turn**2)
-Q = W * C * W.T
-Q
+command, car = np.array([0.8, -0.3]), (0.5, 0.25)  # V and γ; B and T
+there = at | dict(zip((V, gamma, B, T), (*command, *car), strict=True))
+by_u = slopes(lambda u: models.f_steered(X, u, *car), command)
+hold("W", W_steered, jacobians.W_steered(X, command, *car), by_u, there)
 
 # %% [markdown] slideshow={"slide_type": "slide"}
-# Units: σ_d in metres, σ_Δθ in radians, so the upper left block is in m², the corner in rad².
-# Angles in degrees would be legal here; they are not in A, as we shall see.
+# ## Deeper: Jacobians that undo each other
 #
-# **Question.** Is A P Aᵀ + Q what 1000 robots with noisy wheels show? Compare standard deviations.
+# $g$ places what $h$ sees, so seeing a landmark that was just placed gives back the sight:
+# $h(x, g(x, z)) = z$. Differentiate both sides by $z$ and by $x$, with the chain rule:
+#
+# $$H_{\mathrm p} J_z = I, \qquad H_{\mathrm r} + H_{\mathrm p} J_{\mathrm r} = 0 \tag{04.19}$$
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-rng = np.random.default_rng(4)
-C_wheels = noise.C_odometry(three_metres, distance_error=0.05, turn_error=0.1)
-drives = rng.multivariate_normal(three_metres, C_wheels, 1000)
-ends = np.array([models.f_odometry(*pair) for pair in zip(starts, drives, strict=True)])
-wheels_trusted = A_home @ P_home @ A_home.T
-predicted = wheels_trusted + noise.Q(jacobians.W_odometry(home, three_metres), C_wheels)
-print("samples ", ends.std(axis=0).round(2))
-print("formula ", np.sqrt(np.diag(predicted)).round(2), " [m, m, rad]")
-
-# %% slideshow={"slide_type": "slide"}
-ellipses = {"A P Aᵀ + Q": predicted, "A P Aᵀ, wheels trusted": wheels_trusted}
-fig, ax = views.cloud(ends, ellipses, "The same 3 m with noisy wheels", layers=[way])
-views.show(fig, "The cloud is wider along the way than without wheel noise; A P Aᵀ + Q covers it.")
+placed = {p_x: g[0], p_y: g[1]}
+print(sp.simplify(H_p.subs(placed) * g.jacobian(sight)))
+print(sp.simplify(H_r.subs(placed) + H_p.subs(placed) * g.jacobian(pose)))
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** the noise of the distance widens the streak *along* the way, from the dashed ellipse to
-# the solid one. What A does and what W does are at right angles here.
-
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=1
-# ## R: the measurement's noise
-#
-# A lidar's range error grows with the range (σ_r = k r), its bearing error does not. A covariance
-# holds *variances*:
-#
-# $$R = \begin{bmatrix} (k r)^2 & 0 \\ 0 & \sigma_\beta^2 \end{bmatrix}$$
-#
-# **Predict** R's corners in m² and rad² at 4 m, for k = 1 % and σ_β = 0.3°.
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-R = noise.R(4.0, 0.01, np.radians(0.3))
-print("variances ", [f"{v:.1e}" for v in np.diag(R)], "[m², rad²]")
-print("deviations", np.sqrt(np.diag(R)).round(4), "[m, rad]")
-
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=4
-# ## A new landmark: g, J_xr, J_z
-#
-# A landmark seen for the first time is placed where pose and measurement put it: at
-# x + r cos(θ + β), y + r sin(θ + β).
-#
-# **Predict:** two things can be wrong, the pose and the measurement. What do they do to the
-# landmark?
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-g = sp.Matrix([x + r * sp.cos(theta + beta), y + r * sp.sin(theta + beta)])  # the model
-J_xr_steps = (
-    derive("J_xr", partials(g, pose), "by definition: ∂g/∂(x, y, θ)")
-    .step("by x and by y: the landmark goes where the robot goes", differentiate(x, y))
-    .step("by θ", differentiate(theta))
-)
-J_xr = J_xr_steps.result
-J_xr_steps
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-J_z_steps = (
-    derive("J_z", partials(g, [r, beta]), "by definition: ∂g/∂(r, β)")
-    .step("by r: along the line of sight", differentiate(r))
-    .step("by β: across it, and the more the further", differentiate(beta))
-)
-J_z = J_z_steps.result
-J_z_steps
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# **Try** a sensor that looks to the left, θ + β + π/2 in cosine and sine, and run both cells: sine
-# and cosine change places, and it is still a stick of length r.
+# That is a fourth test, and one that needs no computer: whoever has one right Jacobian and doubts the
+# other multiplies the two.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
-# J_xr looks like two rows of A: the landmark is a point at the end of a stick of length r, and a
-# turn swings it sideways. J_z is a turn into the world's frame whose second column is stretched by
-# r.
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-by_pose = slopes(lambda pose: models.g(pose, SEEN), POSE)
-by_measurement = slopes(lambda z: models.g(POSE, z), SEEN)
-hold("J_xr", J_xr, symbolic.J_xr, jacobians.J_xr(POSE, SEEN), by_pose)
-hold("J_z", J_z, symbolic.J_z, jacobians.J_z(POSE, SEEN), by_measurement)
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# One more test, for free: g undoes h, so their Jacobians undo each other. See a landmark, place it:
-# H_landmark J_z must be I, and moving the robot must change nothing, H_robot + H_landmark J_xr = 0.
-
-# %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* The chain rule as a test. A student who has one right Jacobian and doubts the
-# other can use it in an exam without a computer: multiply the two.
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-there = {p_x: g[0], p_y: g[1]}
-print(sp.simplify(H_landmark.subs(there) * J_z))
-print(sp.simplify(H_robot.subs(there) + H_landmark.subs(there) * J_xr))
-
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=3
-# ## Whom a new landmark knows
+# ## In print
 #
-# The state holds the robot r and a landmark i already; the new landmark n is made from the pose
-# and the measurement. **Question.** Which blocks does the covariance get? Let the machine multiply
-# blocks:
-
-# %% slideshow={"slide_type": "fragment"}
-P_rr, P_ri, P_ii = (
-    sp.MatrixSymbol(f"P_{n}", *size) for n, size in [("rr", (3, 3)), ("ri", (3, 2)), ("ii", (2, 2))]
-)
-JXR, JZ, RR = (sp.MatrixSymbol(n, 2, k) for n, k in [("J_xr", 3), ("J_z", 2), ("R", 2)])
-O, I = sp.ZeroMatrix, sp.Identity
-before = sp.BlockMatrix([[P_rr, P_ri, O(3, 2)], [P_ri.T, P_ii, O(2, 2)], [O(2, 3), O(2, 2), RR]])
-grow = sp.BlockMatrix([[I(3), O(3, 2), O(3, 2)], [O(2, 3), I(2), O(2, 2)], [JXR, O(2, 2), JZ]])
-after = sp.block_collapse(grow * before * grow.T).blocks
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-print("P_nn =", after[2, 2])
-print("P_rn =", after[0, 2])
-print("P_ni =", after[2, 1])
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# The new landmark is born a relative of the robot (P_rn) and of all that the robot knows (P_ni).
-# Set these blocks to zero, as many programs do, and the filter forgets that its map shares one
-# error: lesson 07 shows the price.
-
-# %% slideshow={"slide_type": "fragment"}
-rng = np.random.default_rng(4)
-where, seen = np.array([0, 0, 0.4]), np.array([5.0, 0.8])
-P_where, R_seen = np.diag([0.15, 0.15, 0.08]) ** 2, noise.R(5.0, 0.02, 0.02)
-poses = rng.multivariate_normal(where, P_where, 1000)
-sights = rng.multivariate_normal(seen, R_seen, 1000)
-placed = np.array([models.g(*pair) for pair in zip(poses, sights, strict=True)])
-
-
-def P_new(J_xr, J_z, P=P_where):
-    return J_xr @ P @ J_xr.T + J_z @ R_seen @ J_z.T
-
-
-# %% slideshow={"slide_type": "slide"}
-J_right = jacobians.J_xr(where, seen), jacobians.J_z(where, seen)
-line = Poses("the line of sight", [where, [*models.g(where, seen), sum(where[2:] + seen[1:])]])
-ellipse = {"J_xr P J_xrᵀ + J_z R J_zᵀ": P_new(*J_right)}
-fig, ax = views.cloud(placed, ellipse, "A landmark seen once, at 5 m", layers=[line])
-views.show(
-    fig,
-    f"{len(placed)} placed landmarks in a broad streak across the line of sight, and the ellipse.",
-)
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** the landmark is least sure across the line of sight, where the heading's error is levered
-# by 5 m. The ellipse of the derivation holds the samples.
-
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=2
-# ## A printed formula is a claim
-#
-# Now we hold what is printed in the sources against the derivation. The machine subtracts; we look
-# at the harm, since a wrong formula that harms nobody is a spelling mistake.
-
-# %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* Say it once: these are good theses, read by committees, and every text of
-# this size has such errors. The point is the method. Our own formulas were tested the same way a
-# minute ago.
-
-# %% slideshow={"slide_type": "fragment"}
-errata = {}
-
-
-def compare(where, printed, derived):
-    """Printed minus derived, simplified, kept for the table at the end."""
-    difference = (printed - derived).applyfunc(sp.simplify)
-    errata[where] = {"printed": printed, "derived": derived, "difference": difference}
-    return difference
-
-
-def harm(where, text):
-    """Keep what the mistake does, in numbers."""
-    errata[where]["harm"] = text
-    print(text)
-
-
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=4
-# ## Smolec (1): tan⁻¹ of a quotient
-#
-# Section 2.6 prints the bearing as tan⁻¹((λ_y − y)/(λ_x − x)) − θ, with λ for our p.
-#
-# **Predict:** for which landmarks is that wrong, and by how much?
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-printed_h = sp.Matrix([range_of, sp.atan((p_y - y) / (p_x - x)) - theta])
-compare("Smolec (1), h", printed_h, h)
-
-# %% slideshow={"slide_type": "fragment"}
-directions = np.radians(np.arange(-179, 180, 2))
-of = sp.lambdify([p_x, p_y], [e.subs({x: 0, y: 0, theta: 0}) for e in (bearing_of, printed_h[1])])
-bearings, printed_bearings = np.degrees(of(np.cos(directions), np.sin(directions)))
-fig, ax = views.curves(
-    np.degrees(directions),
-    {"atan2": bearings, "tan⁻¹, as printed": printed_bearings},
-    "direction of the landmark [°]",
-    "bearing [°]",
-)
-off = np.abs(bearings - printed_bearings).max()
-views.show(fig, f"One curve follows the direction all round; tan⁻¹ is {off:.0f}° off behind.")
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** the dashed line jumps: all that lies behind (beyond ±90°) is seen in front. The quotient
-# forgets the signs of its two parts.
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-off = np.abs(wrap(np.radians(printed_bearings - bearings)))
-share = np.mean(off > 1e-6)
-harm("Smolec (1), h", f"{share:.0%} of all directions come out {np.degrees(off.max()):.0f}° off")
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# The MAK thesis has the same tan⁻¹ in (2.29), taken from the object to the robot: read as atan2,
-# that order would be 180° off everywhere.
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-reverse = sp.Matrix([range_of, sp.atan2(y - p_y, x - p_x) - theta])
-compare("MAK (2.29), h", reverse, h)
-error = (reverse - h)[1].subs(POINT).evalf()
-harm("MAK (2.29), h", f"read as atan2, every bearing is {abs(np.degrees(float(error))):.0f}° off")
-
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=6
-# ## Smolec (2) and (3): a sign in H
-#
-# Printed, second row of (2): (λ_y − y)/r², **(λ_x − x)/r²**, −1.
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-H = H_robot.applyfunc(in_r)
-printed_H = sp.Matrix([[(x - p_x) / r, (y - p_y) / r, 0], [(p_y - y) / r**2, (p_x - x) / r**2, -1]])
-compare("Smolec (2), H", printed_H, H)
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# One sign. **Predict:** a robot that knows three landmarks corrects its pose again and again. Does
-# the wrong sign slow it down, stop it, or drive it away?
+# Optional: what two theses and a note print of this lesson's formulas. They are good theses, read by
+# committees; every text of this size has such slips. The machine subtracts what is derived from what is
+# printed. In words we say what the difference does to a robot, since a slip that harms nobody is a
+# spelling mistake.
 
 
 # %% slideshow={"slide_type": "fragment"}
-def H_as_printed(x, p):
-    H = jacobians.H_robot(x, p)
-    H[1, 1] = -H[1, 1]
-    return H
+def compare(place, printed, derived):
+    """Print what a printed formula has too much: entry by entry, nothing where they are equal."""
+    off = (printed - derived).applyfunc(sp.simplify).todok()
+    words = [f"row {i + 1}, column {k + 1}: {entry}" for (i, k), entry in off.items()]
+    print(f"{place:18}", "; ".join(words) or "equal")
 
 
-truth, P_start = np.array([1.0, 1.0, 0.5]), np.diag([0.3, 0.3, 0.1]) ** 2
-known, R_known = np.array([[4, 1], [2, 4.5], [-2, 2.5]]), np.diag([0.05, 0.02]) ** 2
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# ### In print: seeing
 
-
-def localise(H_of, rng, steps=20):
-    """Errors of position after each sighting of a known landmark, and the last covariance."""
-    x, P, errors = rng.multivariate_normal(truth, P_start), P_start, []
-    for k in range(steps):
-        p = known[k % 3]
-        z = rng.multivariate_normal(models.h(truth, p), R_known)
-        x, P = update(x, P, z, p, H_of(x, p), R_known)
-        errors.append(np.hypot(*(x - truth)[:2]))
-    return errors, P
-
-
-# %% slideshow={"slide_type": "slide"}
-runs = {
-    name: [localise(H_of, np.random.default_rng(seed)) for seed in range(100)]
-    for name, H_of in [("derived H", jacobians.H_robot), ("H as printed in (2)", H_as_printed)]
-}
-medians = {name: np.median([errors for errors, _ in run], axis=0) for name, run in runs.items()}
-fig, ax = views.curves(
-    np.arange(1, 21), medians, "sightings", "error of position [m]", "Median of 100 robots"
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+H = H_r.applyfunc(in_r)
+arctan, reverse = sp.atan((p_y - y) / (p_x - x)), sp.atan2(y - p_y, x - p_x)
+compare("Smolec (1), h", sp.Matrix([root, arctan - theta]), h)
+compare("MAK (2.29), h", sp.Matrix([root, reverse - theta]), h)
+compare(
+    "Smolec (2), H", sp.Matrix([H[0, :], H[1, :].multiply_elementwise(sp.Matrix([[1, -1, 1]]))]), H
 )
-right, wrong = (100 * errors[-1] for errors in medians.values())
-views.show(
-    fig, f"With the derived H the error falls to {right:.0f} cm, else it stays at {wrong:.0f}."
-)
+compare("Smolec (3), H", -H[:, :2], H_p.applyfunc(in_r))
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** after two sightings the dashed error does not fall any more, the solid one does. And how
-# sure is the filter of its wrong place?
+# | place | printed | right | harm |
+# | --- | --- | --- | --- |
+# | Smolec (1) | $\tan^{-1}\frac{p_y - y}{p_x - x}$ | atan2 | 180° off for all that lies behind: it is seen ahead |
+# | MAK (2.29) | the same, from object to robot | $p - x$, atan2 | read as atan2, each bearing is 180° off |
+# | Smolec (2) | $+(p_x - x)/r^2$ | $-(p_x - x)/r^2$ | {= 100 * wrong:.1f =} cm off after 20 sights, {= 100 * right:.1f =} cm with the right sign |
+# | Smolec (3) | minus columns of (2) | right once (2) is | else the wrong sign comes twice |
 
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-good, bad = (run[-1] for run in medians.values())
-sigma = np.median([np.sqrt(np.trace(P[:2, :2])) for _, P in runs["H as printed in (2)"]])
-harm(
-    "Smolec (2), H",
-    f"after 20 sightings {100 * bad:.0f} cm off instead of {100 * good:.0f} cm, "
-    f"and sure of {100 * sigma:.0f} cm",
-)
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# Worse than the error: the covariance shrinks all the same. The filter is sure of something wrong.
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# (3) repeats the entries for the landmark with the other sign. Once (2) is mended, that is right:
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-difference = compare("Smolec (3), H", -H[:, :2], H_landmark.applyfunc(in_r))
-harm("Smolec (3), H", "none once (2) is mended; else the wrong sign comes twice")
-difference
-
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=2
-# ## Smolec (4): a step of which length?
-#
-# Printed: x + cosθ + q cosθ and so on, q being the noise. We leave the noise out.
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-printed_f = sp.Matrix([x + sp.cos(theta), y + sp.sin(theta), theta + turn])
-compare("Smolec (4), f", printed_f, f)
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# The distance d is missing. **Predict** where a robot is believed that drives 20 steps of 10 cm.
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-move = sp.lambdify([x, y, theta, d, turn], list(printed_f))
-right, printed = np.zeros(3), np.zeros(3)
-for _ in range(20):
-    right = models.f_odometry(right, np.array([0.1, 0.05]))
-    printed = np.array(move(*printed, 0.1, 0.05))
-harm("Smolec (4), f", f"2 m driven, {np.hypot(*(printed - right)[:2]):.1f} m off")
-
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=6
-# ## Smolec (5), (12) and §4.1: three times A
-#
-# Printed in (5): −Δy·sinθ and Δx·cosθ in the third column; in §4.1: −Δy and Δx.
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# ### In print: moving
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 Dx, Dy = d * sp.cos(theta), d * sp.sin(theta)
-printed_A = sp.Matrix([[1, 0, -Dy * sp.sin(theta)], [0, 1, Dx * sp.cos(theta)], [0, 0, 1]])
-compare("Smolec (5), A", printed_A, A)
+A_5 = sp.Matrix([[1, 0, -Dy * sp.sin(theta)], [0, 1, Dx * sp.cos(theta)], [0, 0, 1]])
+compare("Smolec (4), f", sp.Matrix([x + sp.cos(theta), y + sp.sin(theta), theta + dtheta]), f)
+compare("Smolec (5), A", A_5, A)
+compare("Smolec §4.1, A", by_hand.subs({dx: Dx, dy: Dy}), A)
+given_step = sp.Matrix([x + dx, y + dy, theta + dtheta])
+compare("(12) with §4.1, A", by_hand, given_step.jacobian(pose))
+deg = sp.Symbol("deg", real=True)
+A_deg = f.subs(theta, deg * sp.pi / 180).jacobian([x, y, deg]).subs(deg, 180 * theta / sp.pi)
+compare("degrees, A", A[:2, :], A_deg[:2, :])
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-compare("Smolec §4.1 and EKF note, A", sp.Matrix([[1, 0, -Dy], [0, 1, Dx], [0, 0, 1]]), A)
+west = A_5.subs({theta: np.radians(150), d: 3.0}), A.subs({theta: np.radians(150), d: 3.0})
+told = [np.array(each * sp.Matrix(P) * each.T, dtype=float) for each in west]
+correlations = [each[0, 1] / np.sqrt(each[0, 0] * each[1, 1]) for each in told]
+print("correlation of x and y, heading 150°: (5) {:+.1f}, derived {:+.1f}".format(*correlations))
+sigma_claimed = np.sqrt(0.05**2 + (3.0 * 0.1) ** 2)  # (12) with A of §4.1, 3 m to the north
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# §4.1 is right. (5) turns the step twice. **Predict** what its ellipse looks like beside the
-# samples, for a robot that looks to the upper left (150°).
-
-# %% slideshow={"slide_type": "slide"}
-rng = np.random.default_rng(4)
-west, straight_on = np.array([0, 0, np.radians(150)]), np.array([3.0, 0.0])
-starts = rng.multivariate_normal(west, P_home, 1000)
-ends = np.array([models.f_odometry(pose, straight_on) for pose in starts])
-by_name = {
-    "derived A": jacobians.A_odometry(west, straight_on),
-    "A as printed in (5)": sp.lambdify([theta, d], printed_A)(west[2], straight_on[0]),
-}
-claims = {name: A @ P_home @ A.T for name, A in by_name.items()}
-westward = Poses("the way, as believed", [west, models.f_odometry(west, straight_on)])
-fig, ax = views.cloud(ends, claims, "Heading 150°, 3 m driven", layers=[westward])
-views.show(fig, "The derived ellipse covers the samples; the printed one leans the other way.")
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** the dashed ellipse leans the wrong way: the filter will take a landmark's hint to the
-# left for one to the right.
-
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-def correlation(P):
-    return P[0, 1] / np.sqrt(P[0, 0] * P[1, 1])
-
-
-told = [correlation(P) for P in (np.cov(ends.T), *claims.values())]
-text = "correlation of x and y: samples {:+.1f}, derived {:+.1f}, printed {:+.1f}"
-harm("Smolec (5), A", text.format(*told))
-harm("Smolec §4.1 and EKF note, A", "none: this one is right")
-
-# %% [markdown] slideshow={"slide_type": "slide"}
-# (12) *adds* (Δx, Δy, Δθ) as odometry gives it. If these are global increments that come from the
-# wheels' own count and not from the estimated θ, then A is something else:
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-given = sp.Matrix([x + dx, y + dy, theta + turn])
-printed_beside = sp.Matrix([[1, 0, -dy], [0, 1, dx], [0, 0, 1]])
-compare("Smolec (12) with A of §4.1", printed_beside, given.jacobian(pose))
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-A_beside = np.array(printed_beside.subs({dx: 0, dy: 3}), dtype=float)
-sigma_x = np.sqrt((A_beside @ P_home @ A_beside.T)[0, 0])
-harm(
-    "Smolec (12) with A of §4.1",
-    f"if the increments are global, it claims σ = {sigma_x:.2f} m where it is 0.05 m",
-)
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# A model and its Jacobian are a pair: (12) goes with A = I, §4.1's A with a step *along the
-# estimated heading*. The EKF note uses the second pair: its A, [[1, 0, −Δy], [0, 1, Δx], [0, 0,
-# 1]], is right.
-
-# %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* which is it on a real robot? The wheels count distance and turn; any Δx, Δy
-# was made with some heading. If that heading is the filter's, A is as in §4.1. If it is the
-# odometry's own, A = I is right for one step, but the same heading error enters every step, and a
-# Q with independent steps does not know it.
-
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=5
-# ## Smolec (6)–(8): a Q that does not multiply
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# | place | printed | right | harm |
+# | --- | --- | --- | --- |
+# | Smolec (4) | $x + \cos\theta$ | $x + d\cos\theta$ | every step is 1 m long |
+# | Smolec (5) | $-\Delta y \sin\theta$, $\Delta x \cos\theta$ | $-\Delta y$, $\Delta x$ | at 150° the ellipse leans to the wrong side |
+# | Smolec (12) with $A$ of §4.1 | $x + \Delta x$ | $A = I$ for *given* steps | 3 m to the north: claims $\sigma_x$ = {= sigma_claimed:.2f =} m where it is 0.05 m |
+# | degrees in the state | (04.5) | $\times\, \pi/180$ | 5° and 3 m: {= 3 * 5 =} m to the side, not {= 3 * np.radians(5):.2f =} m |
 #
-# Printed: C is 3×3, W is 3×1, Q = W C Wᵀ. **Predict** what the machine says.
+# $A$ of Smolec's §4.1 and of the EKF note is right, with a step *along the estimated heading*: a model and
+# its Jacobian are a pair.
+
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# ### In print: noise
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-c, dt = sp.symbols("c Δt", positive=True)
-printed_C = sp.diag(c * dx**2, c * dy**2, c * dt**2)
-printed_W = sp.Matrix([dt * sp.cos(theta), dt * sp.sin(theta), turn])
+c, k, dt = sp.symbols("c k Δt", positive=True)
+C_8 = sp.diag(c * dx**2, c * dy**2, c * dt**2)
+W_6 = sp.Matrix([dt * sp.cos(theta), dt * sp.sin(theta), dtheta])
 try:
-    printed_W * printed_C * printed_W.T
-except sp.matrices.exceptions.ShapeError:
-    print("refused:", printed_W.shape, "times", printed_C.shape)
-
-# %% [markdown] slideshow={"slide_type": "slide"}
-# The third component is Δt in (6) and (8), Δθ in (7). What (8) means is c·w wᵀ with w = (Δx, Δy,
-# Δθ). Beside the derived W C Wᵀ:
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-w = sp.Matrix([Dx, Dy, turn])
-compare("Smolec (8), Q", c * w * w.T, Q)
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-print("rank of (8):", (w * w.T).rank(), "  rank of W C Wᵀ:", Q.rank())
+    W_6 * C_8 * W_6.T
+except sp.ShapeError:
+    print("Smolec (8), Q: refused,", W_6.shape, "times", C_8.shape)
+meant = sp.Matrix([Dx, Dy, dtheta])
+Q_8, Q = c * meant * meant.T, W * sp.diag(k, c) * W.T
+print("rank of what (8) means:", Q_8.rank(), " of W C Wᵀ:", Q.rank())
+print("its variance of the heading, driving straight on:", Q_8[2, 2].subs(dtheta, 0))
+b, s = sp.symbols("b sigma_beta", positive=True)
+compare("Smolec (9), R", sp.diag(r * c, b * beta), sp.diag((k * r) ** 2, s**2))
+C_step = noise.C_odometry([0.1, 0], 0.05, 0.05, turn_per_metre=0.05)
+true_sigma = np.degrees(np.sqrt(50 * C_step[1, 1]))  # 50 steps of 10 cm
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# Rank one: all errors are one error; who drives too far also turns too far, by as much.
-#
-# **Predict:** the robot drives straight on, Δθ = 0. What does (8) say about its heading?
+# | place | printed | right | harm |
+# | --- | --- | --- | --- |
+# | Smolec (6)–(8) | $C$ is 3 × 3, $W$ is 3 × 1; rank one | (04.7) | 5 m straight on: $\sigma_\theta$ = 0°, where wheels that pick up 0.05 rad a metre give {= true_sigma:.1f =}° |
+# | EKF note | noise by $\Delta x, \Delta y, \Delta t$ | $\Delta\theta$ for $\Delta t$ | the same rank of one |
+# | Smolec (9) | $r c$, $\beta b$; "variance 1 cm → $c$ = 0.01" | (04.15) | 1 % of 4 m: {= 100 * np.sqrt(4 * 0.01):.0f =} cm in a program that counts metres, {= np.sqrt(4000 * 0.01) / 10:.1f =} cm in one that counts millimetres |
+
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# ### In print: new landmarks
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-rng = np.random.default_rng(4)
-straight = np.array([0.1, 0.0])
-C_step = noise.C_odometry(straight, 0.05, 0.05, turn_per_metre=0.05)
-headings = rng.normal(0, np.sqrt(C_step[1, 1]), (1000, 50)).sum(axis=1)
-claimed = float(50 * (c * w * w.T)[2, 2].subs({turn: 0}))
-harm(
-    "Smolec (8), Q",
-    f"after 5 m straight on: σ of the heading {np.degrees(headings.std()):.1f}°, "
-    f"claimed {np.degrees(np.sqrt(claimed)):.1f}°",
-)
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# A filter that is sure of its heading takes no correction of it. The EKF note too makes the noise
-# proportional to Δx, Δy and Δt (it calls Δt the change of speed; by its formulas it is the length
-# of the step). The third should be Δθ, and even so the rank is one.
-
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=3
-# ## Smolec (9): deviation or variance?
-#
-# Printed: VRVᵀ = diag(r c, b d), with the advice "variance 1 cm → c = 0.01".
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-b, s_beta, k = sp.symbols("b sigma_beta k", positive=True)
-compare("Smolec (9), R", sp.diag(r * c, b * d), sp.diag((k * r) ** 2, s_beta**2))
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# r·c grows like a deviation and stands where a variance must. **Predict** what 1 % (c = 0.01)
-# means at 4 m, if the program counts in metres, and if it counts in millimetres.
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-in_metres, in_millimetres = np.sqrt(4 * 0.01), np.sqrt(4000 * 0.01) / 1000
-harm(
-    "Smolec (9), R",
-    f"1 % of 4 m is 4 cm; (9) says {100 * in_metres:.0f} cm in metres, "
-    f"{100 * in_millimetres:.1f} cm in millimetres",
-)
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# A formula that changes its meaning with the unit has a wrong unit. And a standard deviation of 1
-# cm is a variance of 0.0001 m²; 0.01 m² would be 10 cm.
-
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=5
-# ## Smolec (10) and (11): a landmark on a short stick
-#
-# Printed: J_xr with −sinθ and cosθ; J_z as a turn by θ + Δθ. We read Δθ as the bearing.
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-printed_J_xr = sp.Matrix([[1, 0, -sp.sin(theta)], [0, 1, sp.cos(theta)]])
-compare("Smolec (10), J_xr", printed_J_xr, J_xr)
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-c_there, s_there = sp.cos(theta + beta), sp.sin(theta + beta)
-printed_J_z = sp.Matrix([[c_there, -s_there], [s_there, c_there]])
-compare("Smolec (11), J_z", printed_J_z, J_z)
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# The range is missing in both, the bearing in the first. **Predict** the ellipse, beside the
-# samples of the landmark seen at 5 m.
-
-# %% slideshow={"slide_type": "slide"}
-numbers = [0, 0, where[2], *seen]
-as_printed = [sp.lambdify([x, y, theta, r, beta], J)(*numbers) for J in (printed_J_xr, printed_J_z)]
-claims = {"derived": P_new(*J_right), "as printed in (10), (11)": P_new(*as_printed)}
-fig, ax = views.cloud(placed, claims, "The landmark seen once, at 5 m")
-views.show(fig, "The derived ellipse covers the samples, the printed one is far too narrow.")
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** the printed ellipse is short across the line of sight, where the landmark is least sure.
-# A filter with a gate will refuse its own landmark when it sees it again; one without will bend
-# the robot's pose to it.
-#
-# How bad is each alone? The *squared error in units of the covariance* is 2 on average where the
-# covariance is right. (11) shows where SLAM starts: there the pose is exact, P = 0.
-
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-def surprise(landmarks, covariance):
-    """Mean squared error in units of the covariance: 2 where it is right."""
-    errors = landmarks - landmarks.mean(axis=0)
-    return np.einsum("ni,ij,nj->n", errors, np.linalg.inv(covariance), errors).mean()
-
-
-from_home = models.g(where, sights)
-at_start = surprise(from_home, P_new(J_right[0], as_printed[1], P=np.zeros((3, 3))))
-check = surprise(placed, P_new(*J_right)), surprise(from_home, P_new(*J_right, P=np.zeros((3, 3))))
-print("derived J_xr and J_z:", np.round(check, 1))
-told = surprise(placed, P_new(as_printed[0], J_right[1]))
-harm("Smolec (10), J_xr", f"squared error {told:.1f} instead of 2 in units of P_nn")
-harm("Smolec (11), J_z", f"squared error {at_start:.0f} instead of 2 at SLAM's start")
-
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=3
-# ## Degrees
-#
-# The thesis keeps millimetres and degrees in the state, with these Jacobians. **Predict** what that
-# does to A. Let the machine differentiate with a heading in degrees:
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-degrees = sp.symbols("theta_deg", real=True)
-f_degrees = f.subs(theta, degrees * sp.pi / 180)
-A_degrees = f_degrees[:2, :].jacobian([x, y, degrees]).subs(degrees, 180 / sp.pi * theta)
-compare("degrees in the state, A", A[:2, :], A_degrees)
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-sigma_heading = 5.0  # degrees
-right, printed = 3 * np.radians(sigma_heading), 3 * sigma_heading
-harm(
-    "degrees in the state, A",
-    f"σ = 5° of heading, 3 m driven: claimed {printed:.0f} m to the side, truly {right:.2f} m",
-)
-
-# %% [markdown] slideshow={"slide_type": "fragment"}
-# Derivatives of sine and cosine are what they are only in radians: every entry by an angle lacks
-# π/180, and H's bearing row lacks 180/π. In `slamlab` angles are radians, and degrees exist at the
-# edge only: in drivers, and on plots.
-
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=2
-# ## Smolec (15): the state that forgets itself
-#
-# Printed: X = K · innovation; and P is not updated anywhere in the text.
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-X, correction = sp.Matrix([sp.Symbol("X")]), sp.Matrix([sp.Symbol("K*innovation")])
-compare("Smolec (15), X", correction, X + correction)
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-believed, p = np.array([4.0, 3.0, 0.5]), np.array([6.0, 4.0])
-P, R = np.diag([0.1, 0.1, 0.05]) ** 2, np.diag([0.05, 0.02]) ** 2
-z = models.h(believed, p) + np.array([0.03, 0.01])
-after, P_after = update(believed, P, z, p, jacobians.H_robot(believed, p), R)
-step = after - believed
-harm(
-    "Smolec (15), X",
-    f"a correction of {100 * np.hypot(*step[:2]):.0f} cm becomes an error of "
-    f"{np.hypot(*(step - after)[:2]):.1f} m; σ of x stays 10 cm, should be "
-    f"{100 * np.sqrt(P_after[0, 0]):.0f} cm",
-)
-
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=2
-# ## Smolec (16)–(18): a transpose too many
-#
-# Printed: P_nn = J_xr P_rr J_xrᵀ + J_z R J_zᵀ (16), P_rn = P_rr J_xrᵀ (17), P_ni = J_xr (P_ri)ᵀ
-# (18).
-#
-# **Predict** which of the three agree with the block product above.
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-blocks = sp.block_collapse(grow * before * grow.T).blocks
-print("(16):", blocks[2, 2] == JXR * P_rr * JXR.T + JZ * RR * JZ.T)
-print("(17):", blocks[0, 2] == P_rr * JXR.T)
+turned = theta + beta
+J_10 = sp.Matrix([[1, 0, -sp.sin(theta)], [0, 1, sp.cos(theta)]])
+J_11 = sp.Matrix([[sp.cos(turned), -sp.sin(turned)], [sp.sin(turned), sp.cos(turned)]])
+compare("Smolec (10), J_r", J_10, g.jacobian(pose))
+compare("Smolec (11), J_z", J_11, g.jacobian(sight))
+fits = E(p_n * p_n.T) == J_r * P_rr * J_r.T + J_z * R_ * J_z.T, E(x_error * p_n.T) == P_rr * J_r.T
+print("Smolec (16), (17): equal", *fits)
 try:
-    JXR * P_ri.T
-except sp.matrices.exceptions.ShapeError:
-    print("(18): refused,", JXR.shape, "times", P_ri.T.shape)
-errata["Smolec (18), P_ni"] = {
-    "printed": sp.Symbol("J_{xr} (P_{ri})^T"),
-    "derived": sp.Symbol("J_{xr} P_{ri}"),
-    "difference": "2×3 times 2×3: does not multiply",
-}
-harm("Smolec (18), P_ni", "stops, or, with a block stored transposed, is right by accident")
-
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=2
-# ## MAK (4.9): a row that lost its robot
-#
-# In SLAM, H spans the whole state: robot, landmark 1, landmark 2, … The thesis prints for landmark
-# 3: H₃ = [0 0 H_r H_p 0 …].
-#
-# **Predict** the blocks of H₃. Then let the machine differentiate by a state of four landmarks:
+    J_r * P_ri.T
+except sp.ShapeError:
+    print("Smolec (18), P_ni: refused,", J_r.shape, "times", P_ri.T.shape)
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+where, z, R_z = np.array([0, 0, 0.4]), np.array([5.0, 0.8]), noise.R(5, 0.02, 0.02)
+P_where, values = np.diag([0.15, 0.15, 0.08]) ** 2, {theta: 0.4, beta: 0.8}
+J10, J11 = (np.array(each.subs(values), dtype=float) for each in (J_10, J_11))
+pairs = (P_where, J10, jacobians.J_z(where, z)), (0 * P_where, jacobians.J_xr(where, z), J11)
+nees_10, nees_11 = (small_errors.landmark_nees(where, z, R_z, *each) for each in pairs)
+print(f"(10): NEES {nees_10:.0f}; (11), where SLAM starts with P = 0: {nees_11:.0f}; 2 is right")
+
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# | place | printed | right | harm |
+# | --- | --- | --- | --- |
+# | Smolec (10) | $-\sin\theta$, $\cos\theta$ | $-r\sin\varphi$, $r\cos\varphi$ | errors {= np.sqrt(nees_10 / 2):.1f =} times as large as believed |
+# | Smolec (11) | no $r$ | $r$ in the second column | {= np.sqrt(nees_11 / 2):.1f =} times, where SLAM starts |
+# | Smolec (16)–(18) | $P_{ni} = J_{\mathrm r} P_{\mathrm ri}^{\mathsf T}$ | $J_{\mathrm r} P_{\mathrm ri}$ | shapes do not fit; (16) and (17) are right |
+#
+# A filter with such an ellipse refuses its own landmark when it sees it again, or bends its pose to it.
+
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# ### In print: the update
+
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+estimate, correction_ = sp.Matrix([sp.Symbol("x")]), sp.Matrix([sp.Symbol("K*v")])
+compare("Smolec (15), x", correction_, estimate + correction_)
 marks = [sp.symbols(f"p{i}_x p{i}_y", real=True) for i in (1, 2, 3, 4)]
 third = h.subs(dict(zip(landmark, marks[2], strict=True)))
-names = {"robot": pose, **{f"p{i}": mark for i, mark in enumerate(marks, 1)}}
-filled = {name: not third.jacobian(part).is_zero_matrix for name, part in names.items()}
-print(filled)
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-H_r, H_p = sp.symbols("H_r H_p")
-blocks = [(H_r if name == "robot" else H_p) if yes else 0 for name, yes in filled.items()]
-difference = compare("MAK (4.9), H₃", sp.Matrix([[0, 0, H_r, H_p, 0]]), sp.Matrix([blocks]))
-harm("MAK (4.9), H₃", "H_r has 3 columns, a landmark's place 2: does not fit")
-difference
-
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=2
-# ## All of them, by machine
-#
-# The table is built from what the cells above found. Where shapes do not fit there is no
-# difference to form, and words say so.
-
-
-# %% slideshow={"slide_type": "fragment"}
-def tex(entry):
-    """LaTeX of a formula; a sentence stays a sentence."""
-    if isinstance(entry, str):
-        return entry
-    zero = isinstance(entry, sp.MatrixBase) and entry.is_zero_matrix
-    return "$0$" if zero else f"${sp.latex(entry, mat_str='smallmatrix')}$"
-
-
-def table(places):
-    lines = ["| formula, harm | printed, derived | difference |", "|---|---|---|"]
-    for where in places:
-        found = errata[where]
-        both = f"{tex(found['printed'])}<br><br>{tex(found['derived'])}"
-        cells = f"**{where}**<br>{found['harm']}", both, tex(found["difference"])
-        lines.append("| " + " | ".join(cells) + " |")
-    return "\n".join(lines)
-
-
-places = list(errata)
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-Markdown(table(places[:3]))
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-Markdown(table(places[3:7]))
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-Markdown(table(places[7:10]))
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-Markdown(table(places[10:13]))
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-Markdown(table(places[13:]))
+filled = ["H" if not third.jacobian(part).is_zero_matrix else 0 for part in (pose, *marks)]
+print("MAK (4.9), H_3: printed [0, 0, 'H', 'H', 0], differentiated", filled)
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** where the difference is zero, the print is right: A of §4.1, and (3) once (2) is mended.
-# What does not multiply is harmless: it stops at once. The others run, draw an ellipse, and are
-# wrong; only a test finds them.
+# | place | printed | right | harm |
+# | --- | --- | --- | --- |
+# | Smolec (15) | $x \leftarrow K v$; no update of $P$ | $x + K v$ | the state forgets itself; its $\sigma$ never shrinks |
+# | MAK (4.9), landmark 3 | $[0\;\,0\;\,H_{\mathrm r}\;\,H_{\mathrm p}\;\,0]$ | $[H_{\mathrm r}\;\,0\;\,0\;\,H_{\mathrm p}\;\,0]$ | $H_{\mathrm r}$ has three columns, a landmark's place two: shapes do not fit |
 
-# %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* Ask: which of these would you have found by reading? And which by driving a
-# robot? The rank of Q and the sign in A pass every quick look at a plot. Homework: take the
-# EKF-SLAM you used last year and hold its Jacobians against differences.
-
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=1
-# ## What you can do now
-#
-# Derive a Jacobian, test it in three ways, and tell from a formula's units and shapes that
-# something is off before the robot finds out.
-#
-# **Next:** lesson 05 puts H and A to work in two easy halves: where am I in a known map, and where
-# are the landmarks if I know where I am?
-#
-# **Exercise:** [write H, J_xr, J_z and a new landmark's covariance, derive the Jacobian of a
-# camera that is in no book, and beat the linearised step where it
-# fails](../exercises/ex04_models_and_jacobians.ipynb). The models judge them, not a stored answer.
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# What does not multiply is harmless: it stops at once. The others run, draw an ellipse, and are wrong;
+# only a test finds them.

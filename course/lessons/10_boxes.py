@@ -5,7 +5,7 @@
 # conditions hold; predict such boxes and cut them by a sighting; and say what the certainty costs and
 # what becomes of it when a condition breaks.
 #
-# **90 minutes**, in two parts of 45: how the filter works, and what its promise is worth.
+# **90 minutes**, in two parts: how the filter works (48), and what its promise is worth (42).
 # **Before:** lesson [04](04_models_and_jacobians.ipynb) for the models, lesson
 # [06](06_ekf_slam.ipynb) for SLAM, and some trigonometry.
 #
@@ -29,13 +29,8 @@ import sympy as sp
 from slamlab import views
 from slamlab.checks import ask
 from slamlab.filters.bor import BOR, EmptyIntersection
-from slamlab.filters.bor.angle_intervals import (
-    angle_interval,
-    bearing_interval,
-    contains,
-    intersection,
-    midpoint,
-)
+from slamlab.filters.bor.angle_intervals import angle_interval, bearing_interval, contains
+from slamlab.filters.bor.angle_intervals import intersection
 from slamlab.filters.bor.clipping import clip
 from slamlab.filters.bor.contraction import contract_heading, contract_once
 from slamlab.filters.bor.half_planes import edges, reversed_edges, sector_edges
@@ -47,8 +42,8 @@ from slamlab.models import h
 from slamlab.simulation import arc
 from slamlab.sources.landmark_runs import LandmarkRun, Loop
 from slamlab.studies import boxes as study
-from slamlab.studies.boxes import BoundedNoise, BoundedRun, inside
-from slamlab.studies.broken_bounds import cut_off, one_bad_range, race
+from slamlab.studies.boxes import inside
+from slamlab.studies.broken_bounds import cut_off, objects_made, one_bad_range, race
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=4
 # ## A bound is a promise
@@ -197,7 +192,7 @@ for degrees in (180, 0):
     sorted_says, says = low <= wrap(theta) <= high, contains((right, left), theta)
     print(f"{degrees:3}°: sorted ends say {sorted_says!s:5}  right to left says {says}")
 
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=9
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=11
 # ## Prediction: how far at most?
 #
 # Every robot of this course drives a distance $d$ in the direction of its heading plus some $\delta$, and turns
@@ -246,7 +241,9 @@ sp.solveset(sp.diff(sp.cos(alpha), alpha), alpha)
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 for span in [(-0.5, 0.5), (1, 2), (2, 4), (3, 7)]:
     tried = np.cos(np.linspace(*span, 1000))
-    print(span, "rule", np.round(cosine(span), 3), " tried", np.round([tried.min(), tried.max()], 3))
+    print(
+        span, "rule", np.round(cosine(span), 3), " tried", np.round([tried.min(), tried.max()], 3)
+    )
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Products: try all four
@@ -286,7 +283,7 @@ def after_a_drive(heading_within, distance_within):
 views.explore(
     after_a_drive,
     lambda heading_within, distance_within: (
-        f"800 drives of 1 m, give or take {distance_within:.2f} m and {heading_within:.2f} rad, end on an arc; "
+        f"Drives of a metre, give or take {distance_within:.2f} m and {heading_within:.2f} rad, end on an arc; "
         "the intervals' box holds them all, the corners' box cuts the arc off ahead."
     ),
     heading_within=(0.0, 3.2, 0.8),
@@ -302,7 +299,7 @@ views.explore(
 # *For the lecturer:* Ask for which headings the corners do suffice. Then let the class find, with the first
 # slider, the angles at which a side of the box stops moving.
 
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=8
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=9
 # ## A sighting leaves a region
 #
 # The robot sees an object at the range $r$, off by at most $d_r$, and at the bearing $\beta$, off by at most
@@ -369,7 +366,7 @@ def one_sighting(range_within, d_abs):
 views.explore(
     one_sighting,
     lambda range_within, d_abs: (
-        f"A sector of a ring, 2 m away give or take {range_within:.1f} m and {d_abs:.2f} rad, with four edges "
+        f"A sector of a ring, deep {2 * range_within:.1f} m and wide {2 * d_abs:.2f} rad, with four edges "
         f"that cut {100 * cut_off(range_within, d_abs):.0f} % of it off; their shaded sides are forbidden."
     ),
     range_within=(0.0, 1.0, 0.4),
@@ -500,7 +497,12 @@ for known_within in (1.0, 0.05):
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
 bearings = bearing_interval(robot, target)
 after = contract_heading((-0.4, 0.25), robot, target, SEEN, WITHIN)
-print("possible bearings", np.round(bearings, 2), " heading before [-0.4, 0.25], after", np.round(after, 2))
+print(
+    "possible bearings",
+    np.round(bearings, 2),
+    " heading before [-0.4, 0.25], after",
+    np.round(after, 2),
+)
 
 # %% slideshow={"slide_type": "fragment"}
 fig, ax = views.boxes.scene(None, (-1, 4, -1.2, 1.6), size=(8, 4.6))
@@ -563,7 +565,9 @@ ask(
     tolerance=100,
     unit="steps",
     reason="an honest 95 % ellipse leaves the robot outside in 5 % of the steps: that is what 95 % means.",
-    wrong={0: "then it would be larger than it claims. An honest 95 % ellipse is left in 5 % of the steps."},
+    wrong={
+        0: "then it would be larger than it claims. An honest 95 % ellipse is left in 5 % of the steps."
+    },
 )
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="10-never"
@@ -602,7 +606,7 @@ fig, ax = views.curves(half_widths, shares, "$d_{abs}$ [rad]", "cut off [%]", si
 ax.axvline(np.pi / 2, color=views.COLOURS["limit"], linestyle="dashdot", label="π/2")
 views.legend(ax)
 lost = shares["possible places"]
-views.show(fig, f"The share is 0 up to a right angle and climbs to {lost[-1]:.0f} % at half a turn.")
+views.show(fig, f"None is cut off up to a right angle, and {lost[-1]:.0f} % are at half a turn.")
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # Up to a right angle nothing is lost. Beyond it the near edge changes sides, and the region between two rays is no longer
@@ -696,8 +700,14 @@ print("the robot's box holds the robot:", inside(bor.robot, true_pose))
 # %% slideshow={"slide_type": "fragment"} answers="10-chair"
 fig, ax = views.boxes.scene(None, (-0.8, 3.2, -0.7, 0.7), size=(8, 3.6))
 for name, row in (("before", before), ("corrected", bor.robot)):
-    views.draw(ax, Boxes(name, [row]), label=f"robot's box {'after' if name != 'before' else name}", lw=2)
-things = {"landmark": ("post", (2.0, 0.0)), "naive": ("chair", chair), "truth": ("robot", (0.4, 0.0))}
+    views.draw(
+        ax, Boxes(name, [row]), label=f"robot's box {'after' if name != 'before' else name}", lw=2
+    )
+things = {
+    "landmark": ("post", (2.0, 0.0)),
+    "naive": ("chair", chair),
+    "truth": ("robot", (0.4, 0.0)),
+}
 for meaning, (label, at) in things.items():
     views.draw(ax, Points(meaning, [at]), markersize=12, label=label)
 views.legend_below(fig)
@@ -713,7 +723,7 @@ views.show(fig, "The robot's box shrinks to its left end, and the true robot sta
 #
 # So a guarantee is no better than its weakest condition, and in practice this is often the names, and not the noise.
 
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=10
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=11
 # ## Box beside ellipse
 #
 # Now both filters get the same readings: ten simulated loops, 200 steps each, with a robot and a sensor five times as good as in
@@ -742,7 +752,9 @@ sources = [LandmarkRun(replace(BETTER, steps=200), np.random.default_rng(k)) for
 races = [race(source) for source in sources]
 off = {name: 100 * np.array([each.rms()[name] for each in races]) for name in races[0].rms()}
 for name, errors in off.items():
-    print(f"{name:8} off by {np.median(errors):4.1f} cm (median of 10 runs, {errors.min():.1f} to {errors.max():.1f})")
+    print(
+        f"{name:8} off by {np.median(errors):4.1f} cm (median of 10 runs, {errors.min():.1f} to {errors.max():.1f})"
+    )
 half_side = 100 * np.median([each.half_side.mean() for each in races])
 broken = sum(each.outside.any() for each in races)
 worse = np.sum(off["box"] > off["wheels"])
@@ -800,10 +812,14 @@ views.show(
 N, k, sigma = 600, 3, BETTER.v_sigma
 drifts = np.random.default_rng(6).normal(0, sigma, (1000, N)).sum(axis=1)
 ratio = N * k * sigma / drifts.std()
-print(f"bound {N * k * sigma:.1f} m, σ of 1000 robots {drifts.std():.2f} m: {ratio:.0f} times as much")
-print(f"by the formula {k * np.sqrt(N):.0f}; the farthest robot of all is {np.abs(drifts).max():.2f} m off")
+print(
+    f"bound {N * k * sigma:.1f} m, σ of 1000 robots {drifts.std():.2f} m: {ratio:.0f} times as much"
+)
+print(
+    f"by the formula {k * np.sqrt(N):.0f}; the farthest robot of all is {np.abs(drifts).max():.2f} m off"
+)
 
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=3
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=4
 # ## How many sigmas are enough?
 #
 # A bound of fewer sigmas gives smaller boxes. How often is the truth then outside of some box, and how often does the filter
@@ -813,8 +829,13 @@ print(f"by the formula {k * np.sqrt(N):.0f}; the farthest robot of all is {np.ab
 by_sigmas = {k: [race(source, k) for source in sources] for k in (1, 2)} | {3: races}
 for k, each in by_sigmas.items():
     out = [one for one in each if one.outside.any()]
-    told, middle = sum(bool(one.box.lost) for one in out), np.median([one.rms()["box"] for one in each])
-    print(f"{k}σ: outside in {len(out):2} of 10 runs, reported in {told}; middle off by {100 * middle:.0f} cm")
+    told, middle = (
+        sum(bool(one.box.lost) for one in out),
+        np.median([one.rms()["box"] for one in each]),
+    )
+    print(
+        f"{k}σ: outside in {len(out):2} of 10 runs, reported in {told}; middle off by {100 * middle:.0f} cm"
+    )
 out_at_2 = [one for one in by_sigmas[2] if one.outside.any()]
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
@@ -822,7 +843,7 @@ out_at_2 = [one for one in by_sigmas[2] if one.outside.any()]
 # {= sum(bool(one.box.lost) for one in out_at_2) =} of them. An empty intersection proves that a bound was broken, but a broken
 # bound need not leave anything empty. **No report is no proof.** So take wide bounds.
 
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=6
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=7
 # ## When the ellipse was told wrong
 #
 # So far the noise was what the ellipse had been told: independent from step to step. Now let a gyroscope have a bias: the turn of
@@ -843,7 +864,9 @@ def biased(sigmas, bias):
 def shares_of_claims(bias_in_sigmas, bound_in_sigmas):
     each = biased(bound_in_sigmas, bias_in_sigmas)
     shares = {"box": each.box_share, "95 % ellipse": each.ellipse_share}
-    fig, ax = views.curves(np.arange(len(STEADY)), shares, "step", "off by, share of claim [1]", size=(8, 4.4))
+    fig, ax = views.curves(
+        np.arange(len(STEADY)), shares, "step", "off by, share of claim [1]", size=(8, 4.4)
+    )
     ax.axhline(1, color=views.COLOURS["limit"], linestyle="dashdot", label="outside above this")
     ax.set(ylim=(0, 5))
     views.legend(ax)
@@ -940,7 +963,9 @@ for name, interval, radius in (("box", wide, 1.0), ("scan", behind, 1.3)):
     colour, label = views.COLOURS[name], {"box": "wide", "scan": "behind"}[name]
     views.boxes.directions(ax, (0, 0), interval, radius, label, facecolor=colour, edgecolor=colour)
 views.legend(ax, loc="upper right")
-views.show(fig, "Two slices of a circle overlap at the upper left and the lower left, with a gap between.")
+views.show(
+    fig, "Two slices of a circle overlap at the upper left and the lower left, with a gap between."
+)
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # The filter has room for one interval, so it takes the smallest one that encloses both pieces. Here that is the second
@@ -1001,25 +1026,8 @@ print(f"edges at d_abs = 2.5 cut off {100 * cut_off(0.2, 2.5):.0f} % of what is 
 
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-def objects_made(seed, of_several):
-    """Objects in the map after a run among six: of several, a sighting is ignored or a new one."""
-    run = BoundedRun(BoundedNoise(moving=(0.03, 0.03)), np.random.default_rng(seed), 60)
-    bor = run.filter()
-    for motion, seen in run:
-        bor.predict(*motion)
-        for _, z in seen:
-            if of_several == "a new one" and len(bor.overlapping(z, run.world.seeing)) > 1:
-                bor.add(len(bor), z, run.world.seeing)
-                continue
-            try:
-                bor.take(z, run.world.seeing)
-            except EmptyIntersection:
-                pass
-    return len(bor)
-
-
-for rule in ("ignored", "a new one"):
-    made = [objects_made(seed, rule) for seed in range(10)]
+for rule, several_are_new in {"ignored": False, "a new one": True}.items():
+    made = [objects_made(seed, several_are_new) for seed in range(10)]
     print(f"of several {rule:9}: {np.median(made):5.1f} objects for 6 (median of 10 runs)")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}

@@ -14,11 +14,11 @@ def main(argv=None):
     parser.add_argument("--out", type=Path, default=ROOT / "site", help="where to (site/)")
     options = parser.parse_args(argv)
     try:
-        building.build(options.out)
+        failed = building.build(options.out)
     except building.SiteError as error:
         print(error, file=sys.stderr)
         return 1
-    problems = looking.problems(options.out)
+    problems = failed + looking.problems(options.out)
     print(*problems, sep="\n", end="\n" if problems else "", file=sys.stderr)
     print(f"{options.out}: {looking.size(options.out) / 1e6:.1f} MB, begin with index.html")
     return 1 if problems else 0

@@ -17,13 +17,18 @@ class SiteError(Exception):
     """The site cannot be built; the text says why and what to do."""
 
 
-def build(out, work=WORK):
-    """Build the site from what notebooks store; nothing is run.
+def build(out, work=WORK, rendered=None):
+    """Build the site from what notebooks store; only what moves is run, and kept for the next time.
 
     Parameters
     ----------
     out : Path, folder to be written; what stood there goes
-    work : Path, folder for what the next build takes over: formulas, pages read
+    work : Path, folder for what the next build takes over: formulas, pages read, films
+    rendered : collection of str or None, numbers of the lessons whose films and sliders are wanted
+
+    Returns
+    -------
+    list of str, which lessons could not be rendered, and why
 
     Raises
     ------
@@ -31,7 +36,7 @@ def build(out, work=WORK):
     """
     modules = katex_modules(work)
     source = work / "source"
-    preparing.prepare(source)
+    failed = preparing.prepare(source, work / "rendered", rendered)
     _ship_katex(modules, source / "_static" / "katex")
     shutil.rmtree(work / "html", ignore_errors=True)  # pages whose source is gone would stay
     done = subprocess.run(
@@ -49,6 +54,7 @@ def build(out, work=WORK):
     shutil.rmtree(out, ignore_errors=True)
     shutil.copytree(work / "html", out, ignore=shutil.ignore_patterns(".buildinfo*", "objects.inv"))
     (out / ".nojekyll").touch()  # GitHub Pages leaves folders with _ away otherwise
+    return failed
 
 
 def _level_captions(folder):

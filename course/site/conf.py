@@ -16,6 +16,7 @@ extensions = [
 ]
 exclude_patterns = ["_static/**"]
 
+_SCRIPTS = ("progress.js", "scrolling.js", "sliders.js", "films_on_page.js")
 html_theme = "furo"
 html_title = project
 html_math_renderer = "katex"
@@ -23,8 +24,8 @@ html_copy_source = False
 html_show_sourcelink = False
 html_show_search_summary = False  # is fetched, which pages opened as files may not
 html_static_path = ["_static"]
-html_css_files = ["katex/katex.min.css", "site.css"]
-html_js_files = [(name, {"defer": "defer"}) for name in ("progress.js", "scrolling.js")]
+html_css_files = ["katex/katex.min.css", "player.css", "site.css"]
+html_js_files = [(name, {"defer": "defer"}) for name in _SCRIPTS]
 html_theme_options = {"navigation_with_keys": True, "top_of_page_buttons": []}
 pygments_style = "a11y-high-contrast-light"
 pygments_dark_style = "a11y-high-contrast-dark"

@@ -3,10 +3,12 @@
 import copy
 import re
 
+from course.site.moving_outputs import with_moving
 from course.site.questions import asks, question
 
 NOTE = "notes"
 PLACEHOLDER = re.compile(r"Run this cell [^.]*\.")  # words in place of a widget
+FOLDED = "<details>\n<summary>What this shows</summary>\n\n{}\n\n</details>"
 _LINK = re.compile(r"\]\((?:\.\./)?(?:(notebooks|exercises)/)?((?:ex)?\d\d_\w+)\.ipynb(#[^)]+)?\)")
 _WITHIN = re.compile(r"\]\((#[^)]+)\)")
 _LESSON = re.compile(r"(?<!\[)\b([Ll]essons?) (\d\d)\b(?![^\[]*\])(?! ?[:·])")
@@ -14,13 +16,15 @@ _GUIDE = re.compile(r"\]\(\.\./docs/(\w+)\.md")
 _H1 = re.compile(r"^# (?=\S)", re.MULTILINE)
 
 
-def page(notebook, files):
+def page(notebook, files, moving=None, folder=""):
     """The notebook that the site shows in place of one.
 
     Parameters
     ----------
     notebook : NotebookNode, left as it is
     files : dict, number of a lesson to the name of its notebook without suffix
+    moving : dict, by a cell's id what was rendered of it (:mod:`course.site.rendering`), or None
+    folder : str, name of the folder of those files
 
     Returns
     -------
@@ -32,10 +36,14 @@ def page(notebook, files):
     for k, cell in enumerate(shown.cells):
         if cell.cell_type == "markdown":
             cell.source = _linked(cell.source if k == 0 else _demoted(cell.source), files)
+            if _answers(cell):
+                cell.source = FOLDED.format(cell.source)
         elif found := question(cell.source):
             shown.cells[k] = found.as_cell(cell.id)
         else:
             _tidy(cell)
+            if told := (moving or {}).get(cell.id):
+                with_moving(cell, told, folder)
             if asks(cell.source):  # the code tells the answer
                 cell.metadata.tags.append("remove-input")
     return shown
@@ -81,9 +89,14 @@ def _anchor(part):
 def _tidy(cell):
     """Fold what answers a question; drop the words that stand in a widget's place."""
     tags = cell.metadata.setdefault("tags", [])
-    if "answers" in cell.metadata.get("slamlab", {}):
+    if _answers(cell):
         tags.append("hide-cell")
     cell.outputs = [output for output in cell.outputs if not _is_placeholder(output)]
+
+
+def _answers(cell):
+    """Whether a cell answers a question: it is folded until that is answered."""
+    return "answers" in cell.metadata.get("slamlab", {})
 
 
 def _is_placeholder(output):

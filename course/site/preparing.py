@@ -1,35 +1,51 @@
 """Prepare the pages of the site: a folder of notebooks and Markdown that Sphinx can set."""
 
+import os
 import re
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import nbformat
 
-from course.site import formula_index
+from course.site import formula_index, gathered, rendering, start_film
 from course.site.pages_of_notebooks import page
 from course.source import KINDS, ROOT, file_name, sources
+from slamlab.views.player import library
 
 HERE = Path(__file__).parent
-GUIDES = ("lecturing", "grading", "robots", "architecture")
+GUIDES = ("live", "robots", "lecturing", "grading", "contest", "architecture")
 FOLDERS = {"lessons": "notebooks", "exercises": "exercises"}
 _INTO_PROJECT = re.compile(r"(?<!!)\[([^\]]+)\]\(\.\./[^)]*\)")  # a link to a file of the project
 
 
-def prepare(folder):
+def prepare(folder, cache, lessons_rendered=None):
     """Write all pages into a folder; what is as it was stays untouched, what is gone goes.
 
     Parameters
     ----------
     folder : Path
+    cache : Path, what was rendered before
+    lessons_rendered : collection of str or None, numbers of the lessons whose films and sliders are
+        wanted; None for all
+
+    Returns
+    -------
+    list of str, which lessons could not be rendered, and why: they keep their still pictures
     """
-    files = {"index.md": _start()}
+    moving, failed = _moving(cache, lessons_rendered)
+    files = {"index.md": _start()} | start_film.files(cache)
     files |= {f"_static/{path.name}": path.read_bytes() for path in (HERE / "static").iterdir()}
+    player = library.script(library.FILM, HERE / "static" / "films_on_page.js")
+    files["_static/films_on_page.js"] = player.encode()
+    files["_static/player.css"] = library.styles().encode()
     for kind in KINDS:
-        files |= _notebooks(kind)
+        files |= _notebooks(kind, moving)
     files |= _guides()
     files["formulas.md"] = formula_index.page()
+    files |= {f"{kind}.md": gathered.page(kind, _lessons_shown()) for kind in gathered.HEADS}
     files |= _modules()
     _synchronise(folder, files)
+    return failed
 
 
 def lessons():
@@ -51,23 +67,55 @@ def _start():
         names[kind].append(f"{FOLDERS[kind]}/{Path(file_name(path)).stem}")
     names["guides"] = [f"guides/{name}" for name in GUIDES]
     text = (HERE / "pages" / "index.md").read_text(encoding="utf-8")
+    text = text.replace("{{film}}", start_film.PLACE)
     for kind, listed in names.items():
         text = text.replace(f"{{{{{kind}}}}}", "\n".join(listed))
     return text
 
 
-def _notebooks(kind):
+def _moving(cache, wanted):
+    """What was rendered of each notebook (its stem to told and folder), and what could not be."""
+    names = [stem for number, stem in lessons().items() if wanted is None or number in wanted]
+
+    def render(name):
+        try:
+            return rendering.rendered(ROOT / "notebooks" / f"{name}.ipynb", cache)
+        except rendering.RenderingError as error:
+            return str(error)
+
+    with ThreadPoolExecutor(os.cpu_count()) as threads:  # each waits for a process
+        found = dict(zip(names, threads.map(render, names), strict=True))
+    failed = [each for each in found.values() if isinstance(each, str)]
+    return {name: each for name, each in found.items() if not isinstance(each, str)}, failed
+
+
+def _notebooks(kind, moving):
     """The pages of all lessons, or of all exercises as they are handed out."""
     files, known = {}, lessons()
     for path in sources():
         if path.parent.name == kind:
             name = f"{FOLDERS[kind]}/{file_name(path)}"
             notebook = nbformat.read(ROOT / name, as_version=4)
-            shown = page(notebook, known)
+            told, made = moving.get(Path(name).stem, ({}, None))
+            shown = page(notebook, known, told, made.name if made else "")
+            if told:
+                for file in made.iterdir():
+                    if file.suffix in (".webp", ".js"):
+                        files[f"_static/rendered/{made.name}/{file.name}"] = file.read_bytes()
             shown.cells[0].source += "\n\n" + _ways_to_run(name)
             files[name] = nbformat.writes(shown)
             files[f"_static/{name}"] = (ROOT / name).read_bytes()
     return files
+
+
+def _lessons_shown():
+    """Each lesson's title, the name of its page, and what the site shows of it."""
+    found, known = [], lessons()
+    for stem in known.values():
+        name = f"notebooks/{stem}.ipynb"
+        shown = page(nbformat.read(ROOT / name, as_version=4), known)
+        found.append((re.match(r"# (.+)", shown.cells[0].source)[1], name, shown))
+    return found
 
 
 def _ways_to_run(name):

@@ -4,7 +4,7 @@ from importlib.resources import files
 
 from tornado.web import HTTPError
 
-from slamlab.listening.door import Refused
+from slamlab.listening.entrance import Enter
 from slamlab.listening.guard import Fixed, Guarded
 
 PAGE = {
@@ -14,25 +14,6 @@ PAGE = {
     "/favicon.ico": ("icon.svg", "image/svg+xml"),
 }
 WAITING = 25.0  # [s], of a phone for something new
-
-
-class Enter(Guarded):
-    """The token or the code, changed into a cookie."""
-
-    is_open = True
-
-    async def post(self):
-        door = self.settings["guard"].access
-        given = self.body().get("key")
-        if not isinstance(given, str):
-            raise HTTPError(400)
-        if self.client is None:
-            try:
-                cookie = door.enter(given, self.request.remote_ip)
-            except Refused as refused:
-                raise HTTPError(refused.status) from None
-            self.set_cookie(door.name, cookie, httponly=True, samesite="Strict", path="/")
-        await self.give({})
 
 
 class State(Guarded):

@@ -2,11 +2,13 @@
 
 Read in this order:
 
-- ``run``, ``convert``: estimators over sources, sources into reading logs; ``film``: films of runs
+- ``run``, ``convert``: estimators over sources, sources into reading logs; ``live``: estimators in
+  the browser; ``film``: films of runs
 - ``emulate``, ``record``, ``replay``: devices
 - ``progress``, ``reset`` (and update): a student's own folder
 - ``check``, ``grade``, ``grade_output``, ``term_verbs`` (init, release), ``gradebook_verbs``
-  (merge, adjust, export): exercises
+  (merge, adjust, export), ``ledger_verbs`` (rejudge, verify, forget): exercises; ``contest``:
+  students' own SLAMs
 - ``rehearse``, ``print_handout``: a lesson before and after its lecture
 - ``common``: what several share
 
@@ -19,10 +21,12 @@ from importlib import import_module
 
 from slamlab import __version__
 
-COMMANDS = ("run", "film", "convert", "emulate", "record", "replay", "check", "grade",
-            "term_verbs", "gradebook_verbs", "progress", "reset", "rehearse",
-            "print_handout")  # fmt: skip
-SUBCOMMANDS = {"grade": ("init", "release", "merge", "adjust", "export")}
+COMMANDS = ("run", "live", "film", "convert", "emulate", "record", "replay", "check", "grade",
+            "term_verbs", "gradebook_verbs", "ledger_verbs", "contest", "progress", "reset",
+            "rehearse", "print_handout")  # fmt: skip
+SUBCOMMANDS = {
+    "grade": ("init", "release", "merge", "adjust", "export", "rejudge", "verify", "forget")
+}
 """Subcommands, written as two words; a folder of such a name is given as ./merge."""
 
 

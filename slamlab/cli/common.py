@@ -1,12 +1,15 @@
 """Helpers shared by the commands: generator, source that ends at Ctrl-C, damage, course file."""
 
+import contextlib
 import signal
 import threading
 from pathlib import Path
 
+from slamlab.estimators.options import OPTIONS, Number, takers
+
 SOURCES = (
     "a log file, a ROS bag, a raw recording of devices, sim:WORLD, a recording's name, or, live, "
-    "devices:LIDAR_PORT,EMIR_PORT"
+    "devices:LIDAR_PORT,EMIR_PORT, or emulated:WORLD"
 )
 COURSE = "the course file; default: course.toml here, where there is one and no --out is given"
 INTERRUPTED = 130  # the exit code after Ctrl-C, as of shells
@@ -31,7 +34,30 @@ def damage_line(source):
     return f"; damage: {kinds}" if kinds else ""
 
 
-def add_course_options(parser):
+def add_estimator_options(parser):
+    """Add the choice of an estimator, and the options that some of them take."""
+    parser.add_argument(
+        "--estimator",
+        metavar="NAME",
+        default="icp",
+        help="such as odometry, icp, mak or walls; a name there is none of lists them all (icp)",
+    )
+    of_estimators = parser.add_argument_group("options of some estimators")
+    for name, option in OPTIONS.items():
+        of_estimators.add_argument(
+            f"--{name}",
+            metavar=name[0].upper() if isinstance(option, Number) else "WORD",
+            help=f"{option.help}: {option.range}; of {', '.join(takers(name))}",
+        )
+
+
+def estimator_options(arguments):
+    """The estimator's options that were given, as they were typed: {name: str}."""
+    given = {name: getattr(arguments, name) for name in OPTIONS}
+    return {name: value for name, value in given.items() if value is not None}
+
+
+def add_course_options(parser, policy=True):
     """Add the options of every command on a gradebook; a course file gives what is left out."""
     parser.add_argument("--course", metavar="FILE", type=Path, help=COURSE)
     parser.add_argument(
@@ -42,12 +68,26 @@ def add_course_options(parser):
         metavar="URL",
         help="the gradebook, a database that SQLAlchemy speaks to; default: DIR/grades.db, SQLite",
     )
+    add_who_option(parser)
+    if not policy:
+        return
     parser.add_argument(
         "--policy",
         metavar="FILE",
         type=Path,
         help='late policy: per_day = 0.1, at_most = 0.5, [due], "04" = 2026-12-01T23:59Z; '
         "stored with each mark. A course file has its own",
+    )
+
+
+def add_who_option(parser):
+    """Add the option that says who acts."""
+    parser.add_argument(
+        "--as",
+        metavar="NAME",
+        dest="who",
+        help="who acts, as it stands with each change; default: the account of the database, or "
+        "of this machine",
     )
 
 
@@ -128,3 +168,20 @@ class Interruptible:
             raise KeyboardInterrupt
         self.ended, self.code = "ended by Ctrl-C", INTERRUPTED
         self._source.close()
+
+
+@contextlib.contextmanager
+def signals_as_interrupt():
+    """Handle SIGTERM and SIGHUP as Ctrl+C, which leaves no worker behind."""
+    names = [name for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
+    in_main = threading.current_thread() is threading.main_thread()
+    old = {n: signal.signal(getattr(signal, n), _interrupt) for n in names if in_main}
+    try:
+        yield
+    finally:
+        for name, handler in old.items():
+            signal.signal(getattr(signal, name), handler)
+
+
+def _interrupt(*_):
+    raise KeyboardInterrupt

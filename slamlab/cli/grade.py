@@ -1,14 +1,11 @@
 """``slamlab grade FOLDER --out DIR``: grade the submissions of a class."""
 
-import contextlib
 import os
-import signal
 import sys
 import tempfile
-import threading
 from pathlib import Path
 
-from slamlab.cli.common import UsageError, add_course_options, term_of
+from slamlab.cli.common import UsageError, add_course_options, signals_as_interrupt, term_of
 from slamlab.cli.grade_output import print_summary, with_progress
 from slamlab.exercises import catalogue
 
@@ -117,21 +114,22 @@ def _grade(arguments, scratch):
     if term and arguments.worksheet:
         term.keep_worksheet(arguments.exercise, arguments.worksheet)
     found, secret = batch.prepare_grading(arguments.folder, arguments.out, scratch, secret, make)
-    found = term.join(found, arguments.exercise) if term else found
+    everything = found = term.join(found, arguments.exercise) if term else found
     found = batch.select_shard(found, arguments.shard) if arguments.shard else found
     policy = late_policy.load(arguments.policy) if arguments.policy else term and term.policy
     if not arguments.scheduler:
         isolation.ensure_level(arguments.isolation)
     with (
-        Gradebook(arguments.db or default_url(arguments.out)) as book,
+        Gradebook(arguments.db or default_url(arguments.out), arguments.who) as book,
         WorkerPool(arguments.isolation) as workers,
-        _signals_as_interrupt(),
+        signals_as_interrupt(),
     ):
         kept = batch.kept_policies(book)
+        seen = book.sight(batch.content_hashes(everything))
         known = {} if arguments.regrade else book.attempts()
         graded = _graded(arguments, found, secret, workers, known)
-        words = arguments.out, book, arguments.exercise, policy, arguments.regrade, kept, term
-        records = with_progress(batch.store_records(graded, *words), len(found))
+        words = arguments.out, book, arguments.exercise, policy, arguments.regrade, kept
+        records = with_progress(batch.store_records(graded, *words, term, seen), len(found))
         return records, term.summary(book, records) if term else []
 
 
@@ -162,20 +160,3 @@ def _graded(arguments, found, secret, workers, known):
         )
     jobs = min(arguments.jobs, len(found))
     return batch.grade_locally(found, secret, workers, exercise, known, jobs)
-
-
-@contextlib.contextmanager
-def _signals_as_interrupt():
-    """Handle SIGTERM and SIGHUP as Ctrl+C, which leaves no worker behind."""
-    names = [name for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
-    in_main = threading.current_thread() is threading.main_thread()
-    old = {n: signal.signal(getattr(signal, n), _interrupt) for n in names if in_main}
-    try:
-        yield
-    finally:
-        for name, handler in old.items():
-            signal.signal(getattr(signal, name), handler)
-
-
-def _interrupt(*_):
-    raise KeyboardInterrupt

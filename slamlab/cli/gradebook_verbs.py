@@ -52,9 +52,8 @@ def run(arguments) -> int:
         policy = late_policy.load(arguments.policy) if arguments.policy else None
         if arguments.verb == "merge":
             arguments.out.mkdir(parents=True, exist_ok=True)
-        with Gradebook(
-            arguments.db or default_url(arguments.out, arguments.verb == "merge")
-        ) as book:
+        url = arguments.db or default_url(arguments.out, arguments.verb == "merge")
+        with Gradebook(url, arguments.who) as book:
             print(verb(arguments, book, term, policy))
     except (*told, KeyError) as error:
         print(f"slamlab grade {arguments.verb}: {error.args[0]}", file=sys.stderr)

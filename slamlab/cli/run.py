@@ -7,8 +7,15 @@ from contextlib import nullcontext
 from dataclasses import replace
 from pathlib import Path
 
-from slamlab.cli.common import SOURCES, Interruptible, damage_line, generator
-from slamlab.estimators.options import OPTIONS, Number, checked, takers
+from slamlab.cli.common import (
+    SOURCES,
+    Interruptible,
+    add_estimator_options,
+    damage_line,
+    estimator_options,
+    generator,
+)
+from slamlab.estimators.options import checked
 
 COLUMNS = ("time", "x", "y", "theta", "naive_x", "naive_y", "naive_theta")
 
@@ -26,12 +33,6 @@ def add_parser(subparsers):
         ),
     )
     parser.add_argument("source", metavar="SOURCE", help=SOURCES)
-    parser.add_argument(
-        "--estimator",
-        metavar="NAME",
-        default="icp",
-        help="such as odometry, icp, mak or walls; a name there is none of lists them all (icp)",
-    )
     parser.add_argument("--out", metavar="DIR", type=Path, help="a folder for the results")
     parser.add_argument(
         "--tum",
@@ -54,13 +55,7 @@ def add_parser(subparsers):
     parser.add_argument(
         "--merge", metavar="N", type=int, help="turns of a lidar that become one scan (1)"
     )
-    of_estimators = parser.add_argument_group("options of some estimators")
-    for name, option in OPTIONS.items():
-        of_estimators.add_argument(
-            f"--{name}",
-            metavar=name[0].upper() if isinstance(option, Number) else "WORD",
-            help=f"{option.help}: {option.range}; of {', '.join(takers(name))}",
-        )
+    add_estimator_options(parser)
     parser.set_defaults(run=run)
 
 
@@ -78,7 +73,7 @@ def run(arguments) -> int:
             if arguments.merge is not None:
                 opened.merge(arguments.merge)
             source = Interruptible(opened)
-            estimator = estimators.make(arguments.estimator, source, **_options(arguments))
+            estimator = estimators.make(arguments.estimator, source, **estimator_options(arguments))
             if arguments.out is not None:
                 arguments.out.mkdir(parents=True, exist_ok=True)
             if arguments.tum is not None:
@@ -88,7 +83,7 @@ def run(arguments) -> int:
                 result = _with_progress(source, estimator, naive, film)
         if not result.frames:
             raise sources.SourceError(f"{source.name} gave no reading")
-        summary = summarise(result, arguments.estimator, relations, _options(arguments))
+        summary = summarise(result, arguments.estimator, relations, estimator_options(arguments))
         if arguments.out is not None:
             write(result, summary, arguments.out, naive)
         if arguments.tum is not None:
@@ -116,12 +111,6 @@ def run(arguments) -> int:
     if arguments.film is not None:
         print(f"written to {arguments.film}: the film; slamlab film {arguments.film} plays it")
     return source.code
-
-
-def _options(arguments):
-    """The estimator's options that were given, as they were typed: {name: str}."""
-    given = {name: getattr(arguments, name) for name in OPTIONS}
-    return {name: value for name, value in given.items() if value is not None}
 
 
 def summarise(result, estimator, relations=None, options=None):

@@ -1,10 +1,11 @@
 """``slamlab grade init`` and ``release``: begin a term, give an exercise's results back."""
 
+import hashlib
 import os
 import sys
 from pathlib import Path
 
-from slamlab.cli.common import COURSE, UsageError, term_of
+from slamlab.cli.common import COURSE, UsageError, add_who_option, term_of
 from slamlab.cli.grade_output import printable
 
 VERBS = ("init", "release")
@@ -49,6 +50,7 @@ def add_parser(subparsers):
     )
     release.add_argument("exercise", metavar="ID", help="such as 04")
     release.add_argument("--course", metavar="FILE", type=Path, help=COURSE)
+    add_who_option(release)
     release.set_defaults(run=run, verb="release", out=None, db=None, policy=None)
 
 
@@ -104,11 +106,15 @@ def _release(arguments):
     if id not in term.course.exercises:
         known = ", ".join(term.course.exercises)
         raise UsageError(f"the course file has no exercise {id}; it has {known}")
-    with Gradebook(arguments.db or default_url(arguments.out, new=False)) as book:
+    url = arguments.db or default_url(arguments.out, new=False)
+    with Gradebook(url, arguments.who) as book:
         mine, gone = term.standings(book)[id], term.gone(book)
-    if gone and not any(standing.mark for standing in mine):
-        raise UsageError(gone[0])
-    said = releases.release(term.course, term.roster, id, mine, term.worksheet(id))
-    place = term.course.results / id / "release"
-    lines = [f"exercise {id} released: {place}", *said, *gone]
+        if gone and not any(standing.mark for standing in mine):
+            raise UsageError(gone[0])
+        said = releases.release(term.course, term.roster, id, mine, term.worksheet(id))
+        place = term.course.results / id / "release"
+        table = hashlib.sha256((place / "grades.csv").read_bytes()).hexdigest()
+        head = book.note("release", {"exercise": id, "grades.csv": table})
+    told = f"ledger {head['chain']}, row {head['number']}: {head['hash']}"
+    lines = [f"exercise {id} released: {place}", *said, *gone, told]
     return "\n".join(map(printable, lines))

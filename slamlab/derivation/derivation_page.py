@@ -5,7 +5,7 @@ import html as markup
 import sympy as sp
 
 from slamlab.derivation.changes import change
-from slamlab.derivation.marked_latex import marked_latex
+from slamlab.derivation.marked_latex import latex, marked_latex, name_of_matrix
 
 STYLE = "padding-left: 1.2em; font-size: 95%"  # Jacobians are wide
 NOT_REACHED = "not reached: line {} does not hold"
@@ -63,7 +63,7 @@ def _item(derivation, k):
     line = derivation.lines[k]
     told = [markup.escape(line.why)]
     if line.expression is not None:
-        name = sp.latex(sp.Symbol(derivation.name))
+        name = name_of_matrix(derivation.name)
         left = rf"\phantom{{{name}}} =" if k else f"{name} ="
         if isinstance(line.expression, sp.Eq):  # which has a left side of its own
             left = ""
@@ -103,10 +103,10 @@ def _in_text(name, meaning):
 
 
 def _in_latex(name, meaning):
-    tex = sp.latex(name)
+    tex = latex(name)
     if isinstance(meaning, sp.BlockMatrix):
         return f"${tex}$ is in blocks"
-    small = sp.latex(meaning, mat_str="smallmatrix")
+    small = latex(meaning, mat_str="smallmatrix")
     value = f"{float(meaning):g}" if meaning.is_Rational else small
     return markup.escape(f"${tex} = {value}$", quote=False)
 

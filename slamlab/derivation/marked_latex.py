@@ -1,11 +1,14 @@
-"""LaTeX of a line in which what is new is coloured and underlined."""
+"""LaTeX of a line in which what is new is coloured and underlined; the robot's r is roman."""
 
+import re
 from collections import defaultdict
 
+import sympy as sp
 from sympy.printing.latex import LatexPrinter
 
 # blue of Okabe and Ito, 5.2 : 1 on white; the style sheet has their lighter blue for a dark page
 COLOUR = "#0072b2"
+SUBSCRIPT = re.compile(r"_\{[a-z0-9]{1,2}\}")
 
 
 def marked_latex(change):
@@ -22,14 +25,54 @@ def marked_latex(change):
     return _Printer().line(change)
 
 
+def latex(expression, **settings):
+    """Typeset an expression as the course writes it: italic r is a range, roman r the robot.
+
+    Parameters
+    ----------
+    expression : sympy expression
+    settings : what sympy's printer takes, such as ``mat_str``
+
+    Returns
+    -------
+    str, LaTeX
+    """
+    return _Roman(settings).doprint(expression)
+
+
+def name_of_matrix(name):
+    """Typeset the name of a matrix: ``P_rr`` becomes P with a roman subscript.
+
+    Parameters
+    ----------
+    name : str
+
+    Returns
+    -------
+    str, LaTeX
+    """
+    return _roman(sp.latex(sp.Symbol(name)))
+
+
+def _roman(tex):
+    return SUBSCRIPT.sub(lambda found: re.sub("r+", r"\\mathrm{\g<0>}", found[0]), tex)
+
+
 def mark(tex, sign=""):
     """Mark LaTeX as new: by colour, and for who sees no colours by a line below."""
     before = f"{{}}{sign}" if sign else ""  # as between two terms
     return rf"{{\color{{{COLOUR}}}{{{before}\underline{{{tex}}}}}}}"
 
 
-class _Printer(LatexPrinter):
-    """Prints as sympy does; asks of each part that it prints whether that is new."""
+class _Roman(LatexPrinter):
+    """Prints as sympy does; r in a matrix's subscript is the robot, in a number's the range."""
+
+    def _print_MatrixSymbol(self, expr, **options):
+        return _roman(super()._print_MatrixSymbol(expr, **options))
+
+
+class _Printer(_Roman):
+    """Asks of each part that it prints whether that is new."""
 
     def __init__(self):
         super().__init__({"mat_delim": "["})

@@ -4,6 +4,7 @@ Read in this order:
 
 - ``transport``: serial port, TCP connection; ``serial_ports``, ``memory_port``; ``errors``,
   ``port_open_errors``: what can go wrong, and what to do
+- ``kept_port``: a port in a process of its own, ``port_keeper``, which outlives a killed program
 - ``reader_thread``, ``latest_value``, ``receive_timeout``, ``clock``, ``shutdown``: thread, queue,
   timeouts and safe end of both drivers
 - ``rplidar``: the lidar's protocol and driver ``RPLidar``; ``emir``: the robot's, ``Emir``

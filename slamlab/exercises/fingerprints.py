@@ -111,8 +111,9 @@ def recognise(task, sets, answers) -> Mistake | None:
     """Name the mistake that explains an answer, if exactly one does.
 
     One program that computes all of it explains it best; else one that computes all that is wrong.
-    Where none does there are several mistakes, and the first part that one explains is told.
-    Slips go before families; two families explain nothing.
+    Where none does there are several mistakes, and the first part that one explains is told; but
+    not of an answer that fails on some inputs: that alone would make its parts like those of every
+    program that fails there. Slips go before families; two families explain nothing.
 
     Parameters
     ----------
@@ -130,7 +131,9 @@ def recognise(task, sets, answers) -> Mistake | None:
     wrong = ~same[table.labels == 0].any(axis=0)
     if not wrong.any():
         return None
-    explaining = [same.all(axis=1), same[:, wrong].all(axis=1), *same[:, wrong].T]
+    explaining = [same.all(axis=1)]
+    if not any(isinstance(measured(task, sets[n], answers.get(n)), StudentError) for n in sets):
+        explaining += [same[:, wrong].all(axis=1), *same[:, wrong].T]
     for programs in explaining:
         label = _single(set(table.labels[programs].tolist()), table.slips)
         if label:

@@ -78,7 +78,7 @@ class CompressedMAK:
         return step
 
     def settle(self):
-        """Global update: bring every landmark outside the region up to date."""
+        """Global update: bring every landmark outside the region up to date. Equation (07.14)."""
         if self._local is None:
             return
         whole, A = self.whole, self._rows

@@ -9,6 +9,8 @@ import numpy as np
 def relative_vector(mak, i, j):
     """Relative vector Δp_ij = p_j − p_i and its covariance P_ii − P_ij − P_ji + P_jj.
 
+    Equation (07.10).
+
     Parameters
     ----------
     mak : MAK

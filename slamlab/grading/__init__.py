@@ -3,15 +3,18 @@
 Read in this order:
 
 - ``submissions``, ``notebooks``: what was handed in; ``preflight``: warnings about its form
-- ``judge``: one submission; ``batch``, ``dask_cluster``: a folder of them; ``records``
+- ``judge``, ``task_judging``: one submission; ``batch``, ``dask_cluster``: a folder of them;
+  ``records``
 - ``worker_pool``, ``zygote``, ``forked_workers``, ``fresh_workers``, ``worker_client``, ``worker``,
   ``wire_protocol``: fork server (zygote) and sandboxed processes, serialisation between them
 - ``staging``, ``import_closure``, ``hidden_packages``, ``checks_stub``: what a worker holds;
   ``sandbox`` (``bubblewrap``, ``landlock``, ``seccomp``), ``quotas``, ``tree_removal``,
   ``isolation``; ``probe`` and ``probe_drives``: the self-test
-- ``gradebook``, ``gradebook_rows``, ``database``, ``marks``, ``late_policy``, ``toml_files``:
-  attempts, overrides, late policy
-- ``feedback``, ``redaction``, ``class_report``, ``similarity``, ``grade_tables``,
+- ``gradebook``, ``gradebook_rows``, ``database``, ``ledger``, ``older_gradebooks``, ``marks``,
+  ``late_policy``, ``toml_files``: attempts, overrides, late policy
+- ``evidence``, ``course_digests``, ``rejudging``, ``rejudge_report``: judging again, by another
+  version, what is kept of an attempt
+- ``feedback``, ``redaction``, ``local_times``, ``class_report``, ``similarity``, ``grade_tables``,
   ``nbgrader_gradebook``: feedback pages, reports, exports
 - ``term``: a course file, a roster, downloads of Moodle and Canvas, releases
 """

@@ -12,7 +12,7 @@ from slamlab.grading import class_report, feedback, grade_tables, judge
 from slamlab.grading.gradebook_rows import attempt_key
 from slamlab.grading.marks import mark
 from slamlab.grading.records import private_folder
-from slamlab.grading.submissions import SubmissionError
+from slamlab.grading.submissions import SubmissionError, read_bytes
 from slamlab.grading.term.hand_ins import find_hand_ins
 
 
@@ -107,7 +107,7 @@ def grade_locally(found, secret, workers, default=None, known=None, jobs=1):
 
 
 def store_records(
-    graded, out, book, default=None, policy=None, regrade=False, kept=None, term=None
+    graded, out, book, default=None, policy=None, regrade=False, kept=None, term=None, seen=None
 ):
     """Store each record in the gradebook with its feedback page, and all tables at the end.
 
@@ -123,6 +123,7 @@ def store_records(
     regrade : bool
     kept : submission to the policy stored with it before, see :func:`kept_policies`
     term : Term or None, which writes its own tables and pages
+    seen : submission to the number under which it was seen; None for none
 
     Yields
     ------
@@ -133,13 +134,14 @@ def store_records(
         for record in graded:
             before = (kept or {}).get(record.submission)
             stored = policy.stored(record.student) if policy else before
-            record = replace(record, policy=stored)
-            records.append(record)
+            record = replace(record, policy=stored, seen=(seen or {}).get(record.submission))
             if not regrade:
                 if not record.failed:
                     book.add(record)
                 if term is None:
                     feedback.write_feedback_page(out, mark(record, overrides))
+                record = replace(record, contents={})  # stored; a class's would fill the memory
+            records.append(record)
             yield record
     if regrade:
         records, overrides = _swap(records, book), book.overrides()
@@ -150,6 +152,26 @@ def store_records(
     for each in marks if regrade else ():
         feedback.write_feedback_page(out, each)
     write_results(out, marks, default)
+
+
+def content_hashes(found):
+    """What is handed in, by the order of names.
+
+    Parameters
+    ----------
+    found : list of Submission
+
+    Returns
+    -------
+    list of (name, hash of the file; empty where there is none that can be read)
+    """
+    listed = []
+    for submission in sorted(found, key=lambda submission: submission.name):
+        data = b""
+        with contextlib.suppress(SubmissionError):
+            data = read_bytes(submission)
+        listed.append((submission.name, sha256(data).hexdigest() if data else ""))
+    return listed
 
 
 def kept_policies(book):

@@ -5,6 +5,7 @@ ends, so that a class that is being graded survives a restart of its database.
 """
 
 import contextlib
+import getpass
 import os
 import sys
 
@@ -23,7 +24,8 @@ LIBPQ_OPTIONS = {
     "tcp_user_timeout": 30_000,
 }
 LIBPQ_DRIVERS = ("psycopg", "psycopg2")
-# of two processes that come at once the second waits until the first has made the tables
+MOST_RACES = 20  # lost against other processes, where a database has no lock below
+# of two processes that come at once the second waits until the first is done
 LOCKS = {"postgresql": "SELECT pg_advisory_xact_lock(1936482669)", "sqlite": "BEGIN IMMEDIATE"}
 PASSING = (sa.exc.OperationalError, sa.exc.InterfaceError, sa.exc.TimeoutError)
 """Errors that may pass: the server is gone or locked, the disk is full."""
@@ -57,11 +59,16 @@ class Database:
         except (sa.exc.SQLAlchemyError, ModuleNotFoundError) as error:
             raise GradebookError(f"the gradebook cannot be opened: {_said(error)}") from None
 
+    @property
+    def account(self):
+        """The account by which the database is used: its own, else this machine's."""
+        return self._engine.url.username or _account_here()
+
     def close(self):
         """Close the connections; may be called twice."""
         self._engine.dispose()
 
-    def transact(self, work):
+    def transact(self, work, writes=False):
         """Run a function of a connection in a transaction: all that it writes is there, or nothing.
 
         It may run twice, when the answer to a commit is lost: it must not double anything.
@@ -69,6 +76,7 @@ class Database:
         Parameters
         ----------
         work : connection -> anything
+        writes : bool, whether it waits until no other one writes
 
         Returns
         -------
@@ -78,15 +86,17 @@ class Database:
         ------
         GradebookError : the database is lost, or refuses
         """
-        end, raced = None, False
+        end, races = None, 0
         while True:
             try:
                 with self._engine.begin() as connection:
+                    if writes:
+                        self._lock(connection)
                     return work(connection)
             except sa.exc.IntegrityError as error:  # another process wrote the same row just now
-                if raced:
+                if races == MOST_RACES:
                     raise GradebookError(f"the gradebook refuses: {_said(error)}") from None
-                raced = True
+                races += 1
             except PASSING as error:
                 self._engine.dispose()
                 end = self._wait(end, _said(error))
@@ -110,10 +120,13 @@ class Database:
         if set(tables.tables) <= set(sa.inspect(self._engine).get_table_names()):
             return
         with self._engine.begin() as connection:
-            lock = LOCKS.get(self._engine.dialect.name)
-            if lock:
-                connection.exec_driver_sql(lock)
+            self._lock(connection)
             tables.create_all(connection)
+
+    def _lock(self, connection):
+        lock = LOCKS.get(self._engine.dialect.name)
+        if lock:
+            connection.exec_driver_sql(lock)
 
 
 def _options(url):
@@ -130,6 +143,13 @@ def _make_private(url):
         os.close(os.open(url.database, os.O_RDWR | os.O_CREAT, 0o600))
         if os.stat(url.database).st_mode & 0o007:
             os.chmod(url.database, 0o600)
+
+
+def _account_here():
+    try:
+        return getpass.getuser()
+    except (OSError, KeyError, ImportError):  # a user without a name
+        return f"user {os.getuid()}" if hasattr(os, "getuid") else "unknown"
 
 
 def _said(error):

@@ -1,12 +1,12 @@
 """Feedback page for the student: each task, its laws, the points, and what would gain the rest."""
 
-from datetime import UTC, datetime
 from pathlib import Path
 
 import jinja2
 
 from slamlab.exercises import catalogue
 from slamlab.exercises.report import number, points
+from slamlab.grading.local_times import local_time
 from slamlab.grading.marks import Mark
 from slamlab.grading.records import write_atomically
 
@@ -27,7 +27,7 @@ def feedback_page(mark: Mark, student=None, zone=None) -> str:
     ----------
     mark : Mark
     student : str or None, the name to show; None: as the record has it
-    zone : ZoneInfo or None, of the times shown; None: as they are told
+    zone : ZoneInfo or None, of the times shown; None: UTC
 
     Returns
     -------
@@ -37,7 +37,7 @@ def feedback_page(mark: Mark, student=None, zone=None) -> str:
         mark=mark,
         record=mark.record,
         title=title(mark, student),
-        handed_in=_local(mark.record.handed_in, zone),
+        handed_in=local_time(mark.record.handed_in, zone, named=True),
         text=feedback_text(mark, student, zone),
     )
 
@@ -60,7 +60,7 @@ def feedback_text(mark: Mark, student=None, zone=None) -> str:
         by_hand = f", {points(mark.total)} by hand" if mark.total is not None else ""
         lines.append(f"Could not be graded{by_hand}: {record.reason}")
     if mark.late_penalty:
-        when = _local(record.handed_in, zone)
+        when = local_time(record.handed_in, zone, named=True)
         lines.append(f"{points(mark.late_penalty)} taken for lateness, handed in {when}")
     for task, why in mark.override_reasons.items():
         lines.append(f"{task} set by hand to {points(mark.points[task])}: {why}")
@@ -81,14 +81,6 @@ def title(mark: Mark, student=None) -> str:
     known = of in catalogue.EXERCISES if of else False
     what = f"Exercise {of}: {catalogue.exercise(of).title}" if known else "An exercise"
     return f"{what} · {student or mark.record.student}"
-
-
-def _local(when, zone):
-    """A time on the clocks of a zone (UTC where none is told), with its name there."""
-    if not when:
-        return when
-    local = datetime.fromisoformat(when).astimezone(zone or UTC)
-    return f"{local:%A}, {local.day} {local:%B %Y, %H:%M %Z}"
 
 
 def write_feedback_page(out: Path, mark: Mark):

@@ -116,6 +116,19 @@ class Zygote:
             os.close(theirs_out)
         return ForkedWorker(self, os.fdopen(ours_in, "rb"), os.fdopen(ours_out, "wb"))
 
+    def cpu_so_far(self):
+        """The CPU time that the worker took so far [s].
+
+        Raises
+        ------
+        ZygoteError
+        """
+        try:
+            self._control.send(json.dumps({"do": "cpu"}).encode())
+        except OSError:
+            raise ZygoteError(self.last_error()) from None
+        return self._receive(ANSWER_TIMEOUT)["cpu"]
+
     def kill_worker(self):
         """Kill the worker; its CPU time [s], 0 where the zygote is gone and the worker with it."""
         try:
@@ -170,6 +183,10 @@ class ForkedWorker:
     def last_error(self):
         """The last line of the error output of a worker that could not start."""
         return self._zygote.last_error()
+
+    def cpu_so_far(self):
+        """CPU time [s], as the kernel counts it: nothing that runs in the worker can change it."""
+        return self._zygote.cpu_so_far() if self._runs else self.cpu
 
     def kill(self):
         """End the worker; its CPU time [s] is in :attr:`cpu`."""

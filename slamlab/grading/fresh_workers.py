@@ -5,6 +5,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+import time
 from pathlib import Path
 
 from slamlab.grading import staging, tree_removal
@@ -27,7 +28,7 @@ class FreshWorker:
     """
 
     def __init__(self, exercise):
-        self.cpu = 0.0
+        self.cpu, self._begun = 0.0, time.monotonic()
         self._folder = tempfile.TemporaryDirectory(prefix="slamlab-", ignore_cleanup_errors=True)
         folder = Path(self._folder.name)
         copy, home = folder / "copy", folder / "home"
@@ -51,6 +52,10 @@ class FreshWorker:
         """The last line of the error output of a worker that could not start, before any cell."""
         lines = Path(self._folder.name, "errors").read_text("utf-8", "replace").strip().splitlines()
         return lines[-1][:300] if lines else ""
+
+    def cpu_so_far(self):
+        """The time since it was started [s], of which its CPU time, not told here, is a part."""
+        return time.monotonic() - self._begun
 
     def kill(self):
         """End the worker and all processes of its group; its CPU time [s] is in :attr:`cpu`."""

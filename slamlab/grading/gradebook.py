@@ -1,19 +1,17 @@
-"""Gradebook: every attempt (graded submission) and every manual override, in a database.
+"""Gradebook: every attempt (graded submission) and every manual override, in a ledger.
 
-SQLite by default; any database that SQLAlchemy speaks to, by its URL. An attempt is written whole
+SQLite by default; any database that SQLAlchemy speaks to, by its URL. An attempt is appended whole
 in one transaction when it is known, under a key that is the same for the same content, so that a
-grader that was killed loses what it was at, and one started again doubles nothing. Which attempt
-is the newest is told by a counter, the row's number; a clock may be wrong.
+grader that was killed loses what it was at, and one started again doubles nothing. Nothing is ever
+rewritten: of the rows of one key the last one holds.
 """
 
 import json
-from itertools import accumulate
 
-import sqlalchemy as sa
-
-from slamlab.grading import gradebook_rows
+from slamlab.grading import gradebook_rows, older_gradebooks
 from slamlab.grading.database import Database, GradebookError
-from slamlab.grading.gradebook_rows import ADJUSTMENTS, ATTEMPTS
+from slamlab.grading.ledger import chain_merging, chains, contents, forgetting, sightings
+from slamlab.grading.ledger.chains import LEDGER, Entry
 
 
 class Gradebook:
@@ -22,14 +20,18 @@ class Gradebook:
     Parameters
     ----------
     url : str, such as sqlite:////home/me/grades.db or postgresql+psycopg://me@host/course
+    who : str or None, who acts, as it stands with each row; None: the account
 
     Raises
     ------
     GradebookError : from here and every method, when the database cannot be used
     """
 
-    def __init__(self, url):
+    def __init__(self, url, who=None):
         self._database = Database(url, gradebook_rows.TABLES)
+        self.who = gradebook_rows.storable(who or self._database.account)[:200]
+        if self._read(older_gradebooks.is_older):
+            self._write(lambda connection: older_gradebooks.adopt(connection, self.who))
 
     def __enter__(self):
         return self
@@ -54,22 +56,51 @@ class Gradebook:
         """
         return self.add_all([record]) == 1
 
-    def add_all(self, records):
+    def add_all(self, records, why=None):
         """Store attempts as :meth:`add` does, all at once or none.
 
         Parameters
         ----------
         records : list of Record
+        why : str or None, why those that are there are judged anew; they stay at their places then
 
         Returns
         -------
         int, how many were new
         """
-        rows = [gradebook_rows.attempt_row(record) for record in records]
-        return self._database.transact(lambda connection: sum(_add(connection, r) for r in rows))
+        entries = [_attempt(record, why) for record in records]
+        kept = {name: data for record in records for name, data in record.contents.items()}
+
+        def added(connection):
+            new, changed = 0, []
+            for entry in entries:
+                mine = LEDGER.c.about == chains.about(entry.submission)
+                before = _newest_of_each(chains.bodies(connection, "attempt", mine))
+                key, record = entry.body["key"], json.loads(entry.text)["record"]
+                new += key not in before
+                if before.get(key) != record or not (why or key == list(before)[-1]):
+                    changed.append(entry)
+            chains.append(connection, changed, self.who)
+            contents.store(connection, kept)
+            return new
+
+        return self._write(added)
+
+    def sight(self, found):
+        """Number what was handed in, by the order in which it is seen; see :mod:`sightings`.
+
+        Parameters
+        ----------
+        found : list of (name, hash of its content)
+
+        Returns
+        -------
+        dict, name to number
+        """
+        return self._write(lambda connection: sightings.sight(connection, found))
 
     def merge(self, other):
-        """Merge another gradebook into this one: its attempts and its overrides.
+        """Merge another gradebook into this one: its ledger and its contents.
 
         Parameters
         ----------
@@ -79,16 +110,42 @@ class Gradebook:
         -------
         int, attempts that were new
         """
-        theirs = {table: other._rows(table) for table in (ATTEMPTS, ADJUSTMENTS)}
+        theirs = other.rows()
+        seen = other._read(sightings.listed)
+        named = {name for record in other.attempts().values() for name in record.kept.values()}
+        kept = other.contents(named)
+        before = len(self.attempts())
 
         def merged(connection):
-            _merge(connection, ADJUSTMENTS, theirs[ADJUSTMENTS])
-            return _merge(connection, ATTEMPTS, theirs[ATTEMPTS])
+            chain_merging.merge(connection, theirs, self.who)
+            contents.store(connection, kept)
+            contents.drop_unnamed(connection)  # of whom was forgotten here
+            sightings.merge(connection, seen)
 
-        return self._database.transact(merged)
+        self._write(merged)
+        return len(self.attempts()) - before
 
-    def _rows(self, table):
-        return self._database.transact(lambda connection: _rows(connection, table))
+    def rows(self):
+        """All rows of the ledger, in order.
+
+        Returns
+        -------
+        list of dict
+        """
+        return self._read(chains.rows)
+
+    def contents(self, names):
+        """What is kept of attempts, by the hashes that their records name; see :mod:`contents`.
+
+        Parameters
+        ----------
+        names : iterable of str
+
+        Returns
+        -------
+        dict, hash to bytes
+        """
+        return self._read(lambda connection: contents.load(connection, names))
 
     def attempts(self):
         """All attempts.
@@ -97,8 +154,11 @@ class Gradebook:
         -------
         dict, key to Record, the oldest first
         """
-        found = self._rows(ATTEMPTS)
-        return {row["key"]: gradebook_rows.stored_record(row["record"]) for row in found}
+        found = self._read(lambda connection: chains.bodies(connection, "attempt"))
+        return {
+            key: gradebook_rows.stored_record(record)
+            for key, record in _newest_of_each(found).items()
+        }
 
     def latest_attempts(self):
         """The attempt that counts: the latest of each submission.
@@ -107,8 +167,8 @@ class Gradebook:
         -------
         list of Record, sorted by submission
         """
-        newest = {row["submission"]: row["record"] for row in self._rows(ATTEMPTS)}
-        return [gradebook_rows.stored_record(newest[name]) for name in sorted(newest)]
+        newest = {record.submission: record for record in self.attempts().values()}
+        return [newest[name] for name in sorted(newest)]
 
     def override_points(self, submission, exercise, task, points, reason):
         """Add a manual override: the points of a task set by hand; the newest one counts.
@@ -119,20 +179,8 @@ class Gradebook:
         points : float
         reason : str
         """
-        row = {
-            "submission": gradebook_rows.storable(submission),
-            "exercise": exercise,
-            "task": task,
-            "points": float(points),
-            "reason": gradebook_rows.storable(reason),
-            "at": gradebook_rows.timestamp(),
-        }
-
-        def written(connection):  # once, though it be tried twice
-            connection.execute(sa.delete(ADJUSTMENTS).filter_by(**row))
-            connection.execute(sa.insert(ADJUSTMENTS).values(row))
-
-        self._database.transact(written)
+        body = {"exercise": exercise, "task": task, "points": float(points), "reason": reason}
+        self.note("override", body, submission)
 
     def overrides(self):
         """The manual overrides, the newest of each task.
@@ -141,67 +189,76 @@ class Gradebook:
         -------
         dict, (submission, task) to (points, reason)
         """
-        found = self._rows(ADJUSTMENTS)
-        return {(row["submission"], row["task"]): (row["points"], row["reason"]) for row in found}
+        found = self.notes("override")
+        return {(one["submission"], one["task"]): (one["points"], one["reason"]) for one in found}
+
+    def note(self, kind, body, submission=None):
+        """Append a row of another kind.
+
+        Parameters
+        ----------
+        kind : str, such as "release"
+        body : dict of plain values
+        submission : str or None, which it is about
+
+        Returns
+        -------
+        dict, the row that is the head of the gradebook's own chain now
+        """
+        if submission is not None:
+            body = body | {"submission": submission}
+        body = gradebook_rows.storable(body)
+        entry = Entry(kind, body, body.get("submission"))
+
+        def noted(connection):
+            chains.append(connection, [entry], self.who)
+            return chains.own_head(connection)
+
+        return self._write(noted)
+
+    def notes(self, kind):
+        """What the rows of a kind say, the oldest first.
+
+        Returns
+        -------
+        list of dict
+        """
+        return self._read(lambda connection: chains.bodies(connection, kind))
+
+    def forget(self, student):
+        """Delete name and content of a student for good; hashes stay.
+
+        Parameters
+        ----------
+        student : str
+
+        Returns
+        -------
+        list of Record, his attempts as they were
+        """
+        told = self._write(lambda c: forgetting.forget(c, student, self.who))
+        return [gradebook_rows.stored_record(record) for record in told]
+
+    def _read(self, work):
+        return self._database.transact(work)
+
+    def _write(self, work):
+        return self._database.transact(work, writes=True)
 
 
-def _rows(connection, table):
-    """All rows of a table as dicts, the oldest first."""
-    found = connection.execute(sa.select(table).order_by(table.c.id))
-    return [dict(row) for row in found.mappings()]
-
-
-def _add(connection, row):
-    """Insert the row of an attempt as its submission's newest; whether it was new."""
-    mine = ATTEMPTS.c.submission == row["submission"]
-    known = sa.select(ATTEMPTS.c.key, ATTEMPTS.c.record).where(mine).order_by(ATTEMPTS.c.id)
-    before = connection.execute(known).all()
-    new = all(one.key != row["key"] for one in before)
-    if not new:
-        if before[-1] == (row["key"], json.loads(json.dumps(row["record"]))):
-            return False
-        # an older version was handed in again, or at another time
-        connection.execute(sa.delete(ATTEMPTS).where(ATTEMPTS.c.key == row["key"]))
-    connection.execute(sa.insert(ATTEMPTS).values(row))
-    return new
-
-
-def _merge(connection, table, theirs):
-    """Merge another gradebook's rows into a table; how many were new."""
-    added, ours = 0, _histories(_rows(connection, table), table)
-    for whose, other in _histories(theirs, table).items():
-        mine = ours.get(whose, [])
-        both = _one_order(mine, other, gradebook_rows.identifying_columns(table))
-        added += len(both) - len(mine)
-        if both != mine:
-            connection.execute(sa.delete(table).where(table.c.id.in_(row["id"] for row in mine)))
-            new = [{name: row[name] for name in row if name != "id"} for row in both]
-            connection.execute(sa.insert(table), new)
-    return added
-
-
-def _histories(rows, table):
-    """Rows by what they are of: a submission, or a task of one."""
-    found, columns = {}, ("submission",) if table is ATTEMPTS else ("submission", "task")
-    for row in rows:
-        found.setdefault(tuple(row[name] for name in columns), []).append(row)
+def _newest_of_each(bodies):
+    """Attempt's key to what holds of it, in the order of attempts."""
+    found = {}
+    for body in bodies:
+        if "why" not in body:  # an older version that was handed in again is the newest
+            found.pop(body["key"], None)
+        found[body["key"]] = body["record"]
     return found
 
 
-def _one_order(ours, theirs, columns):
-    """Rows of two gradebooks in one order, each once, the newer of two that are the same.
-
-    Each gradebook's own order stays; only between the two it is the clock that tells.
-    """
-    timed = []
-    for rows in (theirs, ours):  # at the same time ours is the newer
-        timed += zip(accumulate((row["at"] for row in rows), max), rows, strict=True)
-    found = {}
-    for _, row in sorted(timed, key=lambda pair: pair[0]):
-        key = tuple(row[column.name] for column in columns)
-        found.pop(key, None)
-        found[key] = row
-    return list(found.values())
+def _attempt(record, why):
+    body = gradebook_rows.stored(record) | ({"why": why} if why else {})
+    return Entry("attempt", body, body["submission"])
 
 
 def default_url(out, new=True):

@@ -1,4 +1,4 @@
-"""Gradebook schema: the tables of attempts and of overrides (adjustments), and their rows."""
+"""Records as a gradebook stores them: plain values, the key of an attempt, and back."""
 
 import hashlib
 from dataclasses import asdict, replace
@@ -10,36 +10,12 @@ from slamlab.exercises.verdict import LawResult, Verdict
 from slamlab.grading.records import Record
 
 TABLES = sa.MetaData()
-ATTEMPTS = sa.Table(
-    "attempts",
-    TABLES,
-    sa.Column("id", sa.Integer, primary_key=True),
-    sa.Column("key", sa.String(64), unique=True, nullable=False),
-    sa.Column("submission", sa.Text, nullable=False, index=True),
-    sa.Column("student", sa.Text, nullable=False),
-    sa.Column("exercise", sa.String(8)),
-    sa.Column("sha256", sa.String(64)),
-    sa.Column("score", sa.Float),
-    sa.Column("max_score", sa.Float),
-    sa.Column("isolation", sa.String(8)),
-    sa.Column("at", sa.String(32), nullable=False),
-    sa.Column("record", sa.JSON, nullable=False),
-)
-ADJUSTMENTS = sa.Table(
-    "adjustments",
-    TABLES,
-    sa.Column("id", sa.Integer, primary_key=True),
-    sa.Column("submission", sa.Text, nullable=False, index=True),
-    sa.Column("exercise", sa.String(8), nullable=False),
-    sa.Column("task", sa.Text, nullable=False),
-    sa.Column("points", sa.Float, nullable=False),
-    sa.Column("reason", sa.Text, nullable=False),
-    sa.Column("at", sa.String(32), nullable=False),
-)
+"""All tables of a gradebook; those of the ledger are told by :mod:`slamlab.grading.ledger`."""
+NOT_STORED = ("contents",)
 
 
-def attempt_row(record):
-    """Serialise a record to its row in the table of attempts.
+def stored(record):
+    """A record as plain values, without what is kept of it elsewhere, and its key.
 
     Parameters
     ----------
@@ -47,20 +23,12 @@ def attempt_row(record):
 
     Returns
     -------
-    dict, column to value
+    dict
     """
-    return {
-        "key": attempt_key(record.submission, record.sha256, record.seed, record.reason),
-        "submission": storable(record.submission),
-        "student": storable(record.student),
-        "exercise": record.exercise,
-        "sha256": record.sha256,
-        "score": record.score,
-        "max_score": record.max_score,
-        "isolation": record.isolation,
-        "at": timestamp(),
-        "record": storable(asdict(record)),
-    }
+    plain = storable(asdict(record))
+    plain = {name: value for name, value in plain.items() if name not in NOT_STORED}
+    key = attempt_key(record.submission, record.sha256, record.seed, record.reason)
+    return {"key": key, "submission": plain["submission"], "record": plain}
 
 
 def timestamp():
@@ -88,13 +56,6 @@ def attempt_key(submission, sha256, seed, reason=None):
     return hashlib.sha256(text.encode("utf-8", "surrogatepass")).hexdigest()
 
 
-def identifying_columns(table):
-    """The columns that identify a row when gradebooks are merged."""
-    if table is ATTEMPTS:
-        return [ATTEMPTS.c.key]
-    return [column for column in ADJUSTMENTS.columns if column.name != "id"]
-
-
 def storable(value):
     """Sanitise a value for every database: no lone surrogates, no zero characters in its text."""
     if isinstance(value, str):
@@ -108,7 +69,7 @@ def storable(value):
 
 
 def stored_record(stored):
-    """Deserialise the record that :func:`attempt_row` stored."""
+    """The record that :func:`stored` made plain."""
     verdicts = tuple(
         Verdict(**(v | {"laws": tuple(LawResult(**law) for law in v["laws"])}))
         for v in stored["verdicts"]

@@ -13,7 +13,7 @@ STUBBED = "slamlab.checks"
 """In a worker this package's own code is :mod:`slamlab.grading.checks_stub`."""
 
 
-def closure(modules, root=ROOT) -> dict[str, Path]:
+def closure(modules, root=ROOT, with_packages=True) -> dict[str, Path]:
     """The transitive import closure of some modules, imports inside functions included.
 
     Only modules of the same top-level packages count; other libraries are not looked into.
@@ -22,6 +22,7 @@ def closure(modules, root=ROOT) -> dict[str, Path]:
     ----------
     modules : iterable of dotted names
     root : Path, the folder that holds the top-level packages
+    with_packages : bool, whether the packages that a module stands in count, which run first
 
     Returns
     -------
@@ -44,7 +45,7 @@ def closure(modules, root=ROOT) -> dict[str, Path]:
         if name in found or file is None or name.split(".")[0] not in tops:
             continue
         found[name] = file
-        if "." in name:
+        if "." in name and with_packages:
             waiting.append(name.rpartition(".")[0])
         if name != STUBBED:
             waiting += imported(file, name)

@@ -4,6 +4,7 @@ import functools
 import hashlib
 import hmac
 import importlib.metadata
+import json
 import os
 import platform
 import secrets
@@ -12,11 +13,10 @@ from dataclasses import replace
 from pathlib import Path
 
 from slamlab import __version__
-from slamlab.exercises.drives import StudentError
-from slamlab.exercises.run_task import recognised
-from slamlab.exercises.task import OPEN_SEED
-from slamlab.grading import redaction, similarity, submissions
+from slamlab.grading import course_digests, similarity, submissions, task_judging
+from slamlab.grading.evidence import Evidence
 from slamlab.grading.gradebook_rows import attempt_key
+from slamlab.grading.ledger import contents
 from slamlab.grading.records import Record
 from slamlab.grading.submissions import Submission, SubmissionError
 from slamlab.grading.worker_client import WorkerClient
@@ -121,24 +121,15 @@ def judge_notebook(
     WorkerStartError
     """
     begin, judging = time.monotonic(), time.thread_time()
+    evidence = Evidence(exercise)
     with WorkerClient(exercise, cells, workers.start, stop, unredacted) as client:
 
-        def answered(task, seed):
-            sets = task.draw(seed)
-            return sets, client.run(task, sets)
+        def answer(task, call, sets):
+            return task_judging.answer_of(client, evidence, task, call, sets)
 
-        def judge_one(task):
-            try:
-                verdict = task.judge(*answered(task, seed))
-                if verdict.problem and not unredacted:
-                    verdict = replace(verdict, problem=redaction.redact_measured(verdict.problem))
-                if verdict.full:
-                    return verdict
-                return recognised(task, verdict, lambda: answered(task, OPEN_SEED))
-            except StudentError as error:
-                return task.failed(error.kind, error.message)
-
-        verdicts = exercise.verdicts(judge_one)
+        verdicts = exercise.verdicts(
+            lambda task: task_judging.judge_task(task, seed, answer, unredacted)
+        )
     seconds = {"wall": time.monotonic() - begin}
     seconds |= {"judge_cpu": time.thread_time() - judging, "worker_cpu": client.cpu}
     return {
@@ -146,9 +137,19 @@ def judge_notebook(
         "cells": dict(sorted(client.problems.items())),
         "isolation": workers.level,
         "versions": versions(),
+        "judges": {task.id: course_digests.task_digest(task) for task in exercise.tasks},
         "seconds": {name: round(value, 3) for name, value in seconds.items()},
         "titles": {task.id: task.title for task in exercise.tasks},
+        **_kept(cells, evidence),
     }
+
+
+def _kept(cells, evidence):
+    """What is kept of an attempt: hashes by name, and the bytes by these."""
+    text = json.dumps([list(cell) for cell in cells]).encode()
+    both = {"cells": contents.packed(text), "outputs": evidence.packed()}
+    kept = {name: contents.name_of(data) for name, data in both.items() if data}
+    return {"kept": kept, "contents": {kept[name]: both[name] for name in kept}}
 
 
 @functools.cache

@@ -32,6 +32,10 @@ class Record:
     fingerprints : task to a hash of its functions, see :mod:`slamlab.grading.similarity`
     failed : bool, whether it was the grader that failed: not kept, but tried again
     policy : the late policy that held, as :meth:`LatePolicy.stored` makes it; None for none
+    judges : task to the digest of what judged it, see :mod:`slamlab.grading.course_digests`
+    seen : int or None, the counter of when the judge first saw it
+    kept : "cells" and "outputs" to the hash of what is kept of them
+    contents : hash to bytes, of what is to be kept; stored apart from the record
     """
 
     submission: str
@@ -52,6 +56,10 @@ class Record:
     fingerprints: dict[str, str] = field(default_factory=dict)
     failed: bool = False
     policy: dict | None = None
+    judges: dict[str, str] = field(default_factory=dict)
+    seen: int | None = None
+    kept: dict[str, str] = field(default_factory=dict)
+    contents: dict[str, bytes] = field(default_factory=dict, compare=False, repr=False)
 
     @property
     def graded(self):

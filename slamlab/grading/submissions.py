@@ -110,6 +110,16 @@ def read_notebook(submission: Submission) -> Notebook:
     ------
     SubmissionError : with the reason, in words for the grader
     """
+    return parse(read_bytes(submission))
+
+
+def read_bytes(submission: Submission) -> bytes:
+    """Read the file of a submission.
+
+    Raises
+    ------
+    SubmissionError : there is none, it is too large, or cannot be read
+    """
     if submission.problem:
         raise SubmissionError(submission.problem)
     try:
@@ -121,10 +131,9 @@ def read_notebook(submission: Submission) -> Notebook:
         if size > MAX_NOTEBOOK_BYTES:
             megabytes = f"{size / 2**20:.0f} MB, more than {MAX_NOTEBOOK_BYTES >> 20}"
             raise SubmissionError(f"the file has {megabytes}: hand it in with its outputs cleared")
-        data = submission.path.read_bytes()
+        return submission.path.read_bytes()
     except OSError as error:
         raise SubmissionError(f"cannot be read: {error.strerror}") from None
-    return parse(data)
 
 
 def identify_exercise(submission: Submission, notebook: Notebook, bound=None):

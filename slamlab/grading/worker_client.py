@@ -87,6 +87,11 @@ class WorkerClient:
                 answers[name] = self._told(*told, task)
         return answers
 
+    def cpu_so_far(self):
+        """CPU time of all its workers [s], the one that runs included; not from the worker."""
+        running = self._process.cpu_so_far() if self._process is not None else 0.0
+        return self.cpu + running
+
     def _told(self, kind, problem, task):
         """What a worker says went wrong, with nothing in it of the inputs."""
         kind = kind if kind in redaction.PROBLEM_KINDS else "raised"

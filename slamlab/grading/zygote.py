@@ -4,8 +4,9 @@ Starting Python and importing takes seconds, a fork milliseconds. No student's c
 data ever reach the zygote; each worker is a copy of it as it was before anybody's notebook.
 
 It is asked over a socket in JSON: ``{"do": "fork"}``, with the two ends of a pipe, answers
-``{"ready": true}``; ``{"do": "end"}`` answers ``{"cpu": …}``, the seconds that worker took. There
-is one worker at a time, in a home that each finds empty.
+``{"ready": true}``; ``{"do": "cpu"}`` answers ``{"cpu": …}``, the seconds that worker took so far;
+``{"do": "end"}`` ends it and answers the same. There is one worker at a time, in a home that each
+finds empty.
 """
 
 import contextlib
@@ -62,6 +63,9 @@ def _serve(control, fork, home):
             pid = fork(handles)
             _send(control, {"ready": True})
             continue
+        if asked["do"] == "cpu":
+            _send(control, {"cpu": _cpu_so_far(pid)})
+            continue
         cpu, pid = _kill(pid), None
         tree_removal.empty_folder(home)
         _send(control, {"cpu": cpu})
@@ -103,6 +107,13 @@ def _fork(handles, drives, files):
         print(f"worker: {type(error).__name__}: {error}", file=sys.stderr, flush=True)
     finally:
         os._exit(0)
+
+
+def _cpu_so_far(pid):
+    """Seconds of CPU that a worker took, all its threads together; from the kernel, not from it."""
+    with open(f"/proc/{pid}/stat") as file:
+        fields = file.read().rpartition(")")[2].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 
 
 def _kill(pid):

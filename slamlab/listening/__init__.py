@@ -3,7 +3,7 @@
 A process of its own listens: without Jupyter's token, files or kernel. Read in this order:
 
 - ``guard``: the guard over every request: host, origin, who asks, how often; the listener
-- ``door``: who comes in: a token or a code changed into a cookie; a key
+- ``door``: who comes in: a token or a code changed into a cookie; a key; ``entrance``: its route
 - ``crowd``: how many connections may be open, and whose gives way
 - ``rates``: how often something may be done
 """

@@ -7,6 +7,7 @@ Read in this order:
 - ``noise``: C of the control, Q of the process noise, R of the measurement noise
 - ``parameters``: noise and limits of a robot and of a range sensor
 - ``symbolic``: all of it derived by sympy; tests hold sympy = code = finite differences
+- ``differences``: slopes of any model, to hold its Jacobian against
 """
 
 from slamlab._lazy import exports

@@ -11,6 +11,8 @@ import numpy as np
 def A_odometry(x, u):
     """Jacobian ∂f/∂x of the odometry model: [[1, 0, −Δy], [0, 1, Δx], [0, 0, 1]] (Smolec §4.1).
 
+    Equation (04.5).
+
     Parameters
     ----------
     x : (3,) pose [m, m, rad]
@@ -25,7 +27,7 @@ def A_odometry(x, u):
 
 
 def W_odometry(x, u):
-    """Jacobian ∂f/∂u of the odometry motion model, by the odometry increment.
+    """Jacobian ∂f/∂u of the odometry motion model, by the odometry increment. Equation (04.6).
 
     Parameters
     ----------
@@ -80,7 +82,7 @@ def W_steered(x, u, B, T):
 def H_robot(x, p):
     """Observation Jacobian ∂h/∂x, the robot's part of H (Smolec (2), its sign mended).
 
-    [[(x−λx)/r, (y−λy)/r, 0], [(λy−y)/r², (x−λx)/r², −1]]
+    [[(x−p_x)/r, (y−p_y)/r, 0], [(p_y−y)/r², (x−p_x)/r², −1]]. Equation (04.9).
 
     Parameters
     ----------
@@ -104,7 +106,7 @@ def H_robot(x, p):
 def H_landmark(x, p):
     """Observation Jacobian ∂h/∂p, the landmark's part of H (Smolec (3)).
 
-    Minus the robot's x and y columns.
+    Minus the robot's x and y columns. Equation (04.10).
 
     Parameters
     ----------
@@ -121,7 +123,7 @@ def H_landmark(x, p):
 def J_xr(x, z):
     """Jacobian ∂g/∂x of a new landmark by the pose, to augment the state (Smolec (10), mended).
 
-    [[1, 0, −r sin(θ+β)], [0, 1, r cos(θ+β)]]
+    [[1, 0, −r sin(θ+β)], [0, 1, r cos(θ+β)]]. Equation (04.14).
 
     Parameters
     ----------
@@ -143,7 +145,7 @@ def J_xr(x, z):
 def J_z(x, z):
     """Jacobian ∂g/∂z of a new landmark by measurement, to augment the state (Smolec (11), mended).
 
-    [[cos(θ+β), −r sin(θ+β)], [sin(θ+β), r cos(θ+β)]]
+    [[cos(θ+β), −r sin(θ+β)], [sin(θ+β), r cos(θ+β)]]. Equation (04.14).
 
     Parameters
     ----------

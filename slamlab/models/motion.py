@@ -12,7 +12,7 @@ from slamlab.geometry import wrap
 def f_odometry(x, u):
     """Odometry motion model: a distance along the old heading, then a turn (Smolec (4), mended).
 
-    x' = x + d cos θ,  y' = y + d sin θ,  θ' = θ + Δθ
+    x' = x + d cos θ,  y' = y + d sin θ,  θ' = θ + Δθ. Equation (04.4).
 
     Parameters
     ----------
@@ -30,7 +30,7 @@ def f_odometry(x, u):
 def f_steered(x, u, B, T):
     """Steered (bicycle, Ackermann) motion model over one period (MAK thesis, chapter 3).
 
-    x' = x + T V cos(θ+γ),  y' = y + T V sin(θ+γ),  θ' = θ + (T V / B) sin γ
+    x' = x + T V cos(θ+γ),  y' = y + T V sin(θ+γ),  θ' = θ + (T V / B) sin γ. Equation (04.18).
 
     Parameters
     ----------

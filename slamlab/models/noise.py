@@ -49,6 +49,8 @@ def C_wheels(u, slip, base):
 def Q(W, C):
     """Process noise covariance of a motion with control noise C: Q = W C Wᵀ (Smolec (8), mended).
 
+    Equation (04.7).
+
     Parameters
     ----------
     W : (3, 2) ∂f/∂u, from :mod:`slamlab.models.jacobians`
@@ -64,7 +66,7 @@ def Q(W, C):
 def R(r, range_error, bearing_sigma, range_sigma=0.0, range_curvature=0.0):
     """Measurement noise covariance of a range and bearing, growing with range (Smolec (9), mended).
 
-    R = diag((k r)² + σ_0² + (c r²)², σ_β²): variances, not standard deviations
+    R = diag((k r)² + σ_0² + (c r²)², σ_β²): variances, not standard deviations. Equation (04.15).
 
     Parameters
     ----------

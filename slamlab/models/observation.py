@@ -12,7 +12,7 @@ from slamlab.geometry import wrap
 def h(x, p):
     """Range-bearing observation model: landmarks seen from a pose (Smolec (1) with atan2).
 
-    r = |p − t|,  β = atan2(p_y − y, p_x − x) − θ
+    r = |p − t|,  β = atan2(p_y − y, p_x − x) − θ. Equation (04.8).
 
     Parameters
     ----------
@@ -34,7 +34,7 @@ def h(x, p):
 def g(x, z):
     """Inverse observation model: the landmark that a pose sees at range and bearing.
 
-    p = t + r [cos(θ+β), sin(θ+β)]
+    p = t + r [cos(θ+β), sin(θ+β)]. Equation (04.13).
 
     Parameters
     ----------

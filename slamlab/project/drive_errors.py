@@ -56,7 +56,7 @@ def relative_errors(estimate, truth, metres, length):
 
 
 def to_be_mapped(world):
-    """What a map of a world should show, by the true poses: the walls seen, or the landmarks.
+    """What a map of a world should show, by the true poses: the walls, or the landmarks, seen.
 
     Parameters
     ----------
@@ -67,7 +67,8 @@ def to_be_mapped(world):
     (m, 2) samples of what was seen, (k, 2) of all there is [m]
     """
     if len(world.landmarks):
-        return world.landmarks, world.landmarks
+        seen = np.concatenate([reading.observations.ids for reading in world])
+        return world.landmarks[np.unique(seen)], world.landmarks
     walls, hits, lidar = _samples(world.floor.outline()), [], world.family.lidar
     for pose in world.truth.poses:
         angles = pose[2] + lidar.angles

@@ -15,27 +15,36 @@ USED_UP = (
     "the {:g} s of CPU for all worlds are used up: what grows with every reading, a map to match "
     "with or a graph to solve, has to be kept small"
 )
+WAITED = "{:g} s have passed in all, the CPU mostly idle: does it wait or sleep?"
 TOO_LONG = "{} took {:.1f} s of CPU, more than the {:g} s that are allowed"
 
 
 @dataclass
 class Budget:
-    """The CPU seconds that one estimator may use: the same for all, and told beforehand.
+    """The seconds that one estimator may use: the same for all, and told beforehand.
+
+    They are seconds of CPU, which a busy machine does not make longer. What neither works nor ends
+    is stopped by ``patience``, the only seconds of a wall clock.
 
     Parameters
     ----------
     total : float, for all worlds together [s]
     reading : float, for a single step [s]
     ending : float, for ``trajectory()`` and ``map()`` at the end of a world [s]
+    patience : float, of the wall clock, for all worlds together [s]
     clock : callable that gives CPU seconds
-    spent : float, what was used so far [s]
+    wall_clock : callable that gives seconds
+    spent, waited : float, what was used so far, of CPU and of the wall clock [s]
     """
 
     total: float = 50.0
     reading: float = 1.0
     ending: float = 5.0
+    patience: float = 600.0
     clock: Callable[[], float] = time.process_time
+    wall_clock: Callable[[], float] = time.monotonic
     spent: float = 0.0
+    waited: float = 0.0
 
     def timed(self, function, limit, what):
         """Call a function and count its time.
@@ -54,18 +63,23 @@ class Budget:
         ------
         StudentError : it took too long, or all of the budget is spent
         """
-        if self.spent > self.total:
-            raise StudentError("time", USED_UP.format(self.total))
-        start = self.clock()
+        self._check()
+        start, begun = self.clock(), self.wall_clock()
         try:
             return function()
         finally:
             took = self.clock() - start
             self.spent += took
+            self.waited += self.wall_clock() - begun
             if took > limit:
                 raise StudentError("time", TOO_LONG.format(what, took, limit)) from None
-            if self.spent > self.total:
-                raise StudentError("time", USED_UP.format(self.total)) from None
+            self._check()
+
+    def _check(self):
+        if self.spent > self.total:
+            raise StudentError("time", USED_UP.format(self.total)) from None
+        if self.waited > self.patience:
+            raise StudentError("time", WAITED.format(self.patience)) from None
 
 
 @dataclass(frozen=True)
@@ -80,6 +94,7 @@ class Drive:
     points : (m, 2) its map [m]
     mistakes : tuple of str, what went wrong, a sentence each
     seconds : float of CPU
+    late : bool, whether a limit of time ended it: what another machine may not find
     """
 
     online: np.ndarray
@@ -88,6 +103,7 @@ class Drive:
     points: np.ndarray
     mistakes: tuple[str, ...]
     seconds: float
+    late: bool = False
 
     @property
     def completeness(self):
@@ -109,7 +125,7 @@ def drive(make, world, budget=None):
     Drive
     """
     budget, n, mistakes = budget or Budget(), len(world), []
-    before, answered = budget.spent, 0
+    before, answered, late = budget.spent, 0, False
     online, covariances = np.full((n, 3), np.nan), np.full((n, 3, 3), np.nan)
     trajectory, points = online, np.empty((0, 2))
     try:
@@ -120,6 +136,7 @@ def drive(make, world, budget=None):
             answered += 1
     except StudentError as error:
         mistakes.append(f"at reading {answered + 1} of {n}: {error.message}")
+        late = error.kind == "time"
     else:
         # the map is asked for though the trajectory fails
         with _kept(mistakes):
@@ -132,7 +149,7 @@ def drive(make, world, budget=None):
     if lost:
         mistakes.append(f"{lost} of {n} poses are not finite: was something divided by zero?")
     spent = budget.spent - before
-    return Drive(online, covariances, trajectory, points, tuple(mistakes), spent)
+    return Drive(online, covariances, trajectory, points, tuple(mistakes), spent, late)
 
 
 @contextmanager

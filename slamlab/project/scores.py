@@ -20,12 +20,14 @@ class Arena:
     Parameters
     ----------
     world : HiddenWorld
+    readings : tuple of Reading, those of the world, made once for all who are judged
     drives : dict, baseline's name to its Drive
     walls : what there is to be mapped, see :func:`slamlab.project.drive_errors.to_be_mapped`
     scale : the marks, see :func:`slamlab.project.points.marks`
     """
 
     world: HiddenWorld
+    readings: tuple
     drives: dict[str, Drive]
     walls: tuple
     scale: tuple
@@ -77,13 +79,14 @@ def prepare(world):
     -------
     Arena
     """
-    unlimited = Budget(*[np.inf] * 3)
-    drives = {name: drive(make, world, unlimited) for name, make in BASELINES.items()}
+    unlimited = Budget(*[np.inf] * 4)
+    readings = tuple(world)
+    drives = {name: drive(make, readings, unlimited) for name, make in BASELINES.items()}
     walls = drive_errors.to_be_mapped(world)
     measured = {
         name: measure(driven, world, drives["odometry"], walls) for name, driven in drives.items()
     }
-    return Arena(world, drives, walls, marks(**measured))
+    return Arena(world, readings, drives, walls, marks(**measured))
 
 
 def arenas(seed, families=None, count=WORLDS_PER_FAMILY):
@@ -118,7 +121,7 @@ def judge(make, prepared, budget=None):
     list of Result
     """
     budget = budget or Budget()
-    return [arena.judge(drive(make, arena.world, budget)) for arena in prepared]
+    return [arena.judge(drive(make, arena.readings, budget)) for arena in prepared]
 
 
 def score(results):

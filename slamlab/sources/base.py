@@ -46,6 +46,9 @@ class Source:
         """
         raise SourceError(f"{self.name} is a recording: it cannot be driven")
 
+    def renew(self):
+        """Renew the last drive command, for a robot that stops where nobody does."""
+
     def merge(self, turns):
         """Merge several turns of a lidar into the scan of one reading: more points, fewer readings.
 

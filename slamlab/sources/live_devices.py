@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from slamlab.devices.emir import Emir
+from slamlab.devices.emir.driver import WATCHDOG_TIMEOUT
 from slamlab.devices.errors import SlamlabError
 from slamlab.devices.rplidar import RPLidar
 from slamlab.devices.transport import open_port
@@ -16,7 +17,8 @@ class LiveDevices(LidarOnRobot):
     """Live source: readings of an RPLIDAR and an eMIR robot, as they come.
 
     Ends when it is closed. Both devices are its own: it closes them. The robot drives on as
-    commanded only while readings are taken: see :class:`Emir`.
+    commanded only while readings are taken: see :class:`Emir`. Where ``renewed_by_readings`` is
+    set to False, only while somebody calls :meth:`renew`.
 
     Parameters
     ----------
@@ -24,6 +26,8 @@ class LiveDevices(LidarOnRobot):
     emir : Emir, or None for a lidar that is carried or stands
     front : float, where the robot's front lies for the lidar, clockwise [degree]
     """
+
+    renewed_by_readings = True
 
     def __init__(self, lidar, emir=None, front=0.0):
         there = [device for device in (lidar, emir) if device is not None]
@@ -69,6 +73,11 @@ class LiveDevices(LidarOnRobot):
             raise SourceError(str(error)) from error
         self._command = np.array([v, omega])
 
+    def renew(self):
+        """See :meth:`Source.renew`: it goes to the robot's command watchdog."""
+        if self.emir is not None:
+            self.emir.renew()
+
     def close(self):
         """Close the devices: stop robot and lidar, release their ports."""
         if self.emir is not None:
@@ -81,14 +90,23 @@ class LiveDevices(LidarOnRobot):
             if self.emir is not None:
                 if self.emir.error is not None:
                     raise self.emir.error
-                self.emir.renew()
+                if self.renewed_by_readings:
+                    self.emir.renew()
             yield turn
 
     def _pose_at(self, time):
         return np.zeros(3) if self.emir is None else self.emir.pose_at(time)
 
 
-def devices(ports, calibration=None, front=0.0, reconnect=False, opener=open_port, clock=None):
+def devices(
+    ports,
+    calibration=None,
+    front=0.0,
+    reconnect=False,
+    watchdog=WATCHDOG_TIMEOUT,
+    openers=(open_port, open_port),
+    clock=None,
+):
     """Open a lidar and a robot by their serial ports, as a live source.
 
     Parameters
@@ -97,7 +115,8 @@ def devices(ports, calibration=None, front=0.0, reconnect=False, opener=open_por
     calibration : Calibration of the robot
     front : float, where the robot's front lies for the lidar, clockwise [degree]
     reconnect : bool, whether lost connections are tried again until they are back
-    opener : callable(port, baud) -> Transport
+    watchdog : float, after which a motion that is not renewed ends [s]
+    openers : two callables(port, baud) -> Transport, of lidar and robot
     clock : Clock of both
 
     Returns
@@ -111,11 +130,13 @@ def devices(ports, calibration=None, front=0.0, reconnect=False, opener=open_por
     names = [name.strip() for name in ports.split(",")]
     if len(names) > 2:
         raise SourceError(f"devices:LIDAR_PORT,EMIR_PORT names two ports, not {len(names)}")
-    shared, emir = {"reconnect": reconnect, "opener": opener, "clock": clock}, None
+    shared, emir = {"reconnect": reconnect, "clock": clock}, None
+    of_lidar, of_robot = openers
     try:
         if len(names) == 2 and names[1]:
-            emir = Emir(names[1], calibration=calibration, **shared)
-        return LiveDevices(RPLidar(names[0] or None, **shared), emir, front)
+            robot = {"calibration": calibration, "watchdog": watchdog, "opener": of_robot}
+            emir = Emir(names[1], **robot, **shared)
+        return LiveDevices(RPLidar(names[0] or None, opener=of_lidar, **shared), emir, front)
     except SlamlabError as error:
         if emir is not None:
             emir.close()

@@ -4,6 +4,7 @@ import json
 
 import numpy as np
 
+from slamlab import worlds
 from slamlab.files.errors import SourceError
 from slamlab.files.published_recordings import resolve
 from slamlab.files.text_files import read_bytes
@@ -16,6 +17,7 @@ from slamlab.sources.simulated_robot import simulation
 
 SIMULATION_PREFIX = "sim:"  # of a simulated world's name
 DEVICES_PREFIX = "devices:"  # of two serial ports
+EMULATED_PREFIX = "emulated:"  # of a world's name
 TOPIC_SEPARATOR = "#"  # between a ROS bag's path and its topics
 
 
@@ -28,7 +30,7 @@ def open(spec, rng=None):
     ----------
     spec : str or Path, ``sim:WORLD``, a file, a recording's name, or a ROS bag: its file or folder,
         where it has several scanners ``BAG#/scan``, where several odometries ``BAG#/scan,/odom``;
-        or ``devices:LIDAR_PORT,EMIR_PORT``, live
+        or ``devices:LIDAR_PORT,EMIR_PORT``, live, or ``emulated:WORLD``, both devices emulated
     rng : numpy.random.Generator, for simulations; seed 0 by default
 
     Returns
@@ -39,14 +41,17 @@ def open(spec, rng=None):
     ------
     SourceError : what is wrong and what there is
     """
-    spec = str(spec)
+    spec, rng = str(spec), np.random.default_rng(0) if rng is None else rng
     if spec.startswith(SIMULATION_PREFIX):
-        rng = np.random.default_rng(0) if rng is None else rng
         return simulation(spec.removeprefix(SIMULATION_PREFIX), rng)
     if spec.startswith(DEVICES_PREFIX):
         from slamlab.sources.live_devices import devices  # drivers are no use to a log
 
         return devices(spec.removeprefix(DEVICES_PREFIX))
+    if spec.startswith(EMULATED_PREFIX):
+        from slamlab.sources.emulated_devices import EmulatedDevices
+
+        return EmulatedDevices(_world(spec.removeprefix(EMULATED_PREFIX)), rng)
     spec = resolve(spec)
     bag, _, topics = (
         (spec, "", "") if ros_messages.is_bag(spec) else spec.rpartition(TOPIC_SEPARATOR)
@@ -76,6 +81,13 @@ def open(spec, rng=None):
         "devices, nor a CARMEN log with FLASER lines, nor the RPLIDAR grabber's text, nor a "
         "BreezySLAM log, nor a ROS bag"
     )
+
+
+def _world(name):
+    try:
+        return worlds.by_name(name)
+    except ValueError as error:
+        raise SourceError(str(error)) from None
 
 
 def _is_reading_log(content):

@@ -1,5 +1,6 @@
 """BOR beyond its conditions, and beside EKF-SLAM and the wheels: the experiments of lesson 10."""
 
+from contextlib import suppress
 from dataclasses import dataclass
 
 import numpy as np
@@ -65,6 +66,33 @@ def one_bad_range(seed, times):
                 reported.append(k - LIE_AT)
         ever_out |= bool(outside(bor, run.pose, run.objects))
     return reported[0] if reported else None, ever_out
+
+
+def objects_made(seed, several_are_new):
+    """Objects in the map of a robot among six that nobody names, after 60 steps.
+
+    Parameters
+    ----------
+    seed : int
+    several_are_new : bool, whether a sighting that overlaps several objects adds another one, as the
+        MAK thesis has it in 5.2.10; else it is ignored
+
+    Returns
+    -------
+    int
+    """
+    world = BoundedNoise(moving=(0.03, 0.03))
+    run = BoundedRun(world, np.random.default_rng(seed), 60)
+    bor = run.filter()
+    for motion, seen in run:
+        bor.predict(*motion)
+        for _, z in seen:
+            if several_are_new and len(bor.overlapping(z, world.seeing)) > 1:
+                bor.add(len(bor), z, world.seeing)
+                continue
+            with suppress(EmptyIntersection):
+                bor.take(z, world.seeing)
+    return len(bor)
 
 
 @dataclass(frozen=True)

@@ -12,8 +12,8 @@ from slamlab.views.layer_drawing import draw
 from slamlab.views.legends import legend
 
 
-def cloud(samples, covariances, title=None, size=(6, 4.5), layers=()):
-    """Scatter plot of samples (a point cloud), and 95 % covariance ellipses round their mean.
+def cloud(samples, covariances, title=None, size=(6, 4.5), layers=(), centre=None):
+    """Scatter plot of samples (a point cloud), and 95 % covariance ellipses.
 
     Parameters
     ----------
@@ -22,6 +22,7 @@ def cloud(samples, covariances, title=None, size=(6, 4.5), layers=()):
     title : str or None
     size : (width, height) [80 pixels of the page]
     layers : what else to draw, such as the track driven
+    centre : (2,) or longer, of the ellipses, or None for the samples' mean [m]
 
     Returns
     -------
@@ -30,8 +31,9 @@ def cloud(samples, covariances, title=None, size=(6, 4.5), layers=()):
     fig, ax = axes(title, size)
     xy = np.asarray(samples, dtype=float)[:, :2]
     draw(ax, Points("samples", xy), color=COLOURS["scan"])
+    middle = xy.mean(axis=0) if centre is None else np.asarray(centre)[:2]
     for (name, covariance), (colour, line, _) in zip(covariances.items(), cycle(SERIES)):
-        ellipse = Ellipses(name, [xy.mean(axis=0)], [np.asarray(covariance)[:2, :2]])
+        ellipse = Ellipses(name, [middle], [np.asarray(covariance)[:2, :2]])
         draw(ax, ellipse, color=colour, linewidth=2, linestyle=line)
     for layer in layers:
         draw(ax, layer, color=COLOURS["truth"])

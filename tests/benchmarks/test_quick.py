@@ -21,6 +21,8 @@ ELSEWHERE = {
     "films",
     "grading",
     "live",
+    "live_page",
+    "project",
     "raycast",
     "soak",
 }  # ports, sandboxes, a browser; a test of its own

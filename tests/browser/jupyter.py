@@ -15,12 +15,19 @@ __all__ = ["Unavailable", "Visit", "chromium", "jupyterlab"]
 EXTENSION = ROOT / "labextension" / "share" / "jupyter"
 IDLE = ".jp-Notebook-ExecutionIndicator[data-status=idle]"  # out of sight on a narrow page
 
-# what was never in sight is not laid out
-LOOK_THROUGH = """async () => {
-    for (const cell of document.querySelectorAll(".jp-Cell")) {
+# what was never in sight is not laid out, and further cells come a while after those before them
+LOOK_THROUGH = """async (patience) => {
+    const { widgets } = window.jupyterapp.shell.currentWidget.content;
+    const seen = new Set();
+    const end = performance.now() + patience;
+    while (seen.size < widgets.length && performance.now() < end) {
+        const cells = [...document.querySelectorAll(".jp-Cell")];
+        const cell = cells.find((one) => !seen.has(one)) ?? cells.at(-1);
+        seen.add(cell);
         cell.scrollIntoView();
         for (let frame = 0; frame < 2; frame++) await new Promise(requestAnimationFrame);
     }
+    return seen.size == widgets.length;
 }"""
 
 # how many cells still wait or run, once that is another number than before
@@ -88,7 +95,7 @@ class Visit:
 
     def look_through(self):
         """Scroll through the notebook, so that all of it is laid out."""
-        self.page.evaluate(LOOK_THROUGH)
+        assert self.page.evaluate(LOOK_THROUGH, 1000 * PATIENCE)
 
     def serious_faults(self):
         """Faults of accessibility in the notebook's own area, serious or critical, by axe-core.

@@ -80,6 +80,20 @@ def test_an_answer_opens_what_was_folded_and_is_kept(visit, lab_folder):
     visit.page.locator(".slamlab-progress li", has_text="✓ missing").wait_for()
 
 
+def test_words_that_explain_an_answer_open_with_it_and_show_no_line_before(visit):
+    visit.open("notebooks/04_models_and_jacobians.ipynb")
+    run_cell(visit, cell_of(visit, "from slamlab.checks import ask"))
+    asked = cell_of(visit, '"04-streak"')
+    run_cell(visit, asked)
+    folded = visit.page.locator(".jp-Cell .jp-Placeholder")
+    told = visit.page.locator(".jp-RenderedMarkdown", has_text="The streak lies across the way")
+    folded.nth(1).scroll_into_view_if_needed()
+    assert [each.inner_text().strip() for each in folded.all()[:2]] == ["", ""]  # picture, words
+    assert told.count() == 0
+    asked.get_by_role("button", name="C", exact=True).click()
+    told.wait_for()
+
+
 def test_a_check_is_kept_and_shown_at_the_head_of_the_notebook(visit, lab_folder):
     visit.open(EXERCISE)
     head = visit.page.locator(".slamlab-progress li").first

@@ -1,11 +1,13 @@
 """The site as it is built, opened as files: on a desktop, on a phone, in the dark, searched."""
 
+import json
 import shutil
 
 import pytest
 from axe_playwright_python.sync_playwright import Axe
 
 from course.site import building, looking
+from tests.patience import PATIENCE
 
 pytestmark = pytest.mark.slow
 SCREENS = {"desktop": (1280, "light"), "dark": (1280, "dark"), "phone": (390, "light")}
@@ -14,13 +16,16 @@ PAGES = (
     "notebooks/04_models_and_jacobians",
     "exercises/ex04_models_and_jacobians",
     "guides/architecture",
+    "errata",
+    "literature",
 )
+MOVING = "notebooks/01_why_slam.html"
 LOADED = "document.fonts.ready.then(() => document.readyState == 'complete')"
 
 
 @pytest.fixture(scope="module")
 def site(tmp_path_factory):
-    """The whole site, built from nothing."""
+    """The whole site, built from nothing; of the lessons only 01 moves, for each takes a while."""
     if not shutil.which("npm"):
         pytest.skip("no npm here: KaTeX, which sets the formulas, cannot be fetched")
     folder = tmp_path_factory.mktemp("site")
@@ -28,7 +33,7 @@ def site(tmp_path_factory):
         building.katex_modules(folder / "work")
     except building.SiteError as reason:
         pytest.skip(str(reason))
-    building.build(folder / "out", folder / "work")
+    assert building.build(folder / "out", folder / "work", {"01"}) == []
     return folder / "out"
 
 
@@ -45,6 +50,7 @@ def look(request, browser, site):
     )
 
     def open_page(name, asked=""):
+        page.set_default_timeout(1000 * PATIENCE)
         page.goto((site / name).as_uri() + asked)
         page.wait_for_function(LOADED)
         return page
@@ -87,3 +93,47 @@ def test_a_page_that_was_read_is_ticked(look):
     page.reload()
     assert page.get_by_role("button", name="Read ✓").get_attribute("aria-pressed") == "true"
     assert page.locator(".sidebar-tree a.slamlab-was-read").count() == 1
+
+
+def test_the_film_of_the_first_page_plays_to_its_end(look):
+    page = look("index.html")
+    place = page.locator(".slamlab-film")
+    place.scroll_into_view_if_needed()
+    film = place.locator(".slamlab-live[data-frame]")
+    film.wait_for()
+    button = film.get_by_role("button").first
+    if "pause" in button.text_content():  # it plays as soon as it is seen
+        button.click()
+    scrubber = film.get_by_role("slider", name="frame")
+    last = int(scrubber.get_attribute("max"))
+    assert last > 100
+    scrubber.focus()
+    page.keyboard.press("Home")
+    film.get_by_label("speed").select_option("5")
+    button.click()
+    film.get_by_role("button", name="▶ play").wait_for()
+    assert int(film.get_attribute("data-frame")) == last
+
+
+def test_each_value_of_a_slider_has_its_picture_and_its_words(look):
+    page = look(MOVING)
+    place = page.locator(".slamlab-sliders").first
+    picture, slider = place.locator("img"), place.get_by_role("slider").first
+    controls = json.loads(place.locator("script").text_content())["controls"]
+    still = picture.get_attribute("src")
+    for at, alt in enumerate(controls[0]["alts"]):
+        slider.evaluate(
+            "(one, at) => { one.value = at; one.dispatchEvent(new Event('input')); }", at
+        )
+        page.wait_for_function(
+            "([picture, before]) => picture.complete && picture.naturalWidth > 0",
+            arg=[picture.element_handle(), still],
+        )
+        assert picture.get_attribute("src").endswith(controls[0]["pictures"][at])
+        assert picture.get_attribute("alt") == alt
+        assert slider.get_attribute("aria-valuetext") == controls[0]["words"][at]
+    other = place.get_by_role("slider").nth(1)
+    other.focus()
+    page.keyboard.press("End")
+    assert picture.get_attribute("src").endswith(controls[1]["pictures"][-1])
+    assert slider.input_value() == str(controls[0]["first"])  # one moves at a time

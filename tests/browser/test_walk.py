@@ -50,12 +50,12 @@ def page(browser):
 
 def alternatives(visit):
     """The alternative texts of all pictures."""
-    visit.look_through()
     return visit.page.locator(PICTURES).evaluate_all("all => all.map((one) => one.alt)")
 
 
 def unfold_outputs(visit):
-    """Open the outputs that wait for an answer; a file keeps them folded."""
+    """Open the outputs that wait for an answer, of all cells; a file keeps them folded."""
+    visit.look_through()
     for folded in visit.page.locator(".jp-OutputPlaceholder:visible").all():
         folded.click()
 

@@ -246,7 +246,7 @@ def test_under_the_grader_nothing_of_a_case_or_a_value_is_said(body, tmp_path, m
     (verdict,) = record.verdicts
     assert verdict.points == 0
     assert verdict.case is None
-    row = gradebook_rows.attempt_row(record)["record"]
+    row = gradebook_rows.stored(record)["record"]
     said = json.dumps(row["verdicts"]) + json.dumps(row["cells"])
     page = feedback.feedback_page(mark(record)).partition("</style>")[2]
     for text in (said, page, record.note):

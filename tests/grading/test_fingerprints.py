@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from slamlab.exercises import fingerprints
 from slamlab.exercises.drives.input_sets import run_sets
 from slamlab.exercises.fingerprints import CLOSE, RIGHT, Table, fingerprint, of_answers
+from slamlab.exercises.law import Diagnosis
 from slamlab.exercises.run_task import run_and_tell
 from slamlab.exercises.task import OPEN_SEED, Probe
 from tests.grading import fake
@@ -170,6 +171,15 @@ def test_a_failure_on_a_probe_is_part_of_the_fingerprint(known):
     assert named(lambda v, angle: fails(v, angle, lambda: [0, 1, 2])) is None
 
 
+def test_failing_where_a_mistake_fails_makes_no_part_like_it(known):
+    def failing(function):
+        return lambda v, angle: function(v, angle) if angle else 1 / 0
+
+    known(*PROGRAMS, (3, failing(TWICE_X)))
+    assert named(failing(RIGHT_WAY)) is None  # though y is as there: right, and failing
+    assert named(failing(TWICE_X)) == "factor"
+
+
 def test_what_has_no_table_is_not_recognised(monkeypatch):
     assert fingerprints.tables("99") == {}
     assert named(SWAPPED) is None
@@ -179,6 +189,13 @@ def test_check_tells_the_mistake_by_its_hint(known):
     verdict = run_and_tell(TURN, {"turn": SWAPPED})
     assert (verdict.diagnosis, verdict.hint) == ("swapped", "hint on swapped")
     assert run_and_tell(TURN, {"turn": RIGHT_WAY}).full
+
+
+def test_a_slip_says_more_than_a_property_and_a_property_more_than_a_family(known):
+    told = Diagnosis("told", "hint on a property", lambda inputs, outputs: True)
+    task = dataclasses.replace(TURN, diagnoses=(told,))
+    found = [run_and_tell(task, {"turn": function}) for function in (SWAPPED, MINUS)]
+    assert [verdict.diagnosis for verdict in found] == ["swapped", "told"]
 
 
 def test_of_numbers_that_overflow_nothing_is_said(known):

@@ -16,20 +16,22 @@ import sqlalchemy as sa
 from slamlab.exercises.verdict import LawResult, Verdict
 from slamlab.grading import gradebook_rows
 from slamlab.grading.gradebook import Gradebook, GradebookError
+from slamlab.grading.ledger import chain_proof
 from slamlab.grading.records import Record
 from tests.grading import fake
 from tests.grading.conftest import notebook
 from tests.grading.test_batch import comes_true
+from tests.patience import until
 
 LAW = LawResult("twice", "is twice as large", 0.0, 2.0, 3, 20)
 VERDICT = Verdict("99-double", 1.0, 3.0, (LAW,), "square", "you squared")
 ODD = "Zoë \0 \udce9 'quoted' \"twice\"\n=1+1"
 
 
-def record(name="anna.ipynb", sha="a" * 64, **more):
+def record(name="anna.ipynb", sha="a" * 64, student="anna", **more):
     made = {"exercise": "99", "verdicts": (VERDICT,), "sha256": sha, "seed": "b" * 64}
     made |= {"cells": {3: "ValueError: x"}, "notes": ("odd",), "titles": {"99-double": "Double"}}
-    return Record(name, "anna", **(made | more))
+    return Record(name, student, **(made | more))
 
 
 def programs_of_postgres():
@@ -39,8 +41,8 @@ def programs_of_postgres():
 
 
 @pytest.fixture(scope="module")
-def postgres(tmp_path_factory):
-    """The URL of a server of PostgreSQL that runs for these tests."""
+def server(tmp_path_factory):
+    """A server of PostgreSQL that runs for these tests: its URL, and what starts and stops it."""
     programs = programs_of_postgres()
     if programs is None:
         pytest.skip("no PostgreSQL server here (initdb not found)")
@@ -58,12 +60,22 @@ def postgres(tmp_path_factory):
         )
         options = f"-k {folder} -c listen_addresses= -c fsync=off"
         control = [programs / "pg_ctl", "-D", folder / "data", "-w", "-l", folder / "log"]
-        subprocess.run([*control, "-o", options, "start"], **run)
+        words = {"start": ["-o", options, "start"], "stop": ["-m", "immediate", "stop"]}
+
+        def does(word):
+            subprocess.run([*control, *words[word]], **run)
+
+        does("start")
     except (OSError, subprocess.CalledProcessError) as error:
         pytest.skip(f"PostgreSQL does not start here: {getattr(error, 'stderr', error)}")
-    yield f"postgresql+psycopg://me@/postgres?host={folder}"
-    subprocess.run([*control, "-m", "immediate", "stop"], **run)
+    yield f"postgresql+psycopg://me@/postgres?host={folder}", does
+    does("stop")
     shutil.rmtree(folder, ignore_errors=True)
+
+
+@pytest.fixture(scope="module")
+def postgres(server):
+    return server[0]
 
 
 def forget(url):
@@ -154,29 +166,101 @@ def test_a_database_that_cannot_be_opened_is_told_in_one_line(url):
     assert "\n" not in str(told.value)
 
 
+START = "import sys; from slamlab.cli import main; sys.exit(main())"
+
+
+def class_of(folder, count):
+    """A folder of submissions, and their names."""
+    folder.mkdir()
+    names = [f"s{i:03}_04.ipynb" for i in range(count)]
+    for i, name in enumerate(names):
+        (folder / name).write_text(notebook(f"x = {i}", fake.SOLUTION, exercise="04"))
+    return names
+
+
+def grading_of(folder, *words):
+    """A running ``slamlab grade``, in a folder that holds a class."""
+    command = [sys.executable, "-c", START, "grade", folder / "class", "--out", folder / "out"]
+    (folder / "temporary").mkdir(exist_ok=True)  # whoever is killed clears nothing away
+    pipes = {"stdout": subprocess.DEVNULL, "stderr": subprocess.PIPE}
+    pipes["env"] = os.environ | {"TMPDIR": str(folder / "temporary")}
+    return subprocess.Popen([*command, "--isolation", "none", *words], **pipes)
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(os.name != "posix", reason="signals of POSIX")
+def test_a_regrade_killed_at_any_moment_changes_no_mark_and_no_row(tmp_path):
+    class_of(tmp_path / "class", 12)
+    first = grading_of(tmp_path)
+    first.communicate()
+    assert first.returncode == 0
+    url, rng = f"sqlite:///{tmp_path / 'out' / 'grades.db'}", random.Random(5)
+
+    def state():
+        with Gradebook(url) as opened:
+            rows = opened.rows()
+            assert chain_proof.altered(rows) == []
+            return len(rows), opened.attempts()
+
+    before = state()
+    table = (tmp_path / "out" / "grades.csv").read_bytes()
+    for _ in range(3):
+        regrading = grading_of(tmp_path, "--regrade")
+        until(lambda: list((tmp_path / "temporary").glob("slamlab-*/*")))
+        time.sleep(rng.uniform(0, 1))
+        regrading.send_signal(signal.SIGKILL)
+        regrading.communicate()
+        assert state() == before
+        assert (tmp_path / "out" / "grades.csv").read_bytes() == table
+        shutil.rmtree(tmp_path / "temporary")
+    last = grading_of(tmp_path, "--regrade")
+    last.communicate()
+    assert last.returncode == 0
+    after = state()
+    assert after[0] == before[0] + 12
+    assert set(after[1]) == set(before[1])
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(os.name != "posix", reason="signals of POSIX")
+def test_a_database_stopped_in_mid_run_is_waited_for_and_nothing_is_lost(tmp_path, server):
+    url, does = server
+    forget(url)
+    names = class_of(tmp_path / "class", 20)
+    grading = grading_of(tmp_path, "--db", url, "--jobs", "1")
+    until(lambda: len(list((tmp_path / "out").glob("feedback/*"))) > 1)
+    does("stop")
+    try:
+        said = grading.stderr.readline()
+        while said and b"does not answer" not in said:
+            said = grading.stderr.readline()
+    finally:
+        does("start")
+    assert b"the gradebook does not answer, waiting up to 60 s" in said
+    assert b"Traceback" not in grading.communicate()[1]
+    assert grading.returncode == 0
+    with Gradebook(url) as opened:
+        assert [r.submission for r in opened.latest_attempts()] == names
+        assert len(opened.attempts()) == len(names)
+        assert chain_proof.altered(opened.rows()) == []
+
+
 @pytest.mark.slow
 @pytest.mark.skipif(os.name != "posix", reason="signals of POSIX")
 @pytest.mark.parametrize("kills", [4, pytest.param(20, marks=pytest.mark.soak)])
 def test_a_grader_killed_at_any_moment_loses_nothing_and_doubles_nothing(tmp_path, kills):
-    folder, out = tmp_path / "class", tmp_path / "out"
-    folder.mkdir()
-    names = [f"s{i:02}_04.ipynb" for i in range(6 * kills)]
-    for i, name in enumerate(names):
-        (folder / name).write_text(notebook(f"x = {i}", fake.SOLUTION, exercise="04"))
-    start = "import sys; from slamlab.cli import main; sys.exit(main())"
-    command = [sys.executable, "-c", start, "grade", folder, "--out", out, "--isolation", "none"]
-    (tmp_path / "temporary").mkdir()  # whoever is killed clears nothing away
-    run = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
-    run["env"] = os.environ | {"TMPDIR": str(tmp_path / "temporary")}
+    out, names = tmp_path / "out", class_of(tmp_path / "class", 6 * kills)
     rng, graded = random.Random(9), lambda: len(list(out.glob("feedback/*")))
     for _ in range(kills):
         before = graded()
-        grading = subprocess.Popen(command, **run)
+        grading = grading_of(tmp_path)
         assert comes_true(lambda: graded() > before or grading.poll() is not None)  # noqa: B023
         time.sleep(rng.uniform(0, 0.2))
         grading.send_signal(signal.SIGKILL)
-        grading.wait()
-    assert subprocess.run(command, **run).returncode == 0
+        grading.communicate()
+    last = grading_of(tmp_path)
+    last.communicate()
+    assert last.returncode == 0
     with Gradebook(f"sqlite:///{out / 'grades.db'}") as opened:
         assert [r.submission for r in opened.latest_attempts()] == names
         assert len(opened.attempts()) == len(names)

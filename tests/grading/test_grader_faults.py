@@ -29,7 +29,7 @@ from slamlab.grading.submissions import Submission
 from slamlab.grading.worker_pool import WorkerPool
 from tests.grading import fake
 from tests.grading.conftest import lacks, notebook, workers
-from tests.grading.test_gradebook import forget, postgres, record  # noqa: F401
+from tests.grading.test_gradebook import forget, postgres, record, server  # noqa: F401
 
 posix = pytest.mark.skipif(os.name != "posix", reason="folders and rights of POSIX")
 

@@ -3,6 +3,7 @@
 import csv
 import io
 import zipfile
+from dataclasses import replace
 
 import pytest
 
@@ -95,12 +96,23 @@ LATER = "2026-12-01T11:00:01+00:00"  # a second after noon in Zagreb
 
 
 @pytest.mark.parametrize(("rule", "score"), [("last", "3"), ("best", "8")])
-def test_the_last_or_the_best_attempt_counts(folder, rule, score):
+@pytest.mark.parametrize("swapped", [False, True])
+def test_the_attempt_that_was_seen_last_or_the_best_counts(folder, rule, score, swapped):
     begin(folder, rule)
-    on_time = attempt("s1", 8, "2026-12-01T10:00:00+00:00")
-    stored(folder, attempt("s1", 4, LATER, "c", "s1b.ipynb"), on_time)
+    both = [
+        replace(attempt("s1", 8, "2026-12-01T10:00:00+00:00"), seen=1),
+        replace(attempt("s1", 4, LATER, "c", "s1b.ipynb"), seen=2),
+    ]
+    stored(folder, *(both[::-1] if swapped else both))
     assert scores(folder)["s1"] == score
     assert table(folder / "results/99/grades.csv")[0]["attempts"] == "2"
+
+
+def test_no_time_that_a_student_can_set_makes_an_attempt_the_last(folder):
+    early = "2001-01-01T00:00:00+00:00"
+    older = replace(attempt("s1", 8, "2031-01-01T00:00:00+00:00"), seen=1)
+    stored(folder, replace(attempt("s1", 5, early, "c", "s1b.ipynb"), seen=2), older)
+    assert scores(folder)["s1"] == "5"
 
 
 def test_of_the_best_attempts_lateness_counts_against_the_late_one(folder):
@@ -196,7 +208,7 @@ def test_a_release_is_as_moodle_and_canvas_take_it_in(folder):
     assert first == "Ana Kos_501_assignsubmission_file_/exercise-99-feedback.html"
     assert second == "Ben Ivo_502_assignsubmission_file_/exercise-99-feedback.html"
     assert "<title>Exercise 99: A fake · Ana Kos</title>" in page
-    assert "Tuesday, 1 December 2026, 12:00 CET" in page
+    assert "handed in 2026-12-01 12:00 CET" in page
     with zipfile.ZipFile(out / "canvas-feedback.zip") as archive:
         assert archive.namelist() == ["ivoben_LATE_1022_7_exercise-99-feedback.html"]
     assert "in Moodle this assignment has 10 points, here 8" in "\n".join(said)
@@ -257,8 +269,23 @@ def test_a_term_from_download_to_release_from_the_command_line(folder, capsys):
     assert scores(folder)["s1"] == "4.5"
     assert main(words) == 0  # the worksheet, the policy and the secret were kept
     assert scores(folder)["s1"] == "4.5"
-    assert main(["grade", "release", "99"]) == 0
+    assert main(["grade", "release", "99", "--as", "Prof. X"]) == 0
+    head = capsys.readouterr().out.strip().rsplit(" ", 1)[1]
     assert (folder / "results/99/release/moodle.csv").exists()
+    with Gradebook(default_url(folder / "results")) as book:
+        last = book.rows()[-1]
+        assert (last["kind"], last["who"], last["hash"]) == ("release", "Prof. X", head)
+    assert main(["grade", "verify", "--head", head]) == 0
+    assert "1 of 1 scores proved" in capsys.readouterr().out
+    assert main(["grade", "verify", "--head", "0" * 64]) == 1
+    assert "cut off, or written anew" in capsys.readouterr().out
+    assert main(["grade", "forget", "s1"]) == 0
+    assert "roster.csv still names the student" in capsys.readouterr().out
+    assert not list((folder / "results").rglob("feedback/s1.*"))
+    assert scores(folder)["s1"] == ""
+    assert main(["grade", "verify", "--head", head]) == 0
+    assert main(["grade", "forget", "s1"]) == 2
+    assert main(words) == 0
     listed = table(folder / "results/submissions.csv")
     assert [row["student"] for row in listed] == ["s1", "not in the roster: Zed"]
     assert "04 by its metadata, 99 by --exercise" in listed[1]["note"]

@@ -114,6 +114,14 @@ def test_poses_that_are_not_finite_are_told_and_missing():
     assert driven.mistakes == ("5 of 20 poses are not finite: was something divided by zero?",)
 
 
+@pytest.mark.parametrize("number", [1e7, -1e308, np.inf])
+def test_numbers_beyond_any_building_count_as_not_finite(number):
+    driven = drive(estimator(step=after(15, pose_of([number, 0, 0])),
+                             map=lambda self: [[0, 1], [0, number]]), WORLD)  # fmt: skip
+    assert driven.completeness == 15 / 20
+    np.testing.assert_array_equal(driven.points, [[0, 1]])
+
+
 def test_the_past_is_what_trajectory_says_at_the_end_not_the_poses_given_online():
     driven = drive(estimator(trajectory=lambda self: np.ones((20, 3))), WORLD)
     assert (driven.online == 0).all()

@@ -10,10 +10,10 @@ from course.project.template import MySlam
 from slamlab.geometry import compose, transform
 from slamlab.project import drive_errors, points
 from slamlab.project.baselines import BASELINES
-from slamlab.project.drawing import draw_world
+from slamlab.project.drawing import draw_family, draw_world
 from slamlab.project.driving import Budget, drive
 from slamlab.project.scores import by_family, judge, prepare, score
-from slamlab.project.world_families import Family
+from slamlab.project.world_families import LANDMARKS, Family
 
 SMALL = Family("small", plans=(("crc", "rcr"),))
 START = np.array([2.0, -1.0, 0.7])
@@ -148,6 +148,14 @@ def test_a_map_flooded_with_points_scores_nothing_and_one_given_often_no_more():
     often = np.concatenate([everywhere, *[walls[0]] * 50])
     assert drive_errors.map_score(often, *walls) < 0.5 * right
     assert drive_errors.map_score(np.empty((0, 2)), *walls) == 0
+
+
+def test_only_landmarks_that_were_seen_are_to_be_mapped():
+    world = next(draw_family(LANDMARKS, 3, count=1))
+    seen, all_there_are = drive_errors.to_be_mapped(world)
+    ids = {i for reading in world for i in reading.observations.ids.tolist()}
+    assert len(seen) == len(ids) < len(all_there_are) == len(world.landmarks)
+    assert drive_errors.map_score(world.landmarks[sorted(ids)], seen, all_there_are) == 1
 
 
 def test_nees_is_3_on_average_for_true_claims_and_capped_for_false_ones():

@@ -1,12 +1,15 @@
 """What the site makes of a notebook, a question, a formula; what it finds wrong with itself."""
 
 import nbformat
+import numpy as np
 import pytest
 
-from course.site import looking
+from course.site import gathered, looking, rendering
+from course.site.moving_pictures import values_of
 from course.site.pages_of_notebooks import page
 from course.site.questions import question
 from course.site.symbols import plain_forms
+from slamlab.views.sliders import _control
 
 FILES = {"04": "04_models_and_jacobians"}
 
@@ -80,6 +83,12 @@ def test_what_answers_a_question_is_folded_and_words_for_widgets_are_dropped():
     assert [output.data for output in answering.outputs] == [picture]
 
 
+def test_text_that_explains_an_answer_is_folded_too():
+    folded, other = shown(text("**Across.**", slamlab={"answers": "05-a"}), text("Next."))
+    assert folded.source.startswith("<details>") and "\n\n**Across.**\n\n" in folded.source
+    assert other.source == "Next."
+
+
 @pytest.mark.parametrize(
     "latex, plain",
     [
@@ -113,3 +122,69 @@ def test_looking_finds_what_is_wrong_with_a_site(tmp_path):
     ]
     assert len(found) == len(wanted)
     assert all(any(words in each for each in found) for words in wanted)
+
+
+def test_a_slider_is_thinned_evenly_and_keeps_its_first_value():
+    values, said = values_of(_control("a", (0, 100, 33)), 21)
+    assert values[0] == 0 and values[-1] == 100 and 33 in values and len(values) <= 22
+    assert said == [str(value) for value in values]
+    assert np.diff(values).max() <= 5
+    values, said = values_of(_control("a", (0.0, 1.0, 0.25)), 5)
+    assert values == [0, 0.25, 0.5, 0.75, 1] and said[1] == "0.25"
+    assert values_of(_control("a", ["x", "y"]), 21) == (["x", "y"], ["x", "y"])
+    assert values_of(_control("a", True), 21) == ([False, True], ["no", "yes"])
+
+
+MOVING = """\
+import ipywidgets, numpy as np
+from functools import partial
+from slamlab import estimators, sources, views
+"""
+DRAWN = """\
+def draw(n, big):
+    fig, ax = views.axes("a line")
+    ax.plot([0, n], [0, 1 + big])
+    return fig
+views.explore(draw, lambda n, big: f"A line to {n}.", n=(1, 4, 2), big=False)"""
+LIVED = """\
+views.live({"one": partial(sources.simulation, "polygon"), "by hand": partial(
+    sources.simulation, "room", tour=False)}, partial(estimators.make, "odometry"), "Points.")"""
+
+
+def test_what_moves_is_rendered_once_and_stands_on_the_page(tmp_path):
+    notebook = nbformat.v4.new_notebook(
+        cells=[text("# 05 · T"), code(MOVING), code(DRAWN, {"text/html": "<img alt='A line'>"}),
+               code(LIVED, {"text/html": "<img alt='Points'>"}), code("1 / 0")]
+    )  # fmt: skip
+    path = tmp_path / "05_t.ipynb"
+    nbformat.write(notebook, path)
+    told, folder = rendering.rendered(path, tmp_path / "cache")
+    (n, big), (film,) = told[notebook.cells[2].id][0]["controls"], told[notebook.cells[3].id]
+    assert n["words"] == ["1", "2", "3", "4"] and n["first"] == 1
+    assert n["alts"][3].endswith("A line to 4.") and big["words"] == ["no", "yes"]
+    assert n["pictures"][1] == big["pictures"][0]  # drawn once
+    assert len(set(n["pictures"] + big["pictures"])) == 5 == len(list(folder.glob("*.webp")))
+    assert (folder / film["film"]).read_text().startswith("slamlabFilm(")
+    before = {file: file.stat().st_mtime_ns for file in folder.iterdir()}
+    assert rendering.rendered(path, tmp_path / "cache") == (told, folder)
+    assert before == {file: file.stat().st_mtime_ns for file in folder.iterdir()}
+    sliders, live = page(notebook, {}, told, folder.name).cells[2:4]
+    assert "slamlab-sliders" in sliders.outputs[0].data["text/html"]
+    assert film["film"] in live.outputs[0].data["text/html"]
+    notebook.cells[2].source += "\n1 / 0"
+    nbformat.write(notebook, path)
+    with pytest.raises(rendering.RenderingError, match="ZeroDivisionError"):
+        rendering.rendered(path, tmp_path / "cache")
+
+
+def test_errata_and_literature_are_gathered_of_all_lessons():
+    table = "| place | printed |\n| --- | --- |\n| (1) | $a$ |"
+    lesson = nbformat.v4.new_notebook(
+        cells=[text("# 05 · T"), text("## In print\n\nOptional.\n\n" + table), code("1"),
+               text("### By machine\n\nSo."), text("## Literature\n\nA. B., [book](../x.ipynb)"),
+               text("## What comes next\n\nMore.")]
+    )  # fmt: skip
+    errata = gathered.page("errata", [("05 · T", "notebooks/t.ipynb", lesson)])
+    assert table in errata and "[05 · T](notebooks/t.ipynb)" in errata and "Optional" not in errata
+    read = gathered.page("literature", [("05 · T", "notebooks/t.ipynb", lesson)])
+    assert "A. B., [book](x.ipynb)" in read and "More" not in read

@@ -8,12 +8,15 @@ WAYS = {
     "central differences": """
 def H_robot(x, p):
     steps = 1e-6 * np.eye(3)
-    return np.column_stack([(h(x + step, p) - h(x - step, p)) / 2e-6 for step in steps])
+    H = np.column_stack([h(x + step, p) - h(x - step, p) for step in steps])
+    H[1] = (H[1] + np.pi) % (2 * np.pi) - np.pi
+    return H / 2e-6
 """,
     "one-sided differences": """
 def H_robot(x, p, step=1e-6):
     here = h(x, p)
-    return np.array([(h(x + step * one, p) - here) / step for one in np.eye(3)]).T
+    H = np.array([h(x + step * one, p) - here for one in np.eye(3)]).T
+    return np.array([H[0], np.arcsin(np.sin(H[1]))]) / step
 """,
     "complex step": """
 def H_robot(x, p, e=1e-30):
@@ -121,6 +124,21 @@ SLIPS = (
         ("q = dx**2 + dy**2", "q = (dx + dy)**2"),
         ("q = dx**2 + dy**2", "q = abs(dx) + abs(dy)"),
         ("q = dx**2 + dy**2", "q = abs(dx**2 - dy**2)"),
+    ),
+    Slip(
+        "cut",
+        "Where the landmark is straight behind, the bearings from two places a hair apart may differ by "
+        "a full turn: wrap their difference before you divide it.",
+        """
+def H_robot(x, p):
+    steps = 1e-6 * np.eye(3)
+    return np.column_stack([(h(x + step, p) - h(x - step, p)) / 2e-6 for step in steps])
+""",
+        """
+def H_robot(x, p, step=1e-6):
+    here = h(x, p)
+    return np.array([(h(x + step * one, p) - here) / step for one in np.eye(3)]).T
+""",
     ),
     Slip(
         "degrees",

@@ -15,7 +15,7 @@ def command(speed, turn):
 def command(speed, turn):
     T, R = (int(np.clip(each, -100, 100)) & 0xFF for each in (speed, turn))
     C = (256 - (1 + T + R) % 256) % 256
-    return b"#%02X%02X%02X%02X/" % (1, T, R, C)
+    return (b"#%02X%02X%02X%02X/" % (1, T, R, C)).decode()
 """,
     "int.to_bytes": """
 def command(speed, turn):
@@ -262,6 +262,11 @@ def command(speed, turn):
         """
 def command(speed, turn):
     speed, turn = max(-100, min(100, speed)), max(-100, min(100, turn))
+""",
+        """
+def command(speed, turn):
+    T, R = (int(np.clip(each, -100, 100)) & 0xFF for each in (speed, turn))
+    return b"#%02X%02X%02X%02X/" % (1, T, R, -(1 + T + R) & 0xFF)
 """,
     ),
     Stumble("raised", (f"{CUT} % 256", f"{CUT} + '%'")),

@@ -65,8 +65,6 @@ def commanded(functions, inputs):
     codes = np.zeros((len(inputs["speed"]), LONGEST))
     for row, (speed, turn) in zip(codes, rows(inputs), strict=True):
         text = functions["command"](int(speed), int(turn))
-        if isinstance(text, bytes):
-            text = text.decode("latin-1")
         if not isinstance(text, str):
             what = "None: is there a return at its end?" if text is None else type(text).__name__
             raise StudentError("malformed", f"command returned {what}, expected a text (str)")

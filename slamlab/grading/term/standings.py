@@ -91,11 +91,9 @@ def _counted(attempts, rule):
 
 
 def _when(pair):
-    """The order of hand-ins: by the time told; where none is, by the gradebook."""
+    """The order of attempts: that in which the judge first saw them, by no clock."""
     order, made = pair
-    told = made.record.handed_in
-    moment = datetime.fromisoformat(told).timestamp() if told else float("-inf")
-    return moment, 0 if told else order, made.record.submission
+    return made.record.seen or 0, order
 
 
 def _newest_of_each_content(marks):

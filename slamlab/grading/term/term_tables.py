@@ -1,7 +1,5 @@
 """Tables of a term: over all and per exercise, a row for everybody who is enrolled."""
 
-from datetime import datetime
-
 from slamlab.exercises import catalogue
 from slamlab.exercises.report import number
 from slamlab.grading.grade_tables import (
@@ -10,6 +8,7 @@ from slamlab.grading.grade_tables import (
     submission_rows,
     write_table,
 )
+from slamlab.grading.local_times import local_time
 from slamlab.grading.term.standings import points_of
 
 WHO = ("id", "name", "email", "section")
@@ -26,8 +25,9 @@ def write_term(course, standings, marks):
     """
     write_table(course.results / "grades.csv", _over_all(standings))
     for id, of_exercise in standings.items():
-        if any(standing.attempts for standing in of_exercise):
-            write_table(course.results / id / "grades.csv", exercise_rows(of_exercise, course.zone))
+        table = course.results / id / "grades.csv"
+        if table.exists() or any(standing.attempts for standing in of_exercise):
+            write_table(table, exercise_rows(of_exercise, course.zone))
     exercises = [catalogue.exercise(id) for id in course.exercises]
     newest = sorted(marks, key=lambda made: made.record.submission)
     write_table(course.results / "submissions.csv", submission_rows(newest, exercises))
@@ -63,20 +63,6 @@ def exercise_rows(standings, zone):
             record.submission if record else "",
             *(detail_cells(made, exercises) if made else [""] * len(detail_titles(exercises))),
         ]
-
-
-def local_time(when, zone):
-    """A time on the course's clocks, such as 2026-12-01 23:59; empty for none.
-
-    Parameters
-    ----------
-    when : datetime, str in ISO's form, or None
-    zone : ZoneInfo or None, for the time as it is told
-    """
-    if not when:
-        return ""
-    moment = datetime.fromisoformat(when) if isinstance(when, str) else when
-    return f"{moment.astimezone(zone) if zone else moment:%Y-%m-%d %H:%M}"
 
 
 def _over_all(standings):

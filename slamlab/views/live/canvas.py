@@ -7,7 +7,7 @@ import anywidget
 import traitlets
 
 from slamlab.views.live.back_pressure import Screen
-from slamlab.views.live.frame_packing import FramePacker, Scene
+from slamlab.views.live.frame_packing import FramePacker, Scene, pack_frame
 from slamlab.views.player.library import LIVE, script, styles
 
 HERE = Path(__file__).parent
@@ -79,25 +79,12 @@ class LiveCanvas(Screen):
             super().offer(scene)
 
     def _send_frame(self, scene):
-        header, rows = self._pack_frame(scene, self._packer)
+        header, rows = pack_frame(scene, self._packer, self.sent, self.drawn)
         self.widget.send(header, [rows.ljust(self._min_bytes, b"\0")])
 
     def _full_frame(self):
-        header, rows = self._pack_frame(self._latest_scene, FramePacker())
+        header, rows = pack_frame(self._latest_scene, FramePacker(), self.sent, self.drawn)
         return {"header": header, "rows": rows}
-
-    def _pack_frame(self, scene, packer):
-        layers, rows = packer.pack(scene.drawables)
-        header = {
-            "kind": "frame",
-            "number": self.sent,
-            "behind": self.sent - self.drawn,
-            "run": scene.run,
-            "status": scene.status,
-            "radius": scene.radius,
-            "layers": layers,
-        }
-        return header, rows
 
     def _on_message(self, _, content, buffers):
         if not isinstance(content, dict):

@@ -22,10 +22,12 @@ class DriveControl:
     Parameters
     ----------
     loop : RunLoop
+
+    ``moving`` says whether a command to move holds.
     """
 
     def __init__(self, loop):
-        self._loop, self._move = loop, None
+        self._loop, self._move, self.moving = loop, None, False
 
     @property
     def _real_time(self):
@@ -98,13 +100,13 @@ class DriveControl:
 
     def release(self):
         """Release the controls: a robot that drives on by itself is stopped."""
-        self._move = None
+        self._move, self.moving = None, False
         if self._real_time:
             with suppress(Exception):  # one that is gone cannot be told, nor has to be
                 self._loop.pair.drive(STOP)
 
     def _send_command(self, command):
-        pair = self._loop.pair
+        pair, self.moving = self._loop.pair, command is not None
         if self._loop.running and pair.drivable and pair.exhausted:
             pair.command = command
             return False

@@ -143,6 +143,32 @@ def rows_in_common(old, new):
     return int(differs.argmax()) if differs.any() else shorter
 
 
+def pack_frame(scene, packer, sent, drawn):
+    """Pack a scene as a frame, as a live feed takes it (``player/live_feed.js``).
+
+    Parameters
+    ----------
+    scene : Scene
+    packer : FramePacker of the screen
+    sent, drawn : int, numbers of this frame and of the last one that was drawn
+
+    Returns
+    -------
+    (dict, bytes) : header and rows
+    """
+    layers, rows = packer.pack(scene.drawables)
+    header = {
+        "kind": "frame",
+        "number": sent,
+        "behind": sent - drawn,
+        "run": scene.run,
+        "status": scene.status,
+        "radius": scene.radius,
+        "layers": layers,
+    }
+    return header, rows
+
+
 class FramePacker:
     """Incremental (delta) encoder of frames for one screen: rows it already has are not sent again.
 

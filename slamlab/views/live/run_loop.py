@@ -13,7 +13,7 @@ from slamlab.views.widget_errors import error_line
 FRAME_RATE = 20  # frames a second, at most; faster steps share a frame [1/s]
 MIN_PAUSE = 0.005  # [s] left to the kernel between two frames, to hear of a press
 MAX_BURST = 0.1  # [s] of steps in a row, then a frame
-IDLE_POLL = 0.1  # [s] between looks whether a robot that stands has got a command
+IDLE_POLL = 0.02  # [s] between looks whether a robot that stands has got a command
 READING_TIMEOUT = 0.02  # [s] that all else in the kernel waits for a source's readings, a frame
 
 _running = None  # the one loop that runs: a cell that is run again leaves none behind
@@ -30,17 +30,25 @@ class RunLoop:
     speed : float, steps a second
     tops : (speed, turn rate) of commands [m/s, rad/s]
     play : bool, whether it runs as soon as a browser shows it whose reader likes motion
+    frame_rate : float, frames a second at most, or None for FRAME_RATE
 
     ``on_change()`` is called when it begins or ceases to run or gets another source.
     """
 
-    def __init__(self, pair, screen, seed=0, speed=5.0, tops=(0.4, 0.6), play=False):
+    def __init__(
+        self, pair, screen, seed=0, speed=5.0, tops=(0.4, 0.6), play=False, frame_rate=None
+    ):
         self.pair, self.screen, self.seed, self.speed = pair, screen, seed, speed
-        self.tops, self.play, self.error = tops, play, ""
+        self.tops, self.play, self.error, self._frame_rate = tops, play, "", frame_rate
         self.on_change = lambda: None
         self.drive_control = DriveControl(self)
         self._task, self._scene, self._released = None, Scene([]), False
         screen.on_ready, screen.on_closed, screen.on_key = self._ready, self.close, self.drive
+
+    @property
+    def frame_rate(self):
+        """float, frames a second at most; faster steps share a frame."""
+        return self._frame_rate or FRAME_RATE
 
     @property
     def running(self):
@@ -179,13 +187,13 @@ class RunLoop:
     def _frame_period(self, made):
         """Time from one frame to the next [s], the inverse of the frame rate."""
         if made:
-            return max(1 / self.speed, 1 / FRAME_RATE)
+            return max(1 / self.speed, 1 / self.frame_rate)
         return MIN_PAUSE if self.pair.waited else IDLE_POLL
 
     def _step_batch(self, mine, until):
         """Make the steps of one frame; how many there were."""
         began, first = monotonic(), self.pair.count
-        most = min(first + max(self.speed / FRAME_RATE, 1), until)
+        most = min(first + max(self.speed / self.frame_rate, 1), until)
         while self._task is mine and self.pair.count < most:
             before, spent = self.pair.count, monotonic() - began
             timeout = 0 if self.pair.waited else max(READING_TIMEOUT - spent, 0)

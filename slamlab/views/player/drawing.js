@@ -180,7 +180,7 @@ function mark(g, { name, colour, kinds, x, y }, theme) {
 
 // aim(camera) points the camera, once it is known how much room the legend leaves
 function draw(canvas, camera, layers, theme, aim) {
-  const ratio = window.devicePixelRatio || 1, shown = withColours(layers.list, theme);
+  const ratio = window.devicePixelRatio || 1, shown = withColours(layers.visible, theme);
   const below = panels(shown), full = camera.height + PANEL * below.size;
   const wide = Math.round(camera.width * ratio), high = Math.round(full * ratio);
   if (canvas.width != wide || canvas.height != high) {
@@ -190,7 +190,7 @@ function draw(canvas, camera, layers, theme, aim) {
   g.setTransform(ratio, 0, 0, ratio, 0, 0);
   g.fillStyle = theme.paper;
   g.fillRect(0, 0, camera.width, full);
-  const entries = legend(g, camera, withColours(layers.named ?? layers.list, theme));
+  const entries = legend(g, camera, withColours(layers.named ?? layers.visible, theme));
   aim(camera);
   grid(g, camera, theme);
   const [w, h] = camera.inner();

@@ -6,6 +6,11 @@ class Layers {
   constructor() {
     this.list = [];
     this.header = null;
+    this.hidden = new Set(); // names of layers that a reader has switched off
+  }
+
+  get visible() {
+    return this.list.filter(({ name }) => !this.hidden.has(name));
   }
 
   // take in a frame: keep old rows, add those that follow, which the numbers are
@@ -31,7 +36,7 @@ class Layers {
 
   bounds() {
     const box = nowhere();
-    for (const { kind, width, rows } of this.list) surround(box, kind, width, rows);
+    for (const { kind, width, rows } of this.visible) surround(box, kind, width, rows);
     return somewhere(box);
   }
 }

@@ -44,6 +44,11 @@ def _turned(rng):
     return _seen(x, *rest)
 
 
+def _at_the_side(rng):
+    x, mount, F, ahead, _ = _generic(rng, 2)
+    return _seen(x, mount, F, ahead, np.array([3.0, -4.0]) * ahead)
+
+
 def _near_and_far(rng):
     x, mount, F, ahead, left = _generic(rng, 4)
     scale = np.array([0.5, 0.6, 15, 25]) / ahead
@@ -145,6 +150,7 @@ TASK = Task(
         Probe("a landmark in the middle of the image", _in_the_middle),
         Probe("headings at π and beyond", _turned),
         Probe("landmarks at 50 cm and at 25 m", _near_and_far),
+        Probe("landmarks far to the side", _at_the_side),
     ),
     parts=_parts,
     rounds=False,  # a rounded landmark may lie behind the camera

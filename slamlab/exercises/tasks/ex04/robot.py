@@ -29,6 +29,16 @@ def _along_x(rng):
     return {"x": x, "p": x[:, :2] + [[3.0, 0.0], [-2.0, 0.0]]}
 
 
+def _behind(rng):
+    """Seen at ±π, on which side of the cut there depends on the sign of a zero."""
+    return {"x": np.zeros((2, 3)), "p": np.array([[-2.0, 0.0], [-3.0, -0.0]])}
+
+
+def _aside(rng):
+    x = poses(rng, 2)
+    return {"x": x, "p": x[:, :2] + [[0.0, 2.0], [0.0, -3.0]]}
+
+
 def _whole(rng):
     x = np.array([[1.0, 2, 0], [-2, 1, 3], [0, -1, -2]])
     return {"x": x, "p": np.array([[4.0, 6], [3, -11], [-3, 3]])}
@@ -102,6 +112,8 @@ TASK = Task(
     probes=(
         Probe("a landmark straight ahead of a robot at the origin", _ahead),
         Probe("landmarks exactly along +x and −x", _along_x),
+        Probe("landmarks exactly along +y and −y", _aside),
+        Probe("landmarks straight behind a robot at the origin", _behind),
         Probe("whole numbers", _whole),
         Probe("landmarks at 20 cm and at 30 m", _near_and_far),
         Probe("headings at π and beyond", _turned),

@@ -17,6 +17,9 @@ ROBOTS, STEPS, LANDMARKS = 30, 40, 6
 LIES, AT_FIRST = 0.3, 4  # share of false sights; of so many at the beginning every second is false
 PLACE, WHEELS, EYES = 0.2, np.array([0.03, 0.02]), np.array([0.08, 0.03])  # standard deviations
 LATE = 10  # steps at the end that are judged
+# over 60 seeds the solution finds 28 robots of 30 at least, and 27 that know how far they are off;
+# one sight alone finds 19 to 26, the median of five 24 to 26
+ENOUGH = 26 / 30
 
 
 def robots(rng, count=ROBOTS, steps=STEPS, landmarks=LANDMARKS, lies=LIES):
@@ -102,16 +105,16 @@ STEPS_UP = (
         "Which sights would you rather not have believed?",
     ),
     _step(
-        "good", 1.5, 0.65, "thirteen in twenty are",
+        "good", 1, 0.75, "fifteen in twenty are",
         "Suppose a robot's heading were right, by luck. How would you notice, some steps later?",
     ),
     _step(
-        "found", 1.5, 0.8, "sixteen in twenty are",
+        "found", 1.5, ENOUGH, "twenty-six in thirty are",
         "May a heading that was chosen by one sight be wrong?",
     ),
     _step(
-        "honest", 1.5, 0.8,
-        "sixteen in twenty also know how far they are off (NEES below 15, σ below 0.3 m)",
+        "honest", 2, ENOUGH,
+        "twenty-six in thirty also know how far they are off (NEES below 15, σ below 0.3 m)",
         "What does P say of a sight that is believed though it is false?", knows=True,
     ),
 )  # fmt: skip

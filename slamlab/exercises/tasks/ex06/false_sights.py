@@ -25,9 +25,9 @@ SCANS = np.array([[0, 1, 2, 3, 4], *([*pair, -1, -1, -1] for pair in 2 * PAIRS)]
 
 def lies(rng):
     """Runs of one way; of each sight but a landmark's first, two runs are told another place."""
+    start = np.array([*either_sign(rng, 0.5, 3, 2), either_sign(rng, 0.3, 2.5)])
     turns = either_sign(rng, 1, 1) * rng.uniform(0.1, 0.3, len(SCANS))
     drives = np.column_stack([rng.uniform(0.4, 0.6, len(SCANS)), turns])
-    start = np.array([*either_sign(rng, 0.5, 3, 2), either_sign(rng, 0.3, 2.5)])
     around = rng.uniform(-np.pi, np.pi) + np.arange(LANDMARKS) * 2 * np.pi / LANDMARKS
     far = rng.uniform(5.0, 6.0, (LANDMARKS, 1))
     middle = driven(start, drives)[:, :2].mean(axis=0)

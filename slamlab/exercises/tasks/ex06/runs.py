@@ -20,18 +20,25 @@ WHEELS, EYES = np.array([0.04, 0.02]), np.array([0.06, 0.02])  # σ of d, Δθ a
 START = np.array([0.04, 0.05, 0.02])  # σ of the start [m, m, rad]
 
 
-def runs(rng):
+def runs(rng, behind=False):
     """One world and one way, many runs of it; the last landmark is met at the end only.
+
+    Where they lie behind, the robot drives away from all landmarks and sees them at ±π.
 
     The truth is in no array. Errors have the mean 0 over all runs, so that it is their middle.
     """
     start = np.array([*either_sign(rng, 0.5, 3, 2), either_sign(rng, 0.3, 2.5)])
     turns = either_sign(rng, 1, 1) * rng.uniform(0.1, 0.4, STEPS)
     drives = np.column_stack([rng.uniform(0.5, 0.8, STEPS), turns])
+    if behind:
+        drives[:, 1] *= 0.05
     way = driven(start, drives)
     around = rng.uniform(-np.pi, np.pi) + np.arange(LANDMARKS) * 1.6
     far = rng.uniform(3.5, 4.5, (LANDMARKS, 1))
     p = way[:, :2].mean(axis=0) + far * np.column_stack([np.cos(around), np.sin(around)])
+    if behind:
+        back = start[2] + np.pi + np.array([0.03, -0.02, 0.02, -0.03])
+        p = start[:2] + far * np.column_stack([np.cos(back), np.sin(back)])
     return measured(rng, start, drives, p, SCANS, (START, WHEELS, EYES))
 
 

@@ -4,7 +4,7 @@ import numpy as np
 
 from slamlab.exercises.drives.ex06 import DRIVES
 from slamlab.exercises.law import Law
-from slamlab.exercises.task import Diagnosis, Task
+from slamlab.exercises.task import Diagnosis, Probe, Task
 from slamlab.exercises.tasks.ex06.ends import MAP, Ends, whole
 from slamlab.exercises.tasks.ex06.runs import RUNS, runs
 from slamlab.filters.landmark_models import POINTS
@@ -66,6 +66,9 @@ SLAM = Task(
     inputs=runs,
     shapes={"x": (RUNS, None), "P": (RUNS, None, None), "ids": (RUNS, None)},
     rounds=False,
+    probes=(
+        Probe("landmarks behind the robot", lambda rng: runs(rng, behind=True), ("pose", "map")),
+    ),
     laws=(
         Law(
             "ids",

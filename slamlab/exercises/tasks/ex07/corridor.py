@@ -35,6 +35,12 @@ def _at_rest(rng):
     return inputs | {"d": 0 * inputs["d"], "q": 0 * inputs["q"]}
 
 
+def _slipping(rng):
+    """The way is 0 by the wheels, which may err."""
+    inputs = walks(rng, 3, 5)
+    return inputs | {"d": 0 * inputs["d"]}
+
+
 def _shared(rng):
     """Robot and doors share errors from the start."""
     return walks(rng, 4, 6) | {"P": covariances(rng, rng.uniform(0.5, 2, (4, 4)))}
@@ -117,6 +123,7 @@ CORRIDOR = Task(
         Probe("one door", lambda rng: walks(rng, 3, 4, doors=1), EXACTLY),
         Probe("seven doors", lambda rng: walks(rng, 3, 9, doors=7), EXACTLY),
         Probe("a drive of 0 m with the variance 0", _at_rest, EXACTLY),
+        Probe("a drive of 0 m that errs", _slipping, EXACTLY),
         Probe("errors shared from the start", _shared, EXACTLY),
     ),
     laws=(

@@ -8,11 +8,11 @@ from slamlab.exercises.task import Probe, Task
 from slamlab.exercises.tasks.ex07.beliefs import EXACT, covariances
 
 
-def _drawn(rng, n=8, size=9, seen=4, shared=True, exact=False, news=True):
+def _drawn(rng, n=8, size=9, seen=4, shared=True, exact=False, news=True, scale=1):
     """States, which entries were in sight, and what sights of these alone made of them."""
     inputs = {
         "x": rng.uniform(-6, 6, (n, size)),
-        "P": covariances(rng, rng.uniform(0.1, 1, (n, size))),
+        "P": covariances(rng, scale * rng.uniform(0.1, 1, (n, size))),
         "seen": np.array([rng.permutation(size)[:seen] for _ in range(n)], dtype=float),
     }
     after = {"x_seen": np.zeros((n, seen)), "P_seen": np.zeros((n, seen, seen))}
@@ -104,6 +104,7 @@ HEARSAY = Task(
         Probe("all entries in sight", lambda rng: _drawn(rng, 3, seen=9)),
         Probe("a state of two entries", lambda rng: _drawn(rng, 3, size=2, seen=1)),
         Probe("a state of 23 entries", lambda rng: _drawn(rng, 2, size=23, seen=7)),
+        Probe("large numbers", lambda rng: _drawn(rng, 3, scale=30)),
         Probe("P_seen = 0", lambda rng: _drawn(rng, 3, exact=True)),
         Probe("no news", lambda rng: _drawn(rng, 3, news=False)),
         Probe("a rest that shares nothing", lambda rng: _drawn(rng, 3, shared=False)),

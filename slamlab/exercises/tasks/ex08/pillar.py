@@ -40,7 +40,7 @@ def _wall(rng, centre, radius, k):
     return rho * normal + along[:, None] * across(normal) + rng.uniform(-0.01, 0.01, (k, 2))
 
 
-def clouds(rng, kinds, tries=TRIES, arc=7):
+def clouds(rng, kinds, tries=TRIES, arc=7, near=NEAR, radius=(0.25, 0.45)):
     """Readings with a pillar among them, or none, in no order; and arcs to fit a circle to.
 
     Parameters
@@ -48,15 +48,16 @@ def clouds(rng, kinds, tries=TRIES, arc=7):
     rng : numpy.random.Generator
     kinds : for each cloud how many readings are of the pillar, of a wall, and near the pillar
     tries, arc : int, guesses, and readings of an arc
+    near, radius : between which the others lie off the circle, and its radius [m]
     """
     points, needed = [], []
     for on, behind, loose in kinds:
-        pillar, (centre,), (radius,) = arcs(rng, 1, max(on, 1), noise=0.0015)
+        pillar, (centre,), (size,) = arcs(rng, 1, max(on, 1), noise=0.0015, radius=radius)
         seen = np.arctan2(*-centre[::-1]) + rng.uniform(-0.7, 0.7, loose)
-        off = rng.choice([-1.0, 1.0], (loose, 1)) * rng.uniform(*NEAR, (loose, 1))
-        others = centre + (radius + off) * direction(seen)
+        off = rng.choice([-1.0, 1.0], (loose, 1)) * rng.uniform(*near, (loose, 1))
+        others = centre + (size + off) * direction(seen)
         points.append(
-            rng.permutation(np.vstack([pillar[0, :on], _wall(rng, centre, radius, behind), others]))
+            rng.permutation(np.vstack([pillar[0, :on], _wall(rng, centre, size, behind), others]))
         )
         needed.append(float(min(NEEDED, max(len(points[-1]), 3))))
     n = len(kinds)
@@ -79,6 +80,19 @@ def mixed(rng):
 def _few(rng):
     """One reading, or two, of which no circle can be made."""
     return clouds(rng, [(2, 0, 0)] * 2)
+
+
+def _at_the_edge(rng):
+    """Readings about the edge of the band: another circle agrees with others of them."""
+    return clouds(rng, [(24, 0, 16)] * 4, near=(0.8 * BAND, 1.2 * BAND))
+
+
+def _by_turns(rng):
+    """No two of the pillar's readings are neighbours."""
+    found = clouds(rng, [(24, 24, 0)] * 2, 230)
+    for points, inside in zip(found["points"], most(found), strict=True):
+        points[::2], points[1::2] = points[inside], points[~inside]
+    return found
 
 
 def _on_a_grid(rng):
@@ -199,6 +213,15 @@ PILLAR = Task(
         Probe(
             "more readings of a wall than of the pillar",
             lambda rng: clouds(rng, [(24, 26, 0)], 230),
+        ),
+        Probe(
+            "a pillar and a wall whose readings come by turns", _by_turns, ("inside", "refitted")
+        ),
+        Probe("readings at the edge of the band", _at_the_edge, ("refitted",)),
+        Probe(
+            "a thin pillar",
+            lambda rng: clouds(rng, [(30, 8, 0)] * 2, radius=(0.05, 0.07)),
+            ("inside", "refitted"),
         ),
         Probe("many readings near the pillar", lambda rng: clouds(rng, [(24, 0, 16)] * 2, 120)),
         Probe("a hundred readings", lambda rng: clouds(rng, [(75, 21, 4)], 48, arc=100)),

@@ -43,23 +43,31 @@ def _why(inputs, outputs):
     )
 
 
-def _step(name, points, maps, most, asks):
+def _step(name, points, asks, *limits):
     """The law that so many of twelve maps have so many walls too many or too few at most."""
 
     def holds(inputs, outputs):
-        return np.sum(wrong(inputs, outputs).sum(axis=1) <= most) * 12 >= maps * len(inputs["x"])
+        faults = wrong(inputs, outputs).sum(axis=1)
+        return all(np.sum(faults <= most) * 12 >= maps * len(faults) for maps, most in limits)
 
-    walls = f"{most} wall{'s' * (most > 1)} too many or too few at most" if most else "no fault"
-    return Law(name, points, f"{maps} of 12 maps have {walls}", holds, why=_why, asks=asks)
+    says = " and ".join(f"{maps} of 12 maps have {_faults(most)}" for maps, most in limits)
+    return Law(name, points, says, holds, why=_why, asks=asks)
+
+
+def _faults(most):
+    return f"{most} wall{'s' * (most > 1)} too many or too few at most" if most else "no fault"
 
 
 # over 300 seeds 8 of 12 maps of the solution or more have one fault at most, 6 or more have none;
-# by the lesson's rule none has, since the three things stay in the map
+# by the lesson's rule none has, since the three things stay in the map. The eight that were found
+# most often are right in 5 of 12 maps at times, but not in 7 but for one wall
 STEPS = (
-    _step("better", 0.5, 6, 3, "What does a map hold that believes every line it sees?"),
-    _step("good", 1.5, 6, 1, "A thing stood for a dozen scans. What gives it away afterwards?"),
-    _step("clean", 2, 7, 1, "Which walls do you lack: those the robot saw only shortly?"),
-    _step("right", 1.5, 5, 0, "Where does the robot think it is when it comes round again?"),
+    _step("better", 0.5, "What does a map hold that believes every line it sees?", (6, 3)),
+    _step("good", 1, "A thing stood for a dozen scans. What gives it away afterwards?", (6, 1)),
+    _step("clean", 2, "Which walls do you lack: those the robot saw only shortly?", (7, 1)),
+    _step(
+        "right", 2, "Where does the robot think it is when it comes round again?", (7, 1), (5, 0)
+    ),
 )
 
 

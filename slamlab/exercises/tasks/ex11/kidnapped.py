@@ -98,7 +98,7 @@ KIDNAPPED = Task(
         ),
         Law(
             "soon",
-            1.5,
+            0.5,
             f"in the ten steps after the kidnapping {SOON:.0%} of the weight is near the robot",
             _again,
             why=_why(SHARE),
@@ -108,7 +108,7 @@ KIDNAPPED = Task(
         ),
         Law(
             "steady",
-            1.5,
+            2,
             f"so it is, and apart from these steps the typical run errs by {STEADY} m at most",
             lambda i, o: _again(i, o) and steady(i, o) <= STEADY,
             why=_why(SHARE, TYPICAL),
@@ -117,7 +117,7 @@ KIDNAPPED = Task(
         ),
         Law(
             "sure",
-            1.5,
+            2,
             f"so it is, and by {SURE} m at most on average, without the worst eighth of the runs",
             lambda i, o: _again(i, o) and sure(i, o) <= SURE,
             why=_why(SHARE, MOST),

@@ -91,10 +91,11 @@ def _probe(make):
 
 
 def _damaged(rng):
-    """Packets with one thing wrong, whose sum is right but for the last two."""
+    """Packets with one thing wrong, whose sum is right but for the last ones."""
     first, turned = rng.integers(3000, 30000), rng.integers(1100, 2500)
     wrong = [{"head": HEAD + 1}, {"head": HEAD - 1}, {"head": 0}, {"count": 4}, {"count": 6}]
     made = [packet(first, turned, _points(rng, 5), **each) for each in [*wrong, {"end": [7]}]]
+    made.append([*packet(first, turned, _points(rng, 5)), 7])
     sums = [packet(first, turned, _points(rng, 5)) for _ in range(2)]
     for each, off in zip(sums, (1, 128), strict=True):
         each[-1] = (each[-1] + off) % 256

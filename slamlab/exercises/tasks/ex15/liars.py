@@ -42,7 +42,7 @@ def _step(name, points, count, limit, asks):
 STEPS = (
     _step("better", 0.5, 8, 0.9, "How good is a map without any loop, and one with all of them?"),
     _step(
-        "good", 2, 8, 0.4, "Once a loop is trusted, the wheels are less in doubt. And the others?"
+        "good", 2, 8, 0.32, "Once a loop is trusted, the wheels are less in doubt. And the others?"
     ),
     _step(
         "right", 3, 11, 0.6, "Whom would you believe if two groups of loops contradict each other?"
@@ -86,6 +86,10 @@ def _honest(rng):
     return laps.laps(rng, drives=4, poses=20, good=6, gang=0, stray=0)
 
 
+def _once(rng):
+    return laps.laps(rng, drives=4, poses=14, good=1, gang=0, stray=0)
+
+
 LIARS = Task(
     id="15-liars",
     title="A map in spite of liars",
@@ -94,6 +98,9 @@ LIARS = Task(
     shapes=lambda inputs: {"result": inputs["poses"].shape[1:]},
     laws=STEPS,
     diagnoses=MISTAKES,
-    probes=(Probe("a shorter drive all of whose loops are true", _honest, (STEPS[0].name,)),),
+    probes=(
+        Probe("a shorter drive all of whose loops are true", _honest, (STEPS[0].name,)),
+        Probe("a single loop", _once, (STEPS[0].name,)),
+    ),
     rounds=False,
 )

@@ -23,6 +23,10 @@ export const stepsOf = (cell) => htmlOf(cell).match(/class="[^"]*\bslamlab-step\
 
 const isFolded = (cell) => Boolean(cell.model.getMetadata("jupyter")?.outputs_hidden);
 
+// Text that explains an answer: it is folded whole, and on a slide it is a fragment like any other.
+const isAnswer = (cell) =>
+  cell.model.type === "markdown" && Boolean(cell.model.getMetadata("slamlab")?.answers);
+
 // The slides of a notebook: {cells, notes: indices, minutes, title}.
 export function slidesOf(notebook) {
   const slides = [];
@@ -84,11 +88,13 @@ export function reveal(notebook, stop, page, lines = Infinity) {
 // A folded answer waits with its room kept, like all that comes later.
 export function unfold(cell) {
   if (isFolded(cell)) cell.outputHidden = false;
+  if (isAnswer(cell)) cell.inputHidden = false;
 }
 
 // Fold again the answers that nobody has seen.
 export function refold(notebook) {
   for (const cell of notebook.widgets) {
     if (cell.outputArea?.node.classList.contains("slamlab-later")) cell.outputHidden = true;
+    if (isAnswer(cell) && cell.node.classList.contains("slamlab-later")) cell.inputHidden = true;
   }
 }

@@ -1,0 +1,171 @@
+"""In place of ``views.explore`` and ``views.live``: pictures of a slider's values, and films."""
+
+import base64
+import io
+from math import ceil
+
+import numpy as np
+from PIL import Image
+
+from slamlab import films
+from slamlab.views import sliders
+from slamlab.views.figure_words import words
+from slamlab.views.live.drive_commands import velocities
+from slamlab.views.live.stepper import Stepper
+from slamlab.views.showing import png
+
+MOST_VALUES = 21  # of a slider
+MOST_OF_SEVERAL = 13  # of each, where there are several
+MOST_PLAYED = 49  # of one that is played like a film
+MOST_FRAMES = 300  # of a film
+MOST_STEPS = 1000
+
+
+class Renderer:
+    """Renderer of a lesson's cells.
+
+    Parameters
+    ----------
+    folder : Path, for pictures and films
+
+    ``cell`` is the id of the cell that runs, ``told`` what was rendered, by the cell's id: list of
+    ``{"controls": [...]}`` or ``{"film": file, "alt": text}``.
+    """
+
+    def __init__(self, folder):
+        self._folder, self.cell, self.told = folder, "", {}
+
+    def explore(self, draw, alt, play=None, **controls):
+        """Render every value of each control, the others as they first stand."""
+        widgets = {name: sliders._control(name, given) for name, given in controls.items()}
+        first = {name: widget.value for name, widget in widgets.items()}
+        told, known = [], {}
+        usual = MOST_VALUES if len(widgets) == 1 else MOST_OF_SEVERAL
+        for name, widget in widgets.items():
+            values, said = values_of(widget, MOST_PLAYED if name == play else usual)
+            shown = []
+            for value in values:
+                chosen = first | {name: value}
+                key = repr(chosen)
+                if key not in known:
+                    known[key] = self._picture(draw(**chosen), alt, chosen, len(known))
+                shown.append(known[key])
+            told.append(
+                {
+                    "name": widget.description or name,
+                    "kind": "range" if hasattr(widget, "max") else "choice",
+                    "first": values.index(first[name]),
+                    "words": said,
+                    "pictures": [file for file, _ in shown],
+                    "alts": [text for _, text in shown],
+                }
+            )
+        self._tell({"controls": told})
+
+    def live(
+        self, source, estimator, alt, *, script=(), beside=None, extra=None, note=None,
+        curves=None, truth=True, colours=None, title="", seed=0, tops=(0.4, 0.6),
+        size=(720, 480), steps=20, **_,
+    ):  # fmt: skip
+        """Film the run of each source that plays by itself, and the commands that follow."""
+        given = source if isinstance(source, dict) else {"": source}
+        for number, (name, each) in enumerate(given.items()):
+            stepper = Stepper(each, estimator, beside, extra, note, curves, truth, colours)
+            if number and not _plays(each, seed):
+                continue
+            stepper.reset(seed)
+            total = len(stepper.source) or steps
+            called = f"{title}: {name}" if name and len(given) > 1 else title or name
+            file = self._folder / f"{self._stem()}-{number}.film"
+            every = ceil((total + len(script)) / MOST_FRAMES)
+            with films.FilmRecorder(file, called or "SLAM", alt, size) as film:
+                film.add(stepper.scene())
+                while stepper.count < min(total, MOST_STEPS) and stepper.step(10.0):
+                    if stepper.count % every == 0 or stepper.count == total:
+                        film.add(stepper.scene())
+                for command in script:
+                    stepper.drive(velocities(command, tops))
+                    film.add(stepper.scene())
+            stepper.close()
+            self._tell({"film": shipped(file), "title": called, "alt": alt})
+
+    def _picture(self, fig, alt, chosen, number):
+        """A figure as a lossless WebP, and its alternative text."""
+        said = alt(**chosen) if callable(alt) else alt
+        wide = round(fig.get_figwidth() * fig.dpi)
+        file = self._folder / f"{self._stem()}-{number}.webp"
+        picture = Image.open(io.BytesIO(png(fig))).convert("RGB")
+        high = round(picture.height * wide / picture.width)
+        # drawn for screens of two pixels; of so many pictures one pixel has to do
+        small = picture.resize((wide, high), Image.Resampling.LANCZOS)
+        small = small.quantize(64, dither=Image.Dither.NONE).convert("RGB")
+        small.save(file, "WEBP", lossless=True, quality=100, method=4)
+        return file.name, f"{words(fig)} {said.strip()}"
+
+    def _stem(self):
+        return f"{self.cell}-{len(self.told.get(self.cell, []))}"
+
+    def _tell(self, what):
+        self.told.setdefault(self.cell, []).append(what)
+
+
+def shipped(file):
+    """Make a film a script, which a page may load from a file, too.
+
+    Parameters
+    ----------
+    file : Path, of the film, which goes
+
+    Returns
+    -------
+    str, name of the script beside
+    """
+    text = base64.b64encode(file.read_bytes()).decode()
+    script = file.with_suffix(".js")
+    script.write_text(f'slamlabFilm("{script.name}", "{text}");\n', encoding="utf-8")
+    file.unlink()
+    return script.name
+
+
+def values_of(widget, most):
+    """Values of a control, thinned evenly, its first one among them; and their words.
+
+    Parameters
+    ----------
+    widget : ValueWidget
+    most : int, how many values a slider may have
+
+    Returns
+    -------
+    (list, list of str)
+    """
+    if hasattr(widget, "options"):
+        pairs = [each if isinstance(each, tuple) else (str(each), each) for each in widget.options]
+        if hasattr(widget, "continuous_update"):
+            pairs = _thinned(pairs, most, lambda pair: pair[1] == widget.value)
+        return [value for _, value in pairs], [str(word) for word, _ in pairs]
+    if isinstance(widget.value, bool):
+        return [False, True], ["no", "yes"]
+    count = round((widget.max - widget.min) / widget.step) + 1 if widget.step else 1
+    values = [widget.min + n * widget.step for n in range(count)]
+    if isinstance(widget.value, float):
+        values = [float(np.round(value, 12)) for value in values]
+    nearest = min(values, key=lambda value: abs(value - widget.value))
+    values[values.index(nearest)] = widget.value
+    values = _thinned(values, most, lambda value: value == widget.value)
+    return values, [format(value, widget.readout_format) for value in values]
+
+
+def _thinned(values, most, is_first):
+    kept = {round(at) for at in np.linspace(0, len(values) - 1, min(most, len(values)))}
+    kept |= {n for n, value in enumerate(values) if is_first(value)}
+    return [values[n] for n in sorted(kept)]
+
+
+def _plays(make, seed):
+    """Whether a source plays by itself: one that waits for commands or devices does not."""
+    source = make(np.random.default_rng(seed)) if callable(make) else make
+    count = len(source)
+    if callable(make):
+        source.close()
+    return count > 1

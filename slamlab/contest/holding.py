@@ -1,0 +1,148 @@
+"""Holding a contest: from a folder of submissions to the board, the pages and what is revealed."""
+
+import csv
+import json
+import secrets
+from functools import partial
+
+import numpy as np
+
+from slamlab.contest import commitment, scoreboard
+from slamlab.contest.class_judging import Course, entrants, judge_class
+from slamlab.contest.commitment import ContestError
+from slamlab.contest.pseudonyms import pseudonyms
+from slamlab.grading.records import write_atomically
+from slamlab.grading.submissions import SubmissionError
+from slamlab.project.driving import Budget
+from slamlab.project.scores import arenas
+from slamlab.project.world_families import FAMILIES
+
+BOARD, DRIVES, PSEUDONYMS = "board", "drives", "pseudonyms.json"
+"""In the folder of results: what may be published; what was driven; whose a pseudonym is."""
+WORLDS = "worlds.csv"  # in the board's folder: the points of each world
+
+
+def draw_arenas(contest):
+    """Draw the worlds of a contest, and prepare each.
+
+    Parameters
+    ----------
+    contest : Contest
+
+    Yields
+    ------
+    Arena
+    """
+    families = [FAMILIES[name] for name in contest.families]
+    yield from arenas(contest.number, families, contest.worlds)
+
+
+def hold_contest(contest, found, out, prepared, workers, *, jobs=1, names=False, again=None,
+                 told=None):  # fmt: skip
+    """Judge a class, and write the board.
+
+    Parameters
+    ----------
+    contest : Contest
+    found : list of Submission
+    out : Path
+    prepared : list of Arena, of :func:`draw_arenas`
+    workers : WorkerPool, closed in the end
+    jobs : int, students judged at once
+    names : bool, whether names are shown instead of pseudonyms
+    again : Path or None, the board's folder of the same contest, judged before
+    told : callable that is given a submission's name after each of its worlds, or None
+
+    Returns
+    -------
+    list of str, what there is to tell
+
+    Raises
+    ------
+    SubmissionError : nobody takes part
+    ContestError
+    """
+    found = entrants(found)
+    if not found:
+        raise SubmissionError("there is no notebook to be judged")
+    revealed = out / BOARD / commitment.REVEALED
+    over = revealed.exists() and again is None
+    carried = late_points(again, contest) if again else {}
+    budget = partial(Budget, *[np.inf] * 4) if again else partial(Budget, **contest.budget)
+    course = Course(prepared, out / DRIVES, budget, over, carried)
+    entries = list(judge_class(found, course, workers, jobs, told))
+    shown = _names(out, [entry.student for entry in entries], names)
+    rows, marks = scoreboard.rank(entries, shown, prepared)
+    unjudged = sorted((shown[e.student], e.reason) for e in entries if e.reason is not None)
+    scoreboard.write_board(out / BOARD, rows, marks, prepared, contest, unjudged)
+    said = [f"{len(rows)} judged, {len(unjudged)} not: {out / BOARD / 'index.html'}"]
+    said += [f"{e.student}: {e.reason}" for e in entries if e.reason is not None]
+    if not names:
+        said.append(f"{out / PSEUDONYMS} says whose a pseudonym is: for you alone")
+    if any(entry.failed for entry in entries):
+        return [*said, "nothing is revealed yet: run it again for those"]
+    write_atomically(revealed, contest.text)
+    write_atomically(out / BOARD / commitment.COMMITMENT, commitment.commitment_text(contest))
+    return said + (_compared(entries, again, contest) if again else [])
+
+
+def contest_again(folder):
+    """The contest of a board, to be judged again.
+
+    Parameters
+    ----------
+    folder : Path, the board's, with what was told before and revealed after
+
+    Returns
+    -------
+    Contest
+
+    Raises
+    ------
+    ContestError
+    """
+    return commitment.read_contest(folder / commitment.REVEALED, folder / commitment.COMMITMENT)
+
+
+def late_points(folder, contest):
+    """Points of the worlds that a limit of time had ended: {(SHA-256, number of the world): …}."""
+    return {key: points for key, (points, late) in _told_points(folder, contest).items() if late}
+
+
+def _told_points(folder, contest):
+    """{(SHA-256, number of the world): (points, whether a limit of time ended it)}."""
+    place = {name: k * contest.worlds for k, name in enumerate(contest.families)}
+    try:
+        with open(folder / WORLDS, newline="", encoding="utf-8") as file:
+            return {
+                (row["sha256"], place[row["family"]] + int(row["world"]) - 1): (
+                    float(row["points"]), row["late"] == "1")
+                for row in csv.DictReader(file)
+            }  # fmt: skip
+    except (OSError, KeyError, ValueError) as error:
+        raise ContestError(f"{folder / WORLDS} cannot be read: {error}") from None
+
+
+def _compared(entries, again, contest):
+    """What was found to differ from the points told before."""
+    before = _told_points(again, contest)
+    differ, count = [], 0
+    for entry in entries:
+        for k, result in enumerate(entry.results):
+            if (entry.sha256, k) in before:
+                count += 1
+                differ.append(abs(result.points - before[entry.sha256, k][0]))
+    most = max(differ, default=0.0)
+    return [f"{count} worlds compared: points differ by {most:.3g} at most"]
+
+
+def _names(out, students, names):
+    """What each student is called on the board; pseudonyms are kept, so that they stay."""
+    if names:
+        return {student: student for student in students}
+    file, kept = out / PSEUDONYMS, {}
+    if file.exists():
+        kept = json.loads(file.read_text("utf-8"))
+    given = pseudonyms(sorted(students), kept, secrets.choice)
+    write_atomically(file, json.dumps(given, indent=1, sort_keys=True) + "\n")
+    return given

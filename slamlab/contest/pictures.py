@@ -1,0 +1,127 @@
+"""What a student's page shows of a world: a map with the tracks, and a film of the drive."""
+
+import numpy as np
+
+from slamlab.films import FilmRecorder, page
+from slamlab.geometry import between, compose, transform
+from slamlab.layers import Points, Poses, Segments
+from slamlab.project.drive_errors import aligned
+from slamlab.views.colours import COLOURS
+from slamlab.views.live.frame_packing import Scene
+
+WIDTH, MARGIN = 640, 0.6  # of a map [pixels, m]
+CELL = 0.1  # of the film's points one a cell is kept [m]
+
+
+def in_the_world(poses, truth):
+    """Poses as given online, moved so that the first one is the true one: (n, 3)."""
+    return compose(truth[0], between(poses[0], poses)) if len(poses) else poses
+
+
+def map_picture(arena, drive, moment=None):
+    """Draw a map of a world: its walls, the true track, odometry's and the estimate's.
+
+    Parameters
+    ----------
+    arena : Arena
+    drive : Drive
+    moment : Moment or None, which is marked on the true track
+
+    Returns
+    -------
+    str, SVG
+    """
+    truth = arena.world.truth.poses
+    walls = arena.world.floor.outline()
+    corners = walls.reshape(-1, 2)
+    low, high = corners.min(axis=0) - MARGIN, corners.max(axis=0) + MARGIN
+    scale = WIDTH / (high[0] - low[0])
+    height = scale * (high[1] - low[1])
+
+    def points(xy):
+        x, y = ((xy - low) * scale).T
+        return " ".join(f"{a:.1f},{height - b:.1f}" for a, b in zip(x, y, strict=True))
+
+    def track(poses, name):
+        poses = poses[np.isfinite(poses).all(axis=1)]
+        line = f'<polyline points="{points(poses[:, :2])}" stroke="{COLOURS[name]}"'
+        return f'{line} fill="none" stroke-width="2"/>'
+
+    segments = "".join(
+        f'<polyline points="{points(wall.reshape(2, 2))}" stroke="{COLOURS["walls"]}"/>'
+        for wall in walls
+    )
+    marked = ""
+    if moment is not None:
+        x, y = points(truth[moment.reading - 1 : moment.reading, :2]).split(",")
+        colour = COLOURS["robot"]
+        marked = (
+            f'<circle cx="{x}" cy="{y}" r="14" fill="none" stroke="{colour}" stroke-width="4"/>'
+        )
+    odometry = in_the_world(arena.drives["odometry"].online, truth)
+    return (
+        f'<svg viewBox="0 0 {WIDTH} {height:.0f}" role="img" xmlns="http://www.w3.org/2000/svg">'
+        f"<title>Map of the world with three tracks: true, odometry, estimate</title>{segments}"
+        f"{track(odometry, 'naive')}{track(truth, 'truth')}"
+        f"{track(in_the_world(drive.online, truth), 'corrected')}{marked}</svg>"
+    )
+
+
+def film_page(arena, drive, title, file):
+    """Record a film of a drive beside truth and odometry, and make its page.
+
+    A frame a reading: scans are drawn where the robot was believed to be; the last frame shows the
+    trajectory and the map as they were given at the end.
+
+    Parameters
+    ----------
+    arena : Arena
+    drive : Drive
+    title : str
+    file : Path, of the film, beside which nothing is left
+
+    Returns
+    -------
+    str, HTML
+    """
+    alt = (
+        "A map of the world from above, reading by reading: walls, the true track, odometry's, "
+        "the estimate's, and the scans where the estimate put them."
+    )
+    with FilmRecorder(file, title, alt) as film:
+        for scene in _scenes(arena, drive):
+            film.add(scene)
+    try:
+        return page(file)
+    finally:
+        file.unlink()
+
+
+def _scenes(arena, drive):
+    truth = arena.world.truth.poses
+    walls = Segments("walls", arena.world.floor.outline())
+    odometry = in_the_world(arena.drives["odometry"].online, truth)
+    online = in_the_world(drive.online, truth)
+    known = np.isfinite(online).all(axis=1)
+    cloud, cells = np.empty((0, 2)), set()
+    for i, reading in enumerate(arena.readings):
+        if known[i] and reading.scan is not None:
+            fresh = []
+            for point in transform(online[i], reading.scan.points()):
+                cell = tuple(np.floor(point / CELL).astype(int))
+                if cell not in cells:
+                    cells.add(cell)
+                    fresh.append(point)
+            cloud = np.concatenate([cloud, np.reshape(fresh, (-1, 2))])
+        own = online[: i + 1][known[: i + 1]]
+        status = f"reading {i + 1} of {len(truth)}, {arena.world.metres[i]:.1f} m of way"
+        yield _scene(walls, truth[: i + 1], odometry[: i + 1], own, cloud, status)
+    motion = aligned(drive.trajectory, truth)
+    final = drive.trajectory[np.isfinite(drive.trajectory).all(axis=1)]
+    laid, points = compose(motion, final) if len(final) else final, transform(motion, drive.points)
+    yield _scene(walls, truth, odometry, laid, points, "the trajectory and the map at the end")
+
+
+def _scene(walls, truth, odometry, own, points, status):
+    tracks = [Poses("truth", truth), Poses("naive", odometry), Poses("corrected", own)]
+    return Scene([walls, Points("map", points), *tracks], status)

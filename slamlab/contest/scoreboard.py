@@ -1,0 +1,186 @@
+"""The board of a contest, as static pages and tables: ranks, and a page for each student.
+
+Everything below its folder may be put on a site: nothing in it says whose a pseudonym is.
+"""
+
+import re
+from dataclasses import dataclass
+from hashlib import sha256
+from pathlib import Path
+
+import jinja2
+import numpy as np
+
+from slamlab.contest.class_judging import Entry
+from slamlab.contest.moments import BAND, WAY, first_moment
+from slamlab.contest.pictures import film_page, map_picture
+from slamlab.contest.ranking import LEVEL, Standing, standings
+from slamlab.grading.grade_tables import write_table
+from slamlab.grading.records import private_folder, write_atomically
+from slamlab.grading.tree_removal import remove_tree
+from slamlab.project.drive_errors import LENGTHS
+from slamlab.views.colours import COLOURS
+
+TEMPLATES = jinja2.Environment(
+    loader=jinja2.FileSystemLoader(Path(__file__).parent),
+    autoescape=True,
+    undefined=jinja2.StrictUndefined,
+    trim_blocks=True,
+    lstrip_blocks=True,
+)
+BOOTSTRAP_SEED = 0  # so that the same points give the same ranks
+
+
+@dataclass(frozen=True)
+class Row:
+    """A row of the board.
+
+    Parameters
+    ----------
+    name : str, as it is shown: a pseudonym, or the student's own
+    entry : Entry
+    standing : Standing
+    """
+
+    name: str
+    entry: Entry
+    standing: Standing
+
+    @property
+    def page(self):
+        """The file of the student's page."""
+        return f"students/{self.slug}.html"
+
+    @property
+    def slug(self):
+        """A file's name, no two alike."""
+        words = re.findall(r"[a-z0-9]+", self.name.lower())
+        if self.name.lower() == " ".join(words):
+            return "-".join(words)
+        return "-".join([*words, sha256(self.name.encode()).hexdigest()[:8]])
+
+
+def rank(entries, names, arenas):
+    """Rank those who could be judged.
+
+    Parameters
+    ----------
+    entries : list of Entry
+    names : dict, student to the name shown
+    arenas : list of Arena
+
+    Returns
+    -------
+    list of Row, the best first; dict, baseline's name to its Standing
+    """
+    judged = [entry for entry in entries if entry.reason is None]
+    families = len({arena.world.family.name for arena in arenas})
+    baselines = {
+        name: [arena.judge(arena.drives[name]).points for arena in arenas]
+        for name in arenas[0].drives
+    }
+    points = [[result.points for result in entry.results] for entry in judged]
+    table = np.reshape([*points, *baselines.values()], (-1, families, len(arenas) // families))
+    found = standings(table[: len(points)], np.random.default_rng(BOOTSTRAP_SEED))
+    marks = standings(table[len(points) :], np.random.default_rng(BOOTSTRAP_SEED))
+    rows = [Row(names[e.student], e, s) for e, s in zip(judged, found, strict=True)]
+    rows.sort(key=lambda row: (row.standing.rank, -row.standing.score, row.name))
+    return rows, dict(zip(baselines, marks, strict=True))
+
+
+def write_board(out, rows, marks, arenas, contest, unjudged):
+    """Write ``index.html``, ``board.csv``, ``worlds.csv`` and the students' pages.
+
+    Parameters
+    ----------
+    out : Path
+    rows : list of Row, the best first
+    marks : dict, baseline to Standing
+    arenas : list of Arena
+    contest : Contest
+    unjudged : list of (name, reason)
+    """
+    families = list(dict.fromkeys(arena.world.family.name for arena in arenas))
+    known = {"rows": rows, "marks": marks, "families": families, "contest": contest,
+             "unjudged": unjudged, "level": LEVEL, "colours": COLOURS}  # fmt: skip
+    write_atomically(out / "index.html", TEMPLATES.get_template("scoreboard.html").render(known))
+    write_table(out / "board.csv", _board_table(rows, families))
+    write_table(out / "worlds.csv", _worlds_table(rows, contest.worlds))
+    remove_tree(out / "students")  # whose names may have been other ones
+    for row in rows:
+        write_student_page(out, row, arenas, families)
+
+
+def write_student_page(out, row, arenas, families):
+    """Write a student's page, and the film of the world that cost most.
+
+    Of each family the world counts whose points are the median; of these worlds the one with the
+    fewest points is shown.
+
+    Parameters
+    ----------
+    out : Path
+    row : Row
+    arenas : list of Arena
+    families : list of str
+    """
+    results = row.entry.results
+    moments = [
+        first_moment(driven.online, arena.world.truth.poses, arena.world.metres)
+        for driven, arena in zip(row.entry.drives, arenas, strict=True)
+    ]
+    points = np.reshape([result.points for result in results], (len(families), -1))
+    worlds = points.shape[1]
+    counted = np.argsort(points, axis=1, kind="stable")[:, worlds // 2]
+    family = int(np.argmin(points[np.arange(len(families)), counted]))
+    shown = family * worlds + int(counted[family])
+    title = f"{families[family]}, world {shown % worlds + 1}"
+    private_folder(out / "students")
+    film = out / "students" / f"{row.slug}-film.html"
+    replay = film_page(
+        arenas[shown], row.entry.drives[shown], f"{row.name}: {title}", film.with_suffix(".film")
+    )
+    write_atomically(film, replay)
+    page = TEMPLATES.get_template("student.html").render(
+        row=row,
+        worlds=[
+            (result.family, k % worlds + 1, result, moments[k], k // worlds, k % worlds)
+            for k, result in enumerate(results)
+        ],
+        counted=counted,
+        families=families,
+        title=title,
+        picture=map_picture(arenas[shown], row.entry.drives[shown], moments[shown]),
+        moment=moments[shown],
+        film=film.name,
+        lengths=LENGTHS,
+        way=WAY,
+        band=BAND,
+        level=LEVEL,
+        colours=COLOURS,
+    )
+    write_atomically(out / row.page, page)
+
+
+def _board_table(rows, families):
+    yield ["rank", "name", "score", "low", "high", *families]
+    for row in rows:
+        found = row.standing
+        numbers = (found.score, found.low, found.high, *found.families)
+        yield [str(found.rank), row.name, *(f"{value:.2f}" for value in numbers)]
+
+
+def _worlds_table(rows, worlds):
+    errors = [f"error over {length:g} m" for length in LENGTHS]
+    more = ["map", "completeness", "nees", "cpu", "late", "mistakes"]
+    yield ["name", "sha256", "family", "world", "points", *errors, *more]
+    for row in rows:
+        pairs = zip(row.entry.drives, row.entry.results, strict=True)
+        for k, (driven, result) in enumerate(pairs):
+            found = result.measures
+            numbers = (*found.errors, found.map, found.completeness, found.nees, driven.seconds)
+            yield [
+                row.name, row.entry.sha256, result.family, str(k % worlds + 1),
+                repr(float(result.points)), *(f"{value:.4g}" for value in numbers),
+                str(int(driven.late)), " | ".join(driven.mistakes),
+            ]  # fmt: skip

@@ -1,0 +1,42 @@
+"""Gradebooks written before there was a ledger: their rows become its first ones, once."""
+
+import sqlalchemy as sa
+
+from slamlab.grading.ledger import chains
+
+_OLDER = sa.MetaData()
+_ATTEMPTS = sa.Table(
+    "attempts", _OLDER, *(sa.Column(name) for name in ("id", "key", "submission", "at")),
+    sa.Column("record", sa.JSON),
+)  # fmt: skip
+_OVERRIDES = sa.Table(
+    "adjustments", _OLDER,
+    *(sa.Column(n) for n in ("id", "submission", "exercise", "task", "points", "reason", "at")),
+)  # fmt: skip
+
+
+def is_older(connection):
+    """Whether a database has tables from before the ledger."""
+    return {_ATTEMPTS.name, _OVERRIDES.name} <= set(sa.inspect(connection).get_table_names())
+
+
+def adopt(connection, who):
+    """Take over the rows of older tables, and drop these, within a transaction that writes.
+
+    Parameters
+    ----------
+    connection : sqlalchemy.Connection
+    who : str
+    """
+    if not is_older(connection):  # another process was first
+        return
+    entries = []
+    for row in connection.execute(sa.select(_ATTEMPTS).order_by(_ATTEMPTS.c.id)).mappings():
+        body = {"key": row["key"], "submission": row["submission"], "record": row["record"]}
+        entries.append(chains.Entry("attempt", body, row["submission"], row["at"]))
+    for row in connection.execute(sa.select(_OVERRIDES).order_by(_OVERRIDES.c.id)).mappings():
+        body = {name: row[name] for name in ("submission", "exercise", "task", "points", "reason")}
+        entries.append(chains.Entry("override", body, row["submission"], row["at"]))
+    chains.append(connection, entries, who)
+    for table in (_ATTEMPTS, _OVERRIDES):
+        connection.execute(sa.schema.DropTable(table))

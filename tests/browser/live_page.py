@@ -1,0 +1,94 @@
+"""A live run in a page of a real browser, as ``slamlab live`` opens it, driven by typed lines."""
+
+import re
+
+import numpy as np
+
+from tests.devices.test_emulator_ports import command
+from tests.patience import PATIENCE
+
+
+def started(*words):
+    """Start ``slamlab live``.
+
+    Returns
+    -------
+    (Popen, str), the process and the address that it prints
+    """
+    process = command("live", *words, "--no-open")
+    first = process.stdout.readline()
+    assert first.startswith("open "), first + process.communicate(timeout=PATIENCE)[0]
+    return process, first.split()[1]
+
+
+class LivePage:
+    """A page of a live run.
+
+    Parameters
+    ----------
+    browser : Browser of Playwright
+    address : str, with the token
+    """
+
+    def __init__(self, browser, address):
+        self.browser, self.address, self.moves, self.pages = browser, address, 0, []
+        self.errors, self.abroad = [], []
+        self.page = self.look()
+        self.status = self.page.locator(".slamlab-status")
+
+    def look(self, address=None):
+        """Another page that looks."""
+        context = self.browser.new_context(viewport={"width": 1000, "height": 900})
+        page = context.new_page()
+        page.set_default_timeout(1000 * PATIENCE)
+        page.on("console", lambda said: said.type == "error" and self.errors.append(said.text))
+        page.on("pageerror", lambda error: self.errors.append(str(error)))
+        host = self.address.split("#")[0]
+        page.on(
+            "request", lambda asked: asked.url.startswith(host) or self.abroad.append(asked.url)
+        )
+        page.goto(address or self.address)
+        self.pages.append(context)
+        if address is None:
+            page.locator(".slamlab-live[data-frame]").wait_for()
+        return page
+
+    def type(self, text):
+        """Type a line."""
+        self.page.get_by_label("distance, angle").fill(text)
+        self.page.get_by_label("distance, angle").press("Enter")
+
+    def move(self, text):
+        """Type a move and wait until it is made."""
+        self.type(text)
+        self.moves += 1
+        self.page.wait_for_function(
+            "(moves) => Number(document.getElementById('driver').dataset.ended ?? 0) >= moves",
+            arg=self.moves,
+        )
+
+    def pose(self):
+        """The pose that the page tells, (3,) [m, m, rad]."""
+        told = re.search(r"pose (\S+) m, (\S+) m, (\S+)°", self.status.text_content())
+        x, y, degrees = map(float, told.groups())
+        return np.array([x, y, np.radians(degrees)])
+
+    def go_to(self, x, y):
+        """Turn to a place and drive there, by the pose that the page tells.
+
+        On a machine too busy to renew the lease in time, the robot stands on its way: so again.
+        """
+        while np.hypot(*self.pose()[:2] - (x, y)) > 0.05:
+            from_x, from_y, heading = self.pose()
+            turn = np.angle(np.exp(1j * (np.arctan2(y - from_y, x - from_x) - heading)))
+            self.move(f"{np.hypot(x - from_x, y - from_y):.3f}, {np.degrees(turn):.2f}")
+
+    def exit(self):
+        """Type exit and wait for the program's end."""
+        self.type("exit")
+        self.page.get_by_text("The program has ended.").wait_for()
+
+    def close(self):
+        """Close the pages."""
+        for context in self.pages:
+            context.close()

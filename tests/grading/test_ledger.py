@@ -1,0 +1,219 @@
+"""The ledger: rows are chained; what is altered is named, what is forgotten is gone."""
+
+import json
+from dataclasses import replace
+
+import pytest
+import sqlalchemy as sa
+
+from slamlab.grading import gradebook_rows
+from slamlab.grading.gradebook import Gradebook, GradebookError
+from slamlab.grading.ledger import chain_merging, chain_proof, chains, contents
+from tests.grading.test_gradebook import book, forget, postgres, record, server  # noqa: F401
+
+
+def url(folder, name="grades"):
+    return f"sqlite:///{folder / name}.db"
+
+
+def filled(opened, names="abc"):
+    """A gradebook with an attempt of each, and points by hand for the first."""
+    for name in names:
+        opened.add(record(f"{name}.ipynb", student=name))
+    opened.override_points(f"{names[0]}.ipynb", "99", "99-double", 2, "half right")
+    return opened
+
+
+def statement(opened, text, **values):
+    """Do something to the database that the gradebook never does."""
+    with opened._database._engine.begin() as connection:
+        connection.execute(sa.text(text), values)
+
+
+def test_every_mark_and_change_is_a_row_that_stays(book):  # noqa: F811
+    filled(book)
+    before = book.rows()
+    again = replace(record("a.ipynb", student="a"), seconds={"wall": 1.0})
+    book.add(again)
+    book.override_points("a.ipynb", "99", "99-double", 3, "more")
+    assert book.rows()[: len(before)] == before
+    assert [row["kind"] for row in book.rows()] == [
+        "begin", "attempt", "attempt", "attempt", "override", "attempt", "override",
+    ]  # fmt: skip
+    assert [row["number"] for row in book.rows()] == list(range(7))
+    assert chain_proof.altered(book.rows()) == []
+
+
+def test_who_acts_stands_in_the_row(tmp_path):
+    with Gradebook(url(tmp_path), "Prof. X") as opened:
+        assert {row["who"] for row in filled(opened).rows()} == {"Prof. X"}
+    with Gradebook(url(tmp_path)) as opened:
+        opened.add(record("d.ipynb"))
+        assert opened.rows()[-1]["who"] not in ("", "Prof. X")
+
+
+ALTERED = {
+    "the body": "UPDATE ledger SET body = replace(body, 'half right', 'all right') "
+    "WHERE kind = 'override'",
+    "points": "UPDATE ledger SET body = replace(body, '2.0', '3.0') WHERE kind = 'override'",
+    "who": "UPDATE ledger SET who = 'somebody' WHERE number = 2",
+    "when": "UPDATE ledger SET at = '2026-01-01' WHERE number = 2",
+    "the order": "UPDATE ledger SET turn = 99 WHERE number = 2",
+    "a digest": "UPDATE ledger SET digest = hash WHERE number = 2",
+    "emptied": "UPDATE ledger SET body = NULL, salt = NULL WHERE number = 2",
+    "deleted": "DELETE FROM ledger WHERE number = 2",
+}
+
+
+@pytest.mark.parametrize("how", ALTERED)
+def test_the_first_row_that_was_altered_is_named(book, how):  # noqa: F811
+    filled(book)
+    statement(book, ALTERED[how])
+    (said,) = chain_proof.altered(book.rows())
+    number = 4 if how in ("the body", "points") else 2
+    assert said.startswith(f"row {number} of ledger ")
+
+
+def test_a_row_that_was_altered_with_its_hash_is_found_by_the_next_one(tmp_path):
+    with filled(Gradebook(url(tmp_path))) as opened:
+        row = opened.rows()[2] | {"who": "somebody"}
+        statement(
+            opened, "UPDATE ledger SET who = :w, hash = :h WHERE number = 2",
+            w="somebody", h=chains.row_hash(row),
+        )  # fmt: skip
+        (said,) = chain_proof.altered(opened.rows())
+        assert said.startswith("row 3 of ledger") and "the one before it" in said
+
+
+def test_rows_that_are_cut_off_are_found_by_a_head_that_was_told(tmp_path):
+    with filled(Gradebook(url(tmp_path))) as opened:
+        head = opened.rows()[-1]["hash"]
+        assert chain_proof.altered(opened.rows(), [head]) == []
+        statement(opened, "DELETE FROM ledger WHERE number = 4")
+        assert chain_proof.altered(opened.rows()) == []
+        assert "cut off" in chain_proof.altered(opened.rows(), [head])[0]
+
+
+def test_a_merge_records_both_heads_and_leaves_the_other_chain_as_it_is(tmp_path):
+    with filled(Gradebook(url(tmp_path, "a"))) as one, Gradebook(url(tmp_path, "b")) as other:
+        filled(other, "de")
+        heads = [opened.rows()[-1]["hash"] for opened in (one, other)]
+        assert one.merge(other) == 2
+        assert one.merge(other) == 0
+        last = one.rows()[-1]
+        body = json.loads(last["body"])
+        assert last["kind"] == "merge"
+        assert [body["ours"][2], *(hash for _, hash in body["theirs"].values())] == heads
+        assert chain_proof.altered(one.rows()) == []
+        assert len(chain_merging.heads(one.rows())) == 2
+        assert len(one.attempts()) == 5
+        statement(one, "DELETE FROM ledger WHERE kind = 'override' AND chain = :c",
+                  c=other.rows()[0]["chain"])  # fmt: skip
+        assert "brought in row" in chain_proof.altered(one.rows())[0]
+
+
+def test_two_copies_that_went_on_apart_are_not_merged_in_silence(tmp_path):
+    with filled(Gradebook(url(tmp_path, "a"))):
+        pass
+    (tmp_path / "b.db").write_bytes((tmp_path / "a.db").read_bytes())
+    with Gradebook(url(tmp_path, "a")) as one, Gradebook(url(tmp_path, "b")) as other:
+        assert one.merge(other) == 0
+        one.add(record("x.ipynb"))
+        other.add(record("y.ipynb"))
+        with pytest.raises(GradebookError, match="is another one in the other gradebook"):
+            one.merge(other)
+        assert chain_proof.altered(one.rows()) == []
+
+
+def test_what_is_forgotten_is_nowhere_in_the_file_and_the_chain_holds(tmp_path):
+    name, cells = "Ana Kosovac", contents.packed(b"her very own code" * 9)
+    sha256 = contents.name_of(cells)
+    kept = {"kept": {"cells": sha256}, "contents": {sha256: cells}}
+    with Gradebook(url(tmp_path)) as opened:
+        filled(opened)
+        opened.sight([(f"{name}.ipynb", "x")])
+        opened.add(record(f"{name}.ipynb", student=name, **kept))
+        opened.override_points(f"{name}.ipynb", "99", "99-double", 2, f"{name} told me so")
+        hashes = [row["hash"] for row in opened.rows()]
+        assert [gone.submission for gone in opened.forget(name)] == [f"{name}.ipynb"]
+        assert opened.forget(name) == []
+        assert [row["hash"] for row in opened.rows()][: len(hashes)] == hashes
+        assert chain_proof.altered(opened.rows()) == []
+        assert {r.student for r in opened.attempts().values()} == {"a", "b", "c"}
+        assert opened.contents(kept["kept"].values()) == {}
+    data = (tmp_path / "grades.db").read_bytes()
+    assert name.encode() not in data
+    assert cells[:16] not in data
+    assert record().sha256.encode() in data  # of the file, which tells nobody's name
+
+
+def test_what_is_forgotten_in_one_gradebook_does_not_come_back_by_merging(tmp_path):
+    with filled(Gradebook(url(tmp_path, "a"))) as one, Gradebook(url(tmp_path, "b")) as other:
+        other.merge(one)
+        other.forget("a")
+        other.merge(one)
+        assert {r.student for r in other.attempts().values()} == {"b", "c"}
+        one.merge(other)
+        assert {r.student for r in one.attempts().values()} == {"b", "c"}
+        assert one.overrides() == {}
+        assert chain_proof.altered(one.rows()) == chain_proof.altered(other.rows()) == []
+
+
+def test_contents_are_kept_once_and_stay_while_anybody_has_them(book):  # noqa: F811
+    data = contents.packed(b"x" * 100)
+    name = contents.name_of(data)
+    kept = {"kept": {"cells": name}, "contents": {name: data}}
+    for student in "ab":
+        book.add(record(f"{student}.ipynb", student=student, **kept))
+    assert book.contents([name, "0" * 64]) == {name: data}
+    book.forget("a")
+    assert book.contents([name]) == {name: data}
+    book.forget("b")
+    assert book.contents([name]) == {}
+
+
+def test_what_is_too_much_is_not_kept_and_what_is_damaged_is_told(tmp_path):
+    noise = b"".join(bytes([i * i * 7 % 251, i % 256]) for i in range(10**5))
+    assert len(contents.packed(noise) or b"") <= contents.MOST
+    assert contents.unpacked(contents.packed(b"abc")) == b"abc"
+    for data in (b"", b"x", contents.packed(b"abc" * 99)[:-3]):
+        with pytest.raises(contents.ContentError):
+            contents.unpacked(data)
+
+
+OLDER = """
+CREATE TABLE attempts (id INTEGER PRIMARY KEY, key VARCHAR(64), submission TEXT, student TEXT,
+    exercise VARCHAR(8), sha256 VARCHAR(64), score FLOAT, max_score FLOAT, isolation VARCHAR(8),
+    at VARCHAR(32), record JSON);
+CREATE TABLE adjustments (id INTEGER PRIMARY KEY, submission TEXT, exercise VARCHAR(8), task TEXT,
+    points FLOAT, reason TEXT, at VARCHAR(32));
+INSERT INTO adjustments VALUES (1, 'a.ipynb', '99', '99-double', 1, 'x', '2026-01-01'),
+    (2, 'a.ipynb', '99', '99-double', 2, 'y', '2026-01-01');
+"""
+
+
+def test_a_gradebook_from_before_the_ledger_is_taken_over_once(tmp_path):
+    older = [record("a.ipynb"), record("b.ipynb"), record("a.ipynb", sha="c" * 64)]
+    engine = sa.create_engine(url(tmp_path))
+    with engine.begin() as connection:
+        for text in OLDER.split(";")[:-1]:
+            connection.execute(sa.text(text))
+        for made in older:
+            body = gradebook_rows.stored(made)
+            values = {"k": body["key"], "s": made.submission, "r": json.dumps(body["record"])}
+            text = "INSERT INTO attempts (key, submission, at, record) VALUES (:k, :s, '2026', :r)"
+            connection.execute(sa.text(text), values)
+    engine.dispose()
+    for _ in range(2):
+        with Gradebook(url(tmp_path)) as opened:
+            assert list(opened.attempts().values()) == older
+            assert opened.overrides() == {("a.ipynb", "99-double"): (2.0, "y")}
+            assert chain_proof.altered(opened.rows()) == []
+            tables = sa.inspect(opened._database._engine).get_table_names()
+    assert set(tables) == {"ledger", "contents", "sightings"}
+
+
+def test_the_order_of_attempts_is_that_in_which_they_were_first_seen(book):  # noqa: F811
+    first = book.sight([("a", "1"), ("b", "1")])
+    assert book.sight([("a", "2"), ("b", "1"), ("c", "1")]) == {"a": 3, "b": first["b"], "c": 4}
+    assert book.sight([("a", "1")]) == {"a": first["a"]}

@@ -1,0 +1,50 @@
+"""Lesson 04: slopes are Jacobians, a tangent foretells small errors only, a wrong sign ruins."""
+
+import numpy as np
+import pytest
+
+from slamlab import models
+from slamlab.models import jacobians, noise
+from slamlab.models.differences import slopes
+from slamlab.studies import small_errors
+
+X, U, Z = np.array([1.2, -0.7, 0.9]), np.array([1.3, 0.4]), np.array([3.1, 1.1])
+EXACT = np.zeros((2, 2))
+
+
+def test_slopes_are_the_jacobian_column_by_column():
+    found = slopes(lambda x: models.f_odometry(x, U), X)
+    assert np.allclose(found, jacobians.A_odometry(X, U), atol=1e-9)
+    assert slopes(lambda z: models.g(X, z), Z).shape == (2, 2)
+
+
+def test_slopes_leave_their_argument_and_take_whole_numbers():
+    at = np.array([1, 2])
+    assert np.allclose(slopes(lambda v: v**2, at), np.diag([2, 4]))
+    assert at.dtype.kind == "i" and at.tolist() == [1, 2]
+
+
+@pytest.mark.parametrize(("sigma", "at_most"), [(0.02, 0.001), (0.6, 0.7)])
+def test_a_tangent_foretells_where_robots_end_if_the_heading_is_sure(sigma, at_most):
+    P = np.diag([0.05, 0.05, sigma]) ** 2
+    ends = small_errors.driven(X, P, [3.0, 0.3], EXACT, np.random.default_rng(4), 20_000)
+    behind = np.linalg.norm(models.f_odometry(X, [3.0, 0.3])[:2] - ends[:, :2].mean(axis=0))
+    assert abs(behind - 3 * (1 - np.exp(-(sigma**2) / 2))) < 0.02  # the mean of a cosine
+    assert behind < at_most + 0.01
+
+
+def test_a_new_landmark_is_as_unsure_as_its_samples():
+    P, R = np.diag([0.1, 0.1, 0.03]) ** 2, noise.R(Z[0], 0.02, 0.02)
+    J_r, J_z = jacobians.J_xr(X, Z), jacobians.J_z(X, Z)
+    marks = small_errors.placed(X, P, Z, R, np.random.default_rng(4), 20_000)
+    claimed = small_errors.new_landmark(P, J_r, J_z, R)
+    assert np.allclose(np.cov(marks.T), claimed, atol=0.05 * np.trace(claimed))
+    assert small_errors.landmark_nees(X, Z, R, P, J_r, J_z) == pytest.approx(2, abs=0.3)
+    assert small_errors.landmark_nees(X, Z, R, P, 0 * J_r, J_z) > 4
+
+
+def test_a_wrong_sign_keeps_the_error_and_not_the_doubt():
+    (right, sure), (wrong, believed) = (small_errors.localised(k, 3) for k in (1, -1))
+    assert right[-1] < min(1.5 * sure[-1], 0.3 * right[0])
+    assert wrong[-1] > 4 * believed[-1]
+    assert believed[-1] == pytest.approx(sure[-1], rel=0.2)
