@@ -271,7 +271,7 @@ def after_a_drive(heading_within, distance_within):
     d, theta = 1 + distance_within * tried[0], heading_within * tried[1]
     x, y = np.outer(distance, np.cos(heading)), np.outer(distance, np.sin(heading))
     by_corners = [x.min(), x.max(), y.min(), y.max()]
-    fig, ax = views.boxes.scene(None, (-1.5, 1.5, -1.5, 1.5), size=(8, 5))
+    fig, ax = views.boxes.scene(None, (-2.2, 2.2, -1.5, 1.5), size=(8, 5))
     views.draw(ax, Points("scan", np.transpose(d * [np.cos(theta), np.sin(theta)])), label="drives")
     views.draw(ax, Boxes("corrected", [box]), linewidth=2, label="intervals")
     views.draw(ax, Boxes("naive", [by_corners]), linewidth=2, label="corners only")
@@ -421,7 +421,7 @@ forgot = np.mean(r * np.cos(phi) < 1.6)
 
 
 # %% slideshow={"slide_type": "subslide"}
-OBJECT, SEEN, WITHIN, GUESS = (2.6, 0.55), (2.66, 0.31), (0.15, 0.06), (0.8, 4.2, -1.6, 3.0)
+OBJECT, SEEN, WITHIN, GUESS = (2.6, 0.55), (2.66, 0.31), (0.15, 0.06), (0.8, 4.2, -1.6, 3.8)
 
 
 def cut_step_by_step(edges_used, robot_within, heading_within):
@@ -431,7 +431,7 @@ def cut_step_by_step(edges_used, robot_within, heading_within):
     for line in lines:
         box = clip(box, line)
     area = width(box[:2]) * width(box[2:])
-    fig, ax = views.boxes.scene(f"{area:.1f} m² are left", (-3, 5, -2, 3.4), size=(8, 5))
+    fig, ax = views.boxes.scene(f"{area:.1f} m² are left", (-3.4, 5.4, -1.8, 4), size=(8, 5.4))
     views.draw(ax, Boxes("robot", [robot]))
     views.draw(ax, Boxes("before", [GUESS]), linewidth=2, label="object before")
     views.draw(ax, Boxes("corrected", [box]), linewidth=2.5, label="object now")
@@ -509,8 +509,7 @@ fig, ax = views.boxes.scene(None, (-1, 4, -1.2, 1.6), size=(8, 4.6))
 views.boxes.directions(ax, (0, 0), bearings, 3.0, "possible bearings, from the middle")
 views.draw(ax, Boxes("robot", [robot]), linewidth=2)
 views.draw(ax, Boxes("landmark", [target]), linewidth=2, label="object")
-corners = [[0.4, 2.55, -0.25, 0.6], [-0.4, 2.65, 0.25, 0.5], [0.4, 2.55, 0.25, 0.5]]
-for x0, x1, y0, y1 in corners[:1] + corners[2:]:
+for x0, x1, y0, y1 in ([0.4, 2.55, -0.25, 0.6], [-0.4, 2.65, 0.25, 0.5]):
     ax.plot([x0, x1], [y0, y1], color=views.COLOURS["guide"], zorder=0)
 views.legend(ax, loc="upper left")
 views.show(
@@ -995,10 +994,10 @@ def cost(N):
 
 # %% slideshow={"slide_type": "fragment"}
 print("     N   known   find out   memory of BOR   of MAK (06)")
-for N in (100, 1000, 10_000):
+for N in (100, 10_000, 100_000):
     known, find = cost(N)
     memory = 32 * N / 1e3, 8 * (3 + 2 * N) ** 2 / 1e6
-    print(f"{N:6}  {known:4.0f} µs   {find:5.0f} µs   {memory[0]:10.1f} kB   {memory[1]:7.1f} MB")
+    print(f"{N:6}  {known:4.0f} µs   {find:6.0f} µs   {memory[0]:9.1f} kB  {memory[1]:8.1f} MB")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # If the object is known, the time is constant. To find it among $N$ costs a time that grows with $N$, though slowly at

@@ -74,8 +74,8 @@ def objects_made(seed, several_are_new):
     Parameters
     ----------
     seed : int
-    several_are_new : bool, whether a sighting that overlaps several objects adds another one, as the
-        MAK thesis has it in 5.2.10; else it is ignored
+    several_are_new : bool, whether a sighting that overlaps several objects adds another one, as
+        in MAK thesis 5.2.10; else it is ignored
 
     Returns
     -------
@@ -103,7 +103,8 @@ class Race:
     ----------
     errors : {"box", "ellipse", "wheels": (n,)} how far the position is off [m]
     half_side : (n,) mean half side of the robot's box [m]
-    box_share, ellipse_share : (n,) how much of its claim the position is off, above 1 outside of it
+    box_share, ellipse_share : (n,) how much of its claim the position is off, above 1 outside of it,
+        NaN at first, where the claim is nearly zero
     outside : (n,) bool, whether anything true is outside its box
     box, ellipse : BorSlam, MakSlam at the end
     """
@@ -149,8 +150,8 @@ def race(run, sigmas=3.0, robot=None, bias=0.0):
             [
                 *np.hypot(*np.transpose(off)),
                 half.mean(),
-                (np.abs(off[0]) / np.maximum(half, 1e-9)).max() if len(rows) else 0.0,
-                _share(off[1], ellipse.filter.block([0, 1])) if len(rows) > SETTLING else 0.0,
+                (np.abs(off[0]) / np.maximum(half, 1e-9)).max() if len(rows) else np.nan,
+                _share(off[1], ellipse.filter.block([0, 1])) if len(rows) > SETTLING else np.nan,
                 bool(outside(box.filter, pose, run.landmarks)),
             ]
         )
