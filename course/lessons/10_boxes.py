@@ -133,6 +133,7 @@ def bent_tape(too_long_by, scatter):
     return fig
 
 
+# %% slideshow={"slide_type": "fragment"} answers="10-bent"
 views.explore(
     bent_tape,
     lambda too_long_by, scatter: (
@@ -363,6 +364,7 @@ def one_sighting(range_within, d_abs):
     return fig
 
 
+# %% slideshow={"slide_type": "fragment"} answers="10-near"
 views.explore(
     one_sighting,
     lambda range_within, d_abs: (
@@ -417,26 +419,33 @@ forgot = np.mean(r * np.cos(phi) < 1.6)
 #
 # $$n_x\, x \;\le\; c - \min_{y} n_y\, y, \qquad n_y\, y \;\le\; c - \min_{x} n_x\, x. \tag{10.9}$$
 #
-# This question, *which point leaves most room*, is the key to all of the filter. Remember it for the exercise.
+# *Which point leaves most room?* This question is the key to the filter, and to its exercise.
 
 
 # %% slideshow={"slide_type": "subslide"}
 OBJECT, SEEN, WITHIN, GUESS = (2.6, 0.55), (2.66, 0.31), (0.15, 0.06), (0.8, 4.2, -1.6, 3.8)
 
 
-def cut_step_by_step(edges_used, robot_within, heading_within):
+def cut(edges_used, robot_within, heading_within):
+    """The robot's box, the edges, and what they leave of the object's box."""
     robot = (*around(0, robot_within), *around(0, 0.6 * robot_within))
     lines = edges(SEEN, WITHIN, SEEN[1], WITHIN[1] + heading_within, robot)[:edges_used]
     box = GUESS
     for line in lines:
         box = clip(box, line)
+    return robot, lines, box
+
+
+# %% slideshow={"slide_type": "subslide"}
+def cut_step_by_step(**how):
+    robot, lines, box = cut(**how)
     area = width(box[:2]) * width(box[2:])
     fig, ax = views.boxes.scene(f"{area:.1f} m² are left", (-3.4, 5.4, -1.8, 4), size=(8, 5.4))
     views.draw(ax, Boxes("robot", [robot]))
     views.draw(ax, Boxes("before", [GUESS]), linewidth=2, label="object before")
     views.draw(ax, Boxes("corrected", [box]), linewidth=2.5, label="object now")
     views.draw(ax, Points("truth", [OBJECT]), markersize=12, label="true object")
-    views.boxes.edges(ax, lines, NAMES[:edges_used])
+    views.boxes.edges(ax, lines, NAMES[: len(lines)])
     views.legend(ax, loc="upper left")
     return fig
 
@@ -540,8 +549,11 @@ for k in range(5):
 # Soon nothing shrinks any more. That does not mean that the boxes are now the smallest that could be guaranteed. Two things
 # are given away in each round: the edges are drawn for all headings of the interval at once, and after each edge a box is
 # put round what is left. The exercise asks what can be won back.
+
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# ### The filter
 #
-# This is the filter. A step of it **predicts** the robot's box by (10.3), **updates** by every object that is seen again, and
+# This is all of it. A step **predicts** the robot's box by (10.3), **updates** by every object that is seen again, and
 # **adds** every object that is new. A new object gets the box of all places where it can be. That is a prediction as well:
 # a sighting is a drive that is only looked along.
 
@@ -611,7 +623,8 @@ views.show(fig, f"None is cut off up to a right angle, and {lost[-1]:.0f} % are 
 # Up to a right angle nothing is lost. Beyond it the near edge changes sides, and the region between two rays is no longer
 # what two half-planes have in common. In the end nearly everything is cut off that is possible. (The slider of "A sighting
 # leaves a region" shows how.)
-#
+
+# %% [markdown] slideshow={"slide_type": "subslide"}
 # So the four edges are used **only where $d_{\mathrm{abs}} < \pi/2$**. Beyond, `BOR` uses what is true for any
 # bearing: the object is within $r + d_r$ of the robot. That is a square round the robot's box. It matters more than it seems to,
 # since by it a robot that has lost its heading can find it again at an object that it knows.
@@ -702,12 +715,8 @@ for name, row in (("before", before), ("corrected", bor.robot)):
     views.draw(
         ax, Boxes(name, [row]), label=f"robot's box {'after' if name != 'before' else name}", lw=2
     )
-things = {
-    "landmark": ("post", (2.0, 0.0)),
-    "naive": ("chair", chair),
-    "truth": ("robot", (0.4, 0.0)),
-}
-for meaning, (label, at) in things.items():
+things = ("landmark", "post", (2.0, 0.0)), ("naive", "chair", chair), ("truth", "robot", (0.4, 0.0))
+for meaning, label, at in things:
     views.draw(ax, Points(meaning, [at]), markersize=12, label=label)
 views.legend_below(fig)
 views.show(fig, "The robot's box shrinks to its left end, and the true robot stands outside of it.")
@@ -860,6 +869,7 @@ def biased(sigmas, bias):
     return race(STEADY, sigmas, BETTER.robot, bias * BETTER.omega_sigma)
 
 
+# %% slideshow={"slide_type": "subslide"}
 def shares_of_claims(bias_in_sigmas, bound_in_sigmas):
     each = biased(bound_in_sigmas, bias_in_sigmas)
     shares = {"box": each.box_share, "95 % ellipse": each.ellipse_share}

@@ -103,7 +103,7 @@ class Race:
     ----------
     errors : {"box", "ellipse", "wheels": (n,)} how far the position is off [m]
     half_side : (n,) mean half side of the robot's box [m]
-    box_share, ellipse_share : (n,) how much of its claim the position is off, above 1 outside of it,
+    box_share, ellipse_share : (n,) by how much of its claim the position is off, above 1 outside;
         NaN at first, where the claim is nearly zero
     outside : (n,) bool, whether anything true is outside its box
     box, ellipse : BorSlam, MakSlam at the end
