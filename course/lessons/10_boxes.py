@@ -141,7 +141,7 @@ views.explore(
         f"{100 * scatter:.1f} cm; at first the overlap is wide and holds the truth, the mean does not."
     ),
     too_long_by=(0.0, 0.15, 0.075),
-    scatter=(0.0, 0.1, 0.015),
+    scatter=(0.0, 0.2, 0.015),
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="10-bent"
@@ -229,8 +229,8 @@ ask(
 # slope tells:
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="10-ahead"
-alpha = sp.symbols("alpha", real=True)
-sp.solveset(sp.diff(sp.cos(alpha), alpha), alpha)
+angle = sp.symbols("theta", real=True)
+sp.solveset(sp.diff(sp.cos(angle), angle), angle)
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # So over an interval of angles the cosine has its largest value at an end, unless a multiple of $2\pi$ lies inside;
@@ -249,14 +249,16 @@ for span in [(-0.5, 0.5), (1, 2), (2, 4), (3, 7)]:
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Products: try all four
 #
-# The distance is uncertain as well, and negative when the robot backs. What is the range of $d \cdot c$ if
-# $d$ lies between −1 and 2, and $c$ between −3 and 1? For a fixed $c$ it is a straight line in $d$, and a straight
-# line has its extremes at the ends. The same holds for $c$. So here the ends do suffice, all four pairs of them:
+# The distance is uncertain as well, and negative when the robot backs. What is the range of $d \cdot \kappa$ if
+# $d$ lies between −1 and 2, and some $\kappa$ between −3 and 1? For a fixed $\kappa$ it is a straight line in $d$, and a
+# straight line has its extremes at the ends. The same holds the other way round. So here the ends do suffice, all four
+# pairs of them:
 #
-# $$[d_1, d_2] \cdot [c_1, c_2] = \left[\min_{i,j} d_i c_j,\;\; \max_{i,j} d_i c_j\right]. \tag{10.4}$$
+# $$[d_1, d_2] \cdot [\kappa_1, \kappa_2] = \left[\min_{i,j} d_i \kappa_j,\;\; \max_{i,j} d_i \kappa_j\right].
+# \tag{10.4}$$
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-print([d * c for d in (-1, 2) for c in (-3, 1)], "→", product((-1, 2), (-3, 1)))
+print([d * kappa for d in (-1, 2) for kappa in (-3, 1)], "→", product((-1, 2), (-3, 1)))
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # Sums, products, and the ranges of sine and cosine: that is all that (10.3) needs. The result is the smallest box there
@@ -356,11 +358,11 @@ NAMES = "far", "near", "left", "right"
 # %% slideshow={"slide_type": "subslide"} answers="10-near"
 def one_sighting(range_within, d_abs):
     lost = 100 * cut_off(range_within, d_abs)
-    fig, ax = views.boxes.scene(f"{lost:.0f} % are cut off", (-3.5, 4.5, -2.5, 2.5), size=(8, 5))
+    fig, ax = views.boxes.scene(f"{lost:.0f} % are cut off", (-3.5, 4.5, -2.5, 2.5), size=(8, 5.2))
     ring, angles = around(2.0, range_within), (-d_abs, d_abs)
     views.boxes.sector(ax, (0, 0), ring, angles, "possible places")
     views.boxes.edges(ax, sector_edges(2.0, range_within, 0.0, d_abs), NAMES)
-    views.legend(ax, loc="upper left")
+    views.legend_below(fig)
     return fig
 
 
@@ -475,8 +477,8 @@ views.explore(
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## The robot learns, too
 #
-# If the robot sees the object in the direction $u$ at the range $r$, then the object "sees" the robot in the direction
-# $u + \pi$ at the same range. So the robot's box is cut by the same four edges, turned by $\pi$, and pushed out by the
+# If the robot sees the object in some direction, then the object "sees" the robot in the opposite one, at the same range.
+# So the robot's box is cut by the same four edges, turned by $\pi$, and pushed out by the
 # *object's* box. We try it with an object known within 1 m, and with one from a map, known within 5 cm:
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
@@ -632,7 +634,7 @@ views.show(fig, f"None is cut off up to a right angle, and {lost[-1]:.0f} % are 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## One bad bound
 #
-# Now we break the promise, once. The map is known. In step 20, *one* range is too long by $k$ times its
+# Now we break the promise, once. The map is known. In step 20, *one* range is too long by some times its
 # bound, and all other noise stays within its own. We drive 20 steps more.
 
 # %% slideshow={"slide_type": "fragment"}
@@ -678,7 +680,7 @@ except EmptyIntersection as error:
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # The estimator `bor` leaves such a sighting out, says *lost* in its status, and promises nothing from there on. Two ways out
 # are known: widen all bounds and run the log again, or allow that some of many readings may lie, and keep
-# what all but $m$ of them have in common (Jaulin's *relaxed intersection*).
+# what all but a few of them have in common (Jaulin's *relaxed intersection*).
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## Who was seen?
@@ -782,49 +784,48 @@ views.show(
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # The box kept its promise in all ten runs. But its middle was farther off than the wheels alone in {= worse =} of 10, by
 # {= np.median(off["box"] / off["wheels"]):.1f =} times in the median, while the ellipse was
-# {= np.median(off["wheels"] / off["ellipse"]):.0f =} times nearer than the wheels. And the box claims so little, more than a
-# metre to either side, that it could not be wrong by much.
+# {= np.median(off["wheels"] / off["ellipse"]):.0f =} times nearer than the wheels. It is easy for a box
+# to be right that claims so little: {= half_side:.0f =} cm to either side.
 #
 # So do not take the middle of a box for an estimate. A box says where the robot *cannot* be.
 
 # %% slideshow={"slide_type": "subslide"} answers="10-nearest"
-seconds = np.arange(len(first.half_side))
-curves = {
-    "half a side of the box": first.half_side,
-    "box's middle": first.errors["box"],
-    "wheels": first.errors["wheels"],
-    "ellipse": first.errors["ellipse"],
-}
-fig, _ = views.curves(seconds, curves, "step", "claim, errors [m]", size=(8, 4.2))
+names = {"ellipse": "ellipse", "wheels": "wheels", "box": "box's middle"}
+curves = {label: first.errors[name] for name, label in names.items()}
+curves["half a side of the box"] = first.half_side
+fig, ax = views.curves(range(201), curves, "step", "errors, claim [m]", size=(8, 4.2))
+for line in ax.lines[2:]:
+    line.set_color(views.COLOURS["box"])
+views.legend(ax)
 views.show(
     fig,
-    f"The box's claim rises to {first.half_side.max():.1f} m and falls when the loop closes; the errors stay far "
+    f"The box's claim rises to {first.half_side.max():.1f} m and falls when the loop closes; the errors stay "
     f"below it, the box's at most {first.errors['box'].max():.1f} m, the ellipse's {first.errors['ellipse'].max():.2f} m.",
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# The claim rises while new country is crossed, and falls where known objects come back into sight. The error stays far
-# below it, since the worst case hardly ever happens.
+# The claim rises while new country is crossed, and falls where known objects come back into sight. The error mostly stays
+# far below it, since the worst case hardly ever happens.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Why so wide?
 #
 # Because bounds add up, and independent errors partly cancel. Let one step err with the standard deviation $\sigma$, and let its
-# bound be $k\sigma$. After $N$ steps without a sighting,
+# bound be $k\sigma$. After $m$ steps without a sighting,
 #
-# $$\text{the bound is } N k\, \sigma, \qquad \text{the standard deviation is } \sqrt N\, \sigma, \tag{10.11}$$
+# $$\text{the bound is } m k\, \sigma, \qquad \text{the standard deviation is } \sqrt m\, \sigma, \tag{10.11}$$
 #
-# and the bound is $k\sqrt N$ standard deviations. Do a thousand robots that drive 600 steps agree?
+# so the bound is $k\sqrt m$ standard deviations. Do a thousand robots that drive 600 steps agree?
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-N, k, sigma = 600, 3, BETTER.v_sigma
-drifts = np.random.default_rng(6).normal(0, sigma, (1000, N)).sum(axis=1)
-ratio = N * k * sigma / drifts.std()
+m, k, sigma = 600, 3, BETTER.v_sigma
+drifts = np.random.default_rng(6).normal(0, sigma, (1000, m)).sum(axis=1)
+ratio = m * k * sigma / drifts.std()
 print(
-    f"bound {N * k * sigma:.1f} m, σ of 1000 robots {drifts.std():.2f} m: {ratio:.0f} times as much"
+    f"bound {m * k * sigma:.1f} m, σ of 1000 robots {drifts.std():.2f} m: {ratio:.0f} times as much"
 )
 print(
-    f"by the formula {k * np.sqrt(N):.0f}; the farthest robot of all is {np.abs(drifts).max():.2f} m off"
+    f"by the formula {k * np.sqrt(m):.0f}; the farthest robot of all is {np.abs(drifts).max():.2f} m off"
 )
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=4
@@ -872,10 +873,11 @@ def biased(sigmas, bias):
 # %% slideshow={"slide_type": "subslide"}
 def shares_of_claims(bias_in_sigmas, bound_in_sigmas):
     each = biased(bound_in_sigmas, bias_in_sigmas)
-    shares = {"box": each.box_share, "95 % ellipse": each.ellipse_share}
+    shares = {"95 % ellipse": each.ellipse_share, "box": each.box_share}
     fig, ax = views.curves(
         np.arange(len(STEADY)), shares, "step", "off by, share of claim [1]", size=(8, 4.4)
     )
+    ax.lines[1].set_color(views.COLOURS["box"])
     ax.axhline(1, color=views.COLOURS["limit"], linestyle="dashdot", label="outside above this")
     ax.set(ylim=(0, 5))
     views.legend(ax)
