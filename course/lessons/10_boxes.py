@@ -249,16 +249,16 @@ for span in [(-0.5, 0.5), (1, 2), (2, 4), (3, 7)]:
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Products: try all four
 #
-# The distance is uncertain as well, and negative when the robot backs. What is the range of $d \cdot \kappa$ if
-# $d$ lies between −1 and 2, and some $\kappa$ between −3 and 1? For a fixed $\kappa$ it is a straight line in $d$, and a
+# The distance is uncertain as well, and negative when the robot backs. What is the range of a product $\xi\kappa$ if
+# $\xi$ lies between −1 and 2, and $\kappa$ between −3 and 1? For a fixed $\kappa$ it is a straight line in $\xi$, and a
 # straight line has its extremes at the ends. The same holds the other way round. So here the ends do suffice, all four
 # pairs of them:
 #
-# $$[d_1, d_2] \cdot [\kappa_1, \kappa_2] = \left[\min_{i,j} d_i \kappa_j,\;\; \max_{i,j} d_i \kappa_j\right].
+# $$[\xi_1, \xi_2] \cdot [\kappa_1, \kappa_2] = \left[\min_{i,j} \xi_i \kappa_j,\;\; \max_{i,j} \xi_i \kappa_j\right].
 # \tag{10.4}$$
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-print([d * kappa for d in (-1, 2) for kappa in (-3, 1)], "→", product((-1, 2), (-3, 1)))
+print([xi * kappa for xi in (-1, 2) for kappa in (-3, 1)], "→", product((-1, 2), (-3, 1)))
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # Sums, products, and the ranges of sine and cosine: that is all that (10.3) needs. The result is the smallest box there
@@ -294,7 +294,7 @@ views.explore(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# The corners' box cuts off the front of the arc, where the robot most probably is. The intervals' box touches the drives
+# The corners' box cuts off the front of the arc, and most of the drives with it. The intervals' box touches the drives
 # on all sides. Widen the heading beyond a right angle, and then to half a turn: one extreme after the other moves from the
 # ends of the interval into it.
 
@@ -321,7 +321,7 @@ views.explore(
 # %% slideshow={"slide_type": "fragment"}
 ask(
     "10-near",
-    "How far from the robot may the **near edge** stand, so that it just cuts nothing off?",
+    "How far from the robot can the **near edge** stand at most, if it must cut nothing off?",
     {
         "at $r - d_r$": "the middle of the inner arc is as far away as that. Look at the ends of the "
         "arc: along the middle direction they come less far.",
@@ -425,7 +425,7 @@ forgot = np.mean(r * np.cos(phi) < 1.6)
 
 
 # %% slideshow={"slide_type": "subslide"}
-OBJECT, SEEN, WITHIN, GUESS = (2.6, 0.55), (2.66, 0.31), (0.15, 0.06), (0.8, 4.2, -1.6, 3.8)
+OBJECT, SEEN, WITHIN, GUESS = (2.6, 0.55), (2.6, 0.24), (0.15, 0.06), (0.8, 4.2, -1.6, 3.8)
 
 
 def cut(edges_used, robot_within, heading_within):
@@ -471,8 +471,8 @@ views.explore(
 # heading, and see how little a robot can teach that hardly knows where it is.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* Ask whether another order of the edges gives another box. Try it: `NAMES` and the edges are in
-# one cell.
+# *For the lecturer:* Ask whether another order of the edges gives another box. Try it: reverse
+# `lines` in the function `cut`.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## The robot learns, too
@@ -508,12 +508,7 @@ for known_within in (1.0, 0.05):
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
 bearings = bearing_interval(robot, target)
 after = contract_heading((-0.4, 0.25), robot, target, SEEN, WITHIN)
-print(
-    "possible bearings",
-    np.round(bearings, 2),
-    " heading before [-0.4, 0.25], after",
-    np.round(after, 2),
-)
+print("bearings", np.round(bearings, 2), " heading before [-0.4, 0.25], after", np.round(after, 2))
 
 # %% slideshow={"slide_type": "fragment"}
 fig, ax = views.boxes.scene(None, (-1, 4, -1.2, 1.6), size=(8, 4.6))
@@ -521,7 +516,7 @@ views.boxes.directions(ax, (0, 0), bearings, 3.0, "possible bearings, from the m
 views.draw(ax, Boxes("robot", [robot]), linewidth=2)
 views.draw(ax, Boxes("landmark", [target]), linewidth=2, label="object")
 for x0, x1, y0, y1 in ([0.4, 2.55, -0.25, 0.6], [-0.4, 2.65, 0.25, 0.5]):
-    ax.plot([x0, x1], [y0, y1], color=views.COLOURS["guide"], zorder=0)
+    ax.plot([x0, x1], [y0, y1], color=views.COLOURS["before"], zorder=0)
 views.legend(ax, loc="upper left")
 views.show(
     fig,
@@ -784,8 +779,8 @@ views.show(
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # The box kept its promise in all ten runs. But its middle was farther off than the wheels alone in {= worse =} of 10, by
 # {= np.median(off["box"] / off["wheels"]):.1f =} times in the median, while the ellipse was
-# {= np.median(off["wheels"] / off["ellipse"]):.0f =} times nearer than the wheels. It is easy for a box
-# to be right that claims so little: {= half_side:.0f =} cm to either side.
+# {= np.median(off["wheels"] / off["ellipse"]):.0f =} times nearer than the wheels. A box that claims so
+# little, {= half_side:.0f =} cm to either side, is easily right.
 #
 # So do not take the middle of a box for an estimate. A box says where the robot *cannot* be.
 
@@ -894,6 +889,10 @@ views.explore(
     bias_in_sigmas=(0.0, 4.0, 1.5),
     bound_in_sigmas=(1.0, 4.0, 3.0),
 )
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# The ellipse (blue) claims far too little while the robot drives through new country: its error is several times its
+# claim. The box stays well below 1. How often was the robot outside, and who was nearer to it?
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
 steady = biased(3.0, 1.5)
