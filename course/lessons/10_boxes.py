@@ -443,9 +443,9 @@ def cut_step_by_step(**how):
     robot, lines, box = cut(**how)
     area = width(box[:2]) * width(box[2:])
     fig, ax = views.boxes.scene(f"{area:.1f} m² are left", (-3.4, 5.4, -1.8, 4), size=(8, 5.4))
-    views.draw(ax, Boxes("robot", [robot]))
-    views.draw(ax, Boxes("before", [GUESS]), linewidth=2, label="object before")
-    views.draw(ax, Boxes("corrected", [box]), linewidth=2.5, label="object now")
+    named = {"robot": ("robot", robot), "object before": ("before", GUESS)}
+    for label, (name, row) in (named | {"object now": ("corrected", box)}).items():
+        views.draw(ax, Boxes(name, [row]), linewidth=2, label=label)
     views.draw(ax, Points("truth", [OBJECT]), markersize=12, label="true object")
     views.boxes.edges(ax, lines, NAMES[: len(lines)])
     views.legend(ax, loc="upper left")
