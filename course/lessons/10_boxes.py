@@ -731,7 +731,7 @@ views.show(fig, "The robot's box shrinks to its left end, and the true robot sta
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=11
 # ## Box beside ellipse
 #
-# Now both filters get the same readings: ten simulated loops, 200 steps each, with a robot and a sensor five times as good as in
+# Now both filters get the same readings: ten simulated runs of 150 steps, nearly two rounds, with a robot and a sensor five times as good as in
 # lesson 06. The noise is Gaussian, so no bound is safe for ever; we take $3\sigma$. The ellipse has lesson 06's filter, MAK. And
 # there is a third competitor: the wheels alone, with no sensor at all.
 
@@ -753,7 +753,7 @@ ask(
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"] answers="10-nearest"
 BETTER = Loop(v_sigma=0.004, omega_sigma=0.0024, range_sigma=0.02, bearing_sigma=np.radians(0.4))
-sources = [LandmarkRun(replace(BETTER, steps=200), np.random.default_rng(k)) for k in range(10)]
+sources = [LandmarkRun(replace(BETTER, steps=150), np.random.default_rng(k)) for k in range(10)]
 races = [race(source) for source in sources]
 off = {name: 100 * np.array([each.rms()[name] for each in races]) for name in races[0].rms()}
 for name, errors in off.items():
@@ -788,7 +788,7 @@ views.show(
 names = {"ellipse": "ellipse", "wheels": "wheels", "box": "box's middle"}
 curves = {label: first.errors[name] for name, label in names.items()}
 curves["half a side of the box"] = first.half_side
-fig, ax = views.curves(range(201), curves, "step", "errors, claim [m]", size=(8, 4.2))
+fig, ax = views.curves(range(151), curves, "step", "errors, claim [m]", size=(8, 4.2))
 for line in ax.lines[2:]:
     line.set_color(views.COLOURS["box"])
 views.legend(ax)
