@@ -84,7 +84,7 @@ views.show(
     f"{100 * width(overlap):.1f} cm wide, which holds it.",
 )
 
-# %% [markdown] slideshow={"slide_type": "subslide"}
+# %% [markdown] slideshow={"slide_type": "subslide"} answers="10-overlap"
 # Every bar crosses the dashed truth, so the overlap holds it, too. With readings $z_k$ that are off by at
 # most $d_z$, it is the interval
 #
@@ -377,7 +377,7 @@ views.explore(
     d_abs=(0.0, 3.0, 0.6),
 )
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="10-near"
 # The near edge runs through the two inner corners, and the four edges cut nothing off. Between edges and arcs some
 # places are let in that are not possible: this is the price of straight lines. It costs sharpness, and never truth.
 # Now widen $d_{\mathrm{abs}}$, beyond a right angle. Part two will come back to what happens there.
@@ -641,8 +641,8 @@ ask(
         "room to spare, and a small lie fits in.",
         "it notices later, when honest sightings contradict the box": "that happens, but seldom: an honest "
         "sighting contradicts only a box that is quite wrong.",
-        "it never notices": "the intersection is not empty, and neither are any that follow. About half of "
-        "the time the truth has been cut off.",
+        "it never notices": "the intersection is not empty, and neither are any that follow. In "
+        "about half of these runs the truth has been cut off.",
     },
     right="it never notices",
 )
@@ -731,9 +731,9 @@ views.show(fig, "The robot's box shrinks to its left end, and the true robot sta
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=11
 # ## Box beside ellipse
 #
-# Now both filters get the same readings: ten simulated runs of 150 steps, nearly two rounds, with a robot and a sensor five times as good as in
-# lesson 06. The noise is Gaussian, so no bound is safe for ever; we take $3\sigma$. The ellipse has lesson 06's filter, MAK. And
-# there is a third competitor: the wheels alone, with no sensor at all.
+# A filter with boxes and one with ellipses (lesson 06's MAK) get the same readings: ten simulated runs of 150 steps, nearly two
+# rounds, with a robot and a sensor five times as good as in lesson 06. The noise is Gaussian, so no bound is safe for ever; we
+# take $3\sigma$. And there is a third competitor: the wheels alone, with no sensor at all.
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
@@ -776,7 +776,7 @@ views.show(
     f"{first.half_side.mean():.1f} m on average; on the right ellipses that hardly show.",
 )
 
-# %% [markdown] slideshow={"slide_type": "subslide"}
+# %% [markdown] slideshow={"slide_type": "subslide"} answers="10-nearest"
 # The box kept its promise in all ten runs. But its middle was farther off than the wheels alone in {= worse =} of 10, by
 # {= np.median(off["box"] / off["wheels"]):.1f =} times in the median, while the ellipse was
 # {= np.median(off["wheels"] / off["ellipse"]):.0f =} times nearer than the wheels. A box that claims so
@@ -798,14 +798,14 @@ views.show(
     f"below it, the box's at most {first.errors['box'].max():.1f} m, the ellipse's {first.errors['ellipse'].max():.2f} m.",
 )
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="10-nearest"
 # The claim rises while new country is crossed, and falls where known objects come back into sight. The error mostly stays
 # far below it, since the worst case hardly ever happens.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Why so wide?
 #
-# Because bounds add up, and independent errors partly cancel. Let one step err with the standard deviation $\sigma$, and let its
+# Bounds add up, while independent errors partly cancel. Let one step err with the standard deviation $\sigma$, and let its
 # bound be $k\sigma$. After $m$ steps without a sighting,
 #
 # $$\text{the bound is } m k\, \sigma, \qquad \text{the standard deviation is } \sqrt m\, \sigma, \tag{10.11}$$
