@@ -415,7 +415,7 @@ def streak(from_angle, to_angle):
     views.draw(ax, Points("scan", 1000 * errors), label="fits")
     views.draw(ax, Ellipses("corrected", [[0, 0]], [R]), lw=2, label="R, 95 %")
     diagonal = Ellipses("naive", [[0, 0]], [np.diag(np.diag(R))])
-    views.draw(ax, diagonal, lw=2, ls="--", label="its diagonal alone")
+    views.draw(ax, diagonal, lw=2, linestyle="dashed", label="its diagonal alone")
     views.legend(ax, loc="upper left")
     return fig
 
@@ -608,6 +608,7 @@ for ax, some in zip(both, found.values(), strict=True):
     views.draw(ax, Points("scan", scan.points()))
     for line, (colour, *_) in zip(some, views.SERIES * 20, strict=False):
         views.draw(ax, Segments("line", [line.ends.ravel()]), color=colour, lw=3, label="_line")
+    ax.set(xlim=(-3, 4), ylim=(-2.3, 4))
 pieces, walls = found.values()
 typical = {
     name: np.median([np.degrees(np.sqrt(line.R[1, 1])) for line in some])
