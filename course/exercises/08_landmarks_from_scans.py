@@ -302,7 +302,7 @@ def _():
 # ## Make it better: all walls of a scan
 #
 # One wall is a beginning, but a map needs all of them. In these rooms a quarter of the beams meet something that is
-# no wall: people, bags, the legs of chairs. A window of 25 neighbours hardly ever passes there.
+# no wall: people, bags, the legs of chairs. A window of 25 neighbours is hardly ever free of clutter there.
 #
 # **Predict first.** With a quarter of clutter, how likely is it that nine neighbouring readings are all of the wall?
 # And two neighbours?

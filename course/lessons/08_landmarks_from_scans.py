@@ -96,8 +96,8 @@ def spiked(jump, beams):
         scan, z = spikes_in(world, jump, beams)
         ax.plot(np.degrees(scan.angles), scan.ranges, ".", color=views.COLOURS["scan"], ms=3)
         ax.plot(*(z[:, ::-1] * [180 / np.pi, 1]).T, "v", color=views.COLOURS["landmark"], ms=8)
-        ax.set(aspect="auto", title=f"{world.name}: {len(z)} spikes", xlabel="bearing [°]")
-        ax.set(ylabel="range [m]", ylim=(0, None))
+        words = {"title": f"{world.name}: {len(z)} spikes", "xlabel": "bearing [°]"}
+        ax.set(aspect="auto", ylabel="range [m]", ylim=(0, None), **words)
     return fig
 
 
@@ -168,7 +168,7 @@ def wall_points(normal, rng, noise=0.02, rho=2.0, n=60):
 def draw_all(ax, layers, **styles):
     """Draw layers by their labels; a style's name is the label's first word."""
     for label, layer in layers.items():
-        views.draw(ax, layer, label=label, **styles.get(label.split()[0], {}))
+        views.draw(ax, layer, label=label, **styles.get(label.split()[0].strip(","), {}))
 
 
 def along(rho, alpha, low=-1.3, high=1.3):
@@ -180,12 +180,15 @@ def along(rho, alpha, low=-1.3, high=1.3):
 # %% slideshow={"slide_type": "fragment"} answers="08-school"
 def turned_wall(normal, noise):
     points = wall_points(np.radians(normal), np.random.default_rng(1), noise)
+    least, school = (along(*find(points)) for find in FITS.values())
     fig, ax = views.axes(f"a wall whose normal points to {normal:.0f}°", size=(8, 5.4))
-    least, school = (Segments("line", along(*find(points))) for find in FITS.values())
-    views.draw(ax, Points("scan", points), markersize=6, label="readings")
-    views.draw(ax, ROBOT)
-    views.draw(ax, school, color=views.COLOURS["naive"], ls="--", lw=2, label="y = m x + c")
-    views.draw(ax, least, color=views.COLOURS["corrected"], lw=2, label="least distances")
+    layers = {
+        "readings": Points("scan", points),
+        "robot": ROBOT,
+        "y = m x + c": Segments("naive", school),
+        "least distances": Segments("corrected", least),
+    }
+    draw_all(ax, layers, readings={"markersize": 6}, y={"lw": 2, "ls": "--"}, least={"lw": 2})
     ax.set(aspect="equal", adjustable="box", xlim=(-0.6, 3.6), ylim=(-1.5, 3.2))
     views.legend(ax, loc="upper right")
     return fig
@@ -263,9 +266,12 @@ def by_hand(alpha, rho):
     e = SOME @ [np.cos(alpha), np.sin(alpha)] - rho
     feet = SOME - np.outer(e, [np.cos(alpha), np.sin(alpha)])
     fig, ax = views.axes(f"mean of e²: {1e4 * np.mean(e**2):.0f} cm²", (8, 5.4))
-    views.draw(ax, Segments("corrected", along(rho, alpha, -2, 2)), label="your line")
-    views.draw(ax, Segments("naive", np.hstack([SOME, feet])), lw=1, label="e")
-    views.draw(ax, Points("scan", SOME), markersize=8, label="readings")
+    layers = {
+        "your line": Segments("corrected", along(rho, alpha, -2, 2)),
+        "e": Segments("naive", np.hstack([SOME, feet])),
+        "readings": Points("scan", SOME),
+    }
+    draw_all(ax, layers, readings={"markersize": 8}, e={"lw": 1})
     ax.set(aspect="equal", adjustable="box", xlim=(-0.5, 3.5), ylim=(-0.5, 3))
     views.legend(ax)
     return fig
@@ -280,6 +286,12 @@ views.explore(
     alpha=(0.0, 180.0, 75.0),
     rho=(0.0, 3.0, 2.0),
 )
+least_rho, least_alpha = total_least_squares(SOME)
+least_e = SOME @ [np.cos(least_alpha), np.sin(least_alpha)] - least_rho
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# You have two numbers to choose, and one to make small. The best line there is has a mean of
+# {= 1e4 * np.mean(least_e**2):.0f =} cm². How near do you get?
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### First the distance
@@ -319,8 +331,7 @@ derive("e^2", left_over, "(08.4) with (08.5)").step("the double angle", wave)
 #
 # $$\alpha = \tfrac12 \operatorname{atan2}\left( -2\sigma_{xy},\; \sigma_y^2 - \sigma_x^2 \right). \tag{08.6}$$
 #
-# The crest of the wave is 90° away: there the line runs across the wall. If $\rho$ comes out negative, turn the
-# normal round, and it is positive again.
+# Here is the wave for the readings above, and where the package puts its line:
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* What usually goes wrong, in this order: the centroid is not taken off; the crest
@@ -342,10 +353,14 @@ views.show(
 )
 print(f"lowest point {lowest:.2f}°, the package {found_alpha:.2f}°")
 
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# The line stands in the trough. The crest is 90° away: there it would run across the wall. If $\rho$ comes out
+# negative, turn the normal round, and it is positive again.
+
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=7
 # ## How sure is that line?
 #
-# (08.6) treats all readings alike. They are not: a lidar errs *along its beam*, by 1 % of the range. A reading
+# (08.6) treats all readings alike. But they differ: a lidar errs *along its beam*, by 1 % of the range. A reading
 # at range $r$ and bearing $\beta$ has the distance
 #
 # $$e = r \cos(\beta - \alpha) - \rho \tag{08.7}$$
@@ -412,10 +427,12 @@ def streak(from_angle, to_angle):
     errors, R, _ = fits_of(from_angle, max(to_angle, from_angle + 5))
     R = 1e6 * R.mean(axis=0)
     fig, ax = views.chart("error of ρ [mm]", "error of α [mrad]", "400 fits of one wall", (8, 5))
-    views.draw(ax, Points("scan", 1000 * errors), label="fits")
-    views.draw(ax, Ellipses("corrected", [[0, 0]], [R]), lw=2, label="R, 95 %")
-    diagonal = Ellipses("naive", [[0, 0]], [np.diag(np.diag(R))])
-    views.draw(ax, diagonal, lw=2, linestyle="dashed", label="its diagonal alone")
+    layers = {
+        "fits": Points("scan", 1000 * errors),
+        "R, 95 %": Ellipses("corrected", [[0, 0]], [R]),
+        "its diagonal alone": Ellipses("naive", [[0, 0]], [np.diag(np.diag(R))]),
+    }
+    draw_all(ax, layers, R={"lw": 2}, its={"lw": 2, "linestyle": "dashed"})
     views.legend(ax, loc="upper left")
     return fig
 
@@ -618,7 +635,7 @@ views.show(fig, f"The same scan in {len(pieces)} short pieces, and in {len(walls
 
 # %% [markdown] slideshow={"slide_type": "subslide"} answers="08-length"
 # {= len(pieces) =} pieces, with a $\sigma$ of $\alpha$ of {= typical["windows of 9 readings"]:.1f =}° in the median,
-# become {= len(walls) =} walls with {= typical["grown"]:.1f =}°. A colour is a piece; neighbours have different ones.
+# become {= len(walls) =} walls with {= typical["grown"]:.1f =}°. Neighbouring pieces differ in colour.
 #
 # Three things make growing safe. The refit weighs each reading by its noise. A wall ends where two beams go
 # *through* it; behind something that stands in the way it may go on, for 1.2 m at most. And readings near a
@@ -923,16 +940,20 @@ def after_looks(looks, believed_x, as_foot):
 
 def ten_looks(looks, believed_x):
     fig, ax = views.axes(f"after {looks} looks at the wall", size=(10, 5.4))
-    places = {
-        "believed before": ("predicted", [believed_x, 0.0, 0.0], P_START),
-        "wall as (ρ, α)": ("corrected", *after_looks(looks, believed_x, False)),
-        "wall as its foot": ("naive", *after_looks(looks, believed_x, True)),
+    as_line, as_foot = (after_looks(looks, believed_x, how) for how in (False, True))
+
+    def place(name, pose, P):
+        return Ellipses(name, [pose[:2]], [P[:2, :2]])
+
+    layers = {
+        "wall": Segments("walls", [[-1.5, 2, 3, 2]]),
+        "foot of the wall": Points("landmark", [foot]),
+        "true place": Points("truth", TRUE_POSE[None, :2]),
+        "believed before, 95 %": place("predicted", [believed_x, 0.0], P_START),
+        "(ρ, α), 95 %": place("corrected", *as_line),
+        "its foot, 95 %": place("naive", *as_foot),
     }
-    views.draw(ax, Segments("walls", [[-1.5, 2, 3, 2]]), lw=3, label="wall")
-    views.draw(ax, Points("landmark", [foot]), label="foot of the wall")
-    views.draw(ax, Points("truth", TRUE_POSE[None, :2]), markersize=12, label="true place")
-    for label, (name, pose, P) in places.items():
-        views.draw(ax, Ellipses(name, [pose[:2]], [P[:2, :2]]), lw=2, label=f"{label}, 95 %")
+    draw_all(ax, layers, wall={"lw": 3}, true={"markersize": 12}, its={"lw": 2})
     ax.set(xlim=(-1.5, 3), ylim=(-0.6, 2.4), aspect="equal", adjustable="box")
     views.legend_below(fig)
     return fig
@@ -945,7 +966,7 @@ views.explore(
         f"After {looks} looks the ellipse of the filter with the foot has shrunk round x = {believed_x:.1f} m and "
         f"the truth is at {TRUE_POSE[0]:.1f} m; with (ρ, α) it is flat along the wall and as long as before."
     ),
-    looks=(0, 30, 10),
+    looks=(1, 30, 10),
     believed_x=(0.0, 2.0, 0.5),
 )
 by_foot, by_line = (after_looks(10, 0.5, as_foot) for as_foot in (True, False))
@@ -1012,12 +1033,14 @@ def two_walls(place_sigma, heading_sigma):
     far = np.sqrt(nees(SEEN - EXPECTED, S))
     title = "A is {:.1f} and B {:.1f} standard deviations away".format(*far)
     fig, ax = views.chart("ρ' [m]", "α' [rad]", title, (9, 5))
-    views.draw(ax, Ellipses("predicted", EXPECTED, S), lw=2, label="expected: S, 95 %")
-    views.draw(ax, Points("landmark", EXPECTED), label="walls of the map")
-    star = {"marker": "*", "markersize": 18}
-    views.draw(ax, Points("scan", SEEN[None]), label="seen", **star)
-    for name, place in zip("AB", EXPECTED, strict=True):
-        ax.annotate(name, place, xytext=(8, 6), textcoords="offset points", fontsize=13)
+    layers = {
+        "expected: S, 95 %": Ellipses("predicted", EXPECTED, S),
+        "walls of the map": Points("landmark", EXPECTED),
+        "seen": Points("scan", SEEN[None]),
+    }
+    draw_all(ax, layers, seen={"marker": "*", "markersize": 18})
+    for name, spot in zip("AB", EXPECTED, strict=True):
+        ax.annotate(name, spot, xytext=(8, 6), textcoords="offset points", fontsize=13)
     ax.set(xlim=(2.2, 3.6), ylim=(-0.5, 0.9))
     views.legend(ax, loc="upper left")
     return fig
@@ -1086,9 +1109,9 @@ print("paired with", nearest_neighbours(mak, SEEN[None], R, 0.95))
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=6
 # ## What enters the map
 #
-# A false wall in the map spoils the pairings after it. So a new wall should wait. Smolec counts: a landmark counts
-# for something after $N$ **sightings** (he takes 5), and it has a number of **lives**. A scan without it takes one;
-# seeing it again restores all; without any it dies.
+# A false wall in the map spoils the pairings after it. So a new wall should wait. Smolec uses a landmark only
+# after $N$ **sightings** (he takes 5), and gives it a number of **lives**. Each scan without it takes one life; seeing
+# it again restores all; when none is left, it is dropped.
 #
 # Here, walls wait *outside* of the map until they have been seen $N$ times.
 
@@ -1123,9 +1146,12 @@ def on_trial(sightings, lives):
     walls, false, told = entered(sightings, lives)
     rows = np.array([walls_on_trial.ends(wall).ravel() for wall in walls]).reshape(-1, 4)
     fig, ax = views.axes(told, (9, 5.6))
-    views.draw(ax, Segments("walls", worlds.room().outline()), lw=1.5, label="the room")
-    views.draw(ax, Segments("corrected", rows[~false]), lw=4, label="true walls of the map")
-    views.draw(ax, Segments("naive", rows[false]), lw=4, label="false ones")
+    layers = {
+        "the room": Segments("walls", worlds.room().outline()),
+        "true walls of the map": Segments("corrected", rows[~false]),
+        "false ones": Segments("naive", rows[false]),
+    }
+    draw_all(ax, layers, true={"lw": 4}, false={"lw": 4})
     views.legend_below(fig)
     return fig
 
