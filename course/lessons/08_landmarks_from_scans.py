@@ -263,12 +263,12 @@ SOME = wall_points(np.radians(40), np.random.default_rng(3), noise=0.12, n=25)
 
 def by_hand(alpha, rho):
     alpha = np.radians(alpha)
-    e = SOME @ [np.cos(alpha), np.sin(alpha)] - rho
-    feet = SOME - np.outer(e, [np.cos(alpha), np.sin(alpha)])
+    normal = np.array([np.cos(alpha), np.sin(alpha)])
+    e = SOME @ normal - rho
     fig, ax = views.axes(f"mean of e²: {1e4 * np.mean(e**2):.0f} cm²", (8, 5.4))
     layers = {
         "your line": Segments("corrected", along(rho, alpha, -2, 2)),
-        "e": Segments("naive", np.hstack([SOME, feet])),
+        "e": Segments("naive", np.hstack([SOME, SOME - np.outer(e, normal)])),
         "readings": Points("scan", SOME),
     }
     draw_all(ax, layers, readings={"markersize": 8}, e={"lw": 1})
@@ -410,7 +410,7 @@ ask(
 )
 
 
-# %% slideshow={"slide_type": "fragment"}
+# %% slideshow={"slide_type": "fragment"} answers="08-streak"
 def fits_of(first, last, count=400, truth=(3.0, 0.4), n=90):
     """Errors of fits (count, 2) to one wall, seen between two angles from its normal; their R."""
     rng, sensor = np.random.default_rng(4), replace(LIDAR.model, bearing_sigma=0.0)
@@ -1164,6 +1164,10 @@ views.explore(
     lives=(1, 40, 3),
 )
 
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="08-trial"
+# The robot makes 40 scans on a small loop in a furnished room, where round pillars look flat from here and there. Choose
+# $N$ and the lives: can you keep all false walls out, and all true ones in?
+
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"] answers="08-trial"
 trials = [(1, 3), (2, 3), (3, 3), (5, 3), (3, 1), (3, 40)]
 table = {trial: entered(*trial)[1] for trial in trials}
@@ -1171,9 +1175,6 @@ for (n, lives), false in table.items():
     print(f"N = {n}, lives {lives:2}: {np.sum(~false):2} true walls, {false.sum()} false")
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="08-trial"
-# The robot makes 40 scans on a small loop in a furnished room, where round pillars look flat from here and there. Choose
-# $N$ and the lives: can you keep all false walls out, and all true ones in?
-#
 # Most false walls go as $N$ grows, since noise rarely makes the same wall three times running. Short true ones go with
 # them. One false wall is still there at $N = 5$: the side of a pillar that is passed slowly looks flat in
 # scan after scan. To see a thing again is no proof where the error is the same again.
