@@ -115,11 +115,10 @@ counted = {key: len(spikes_in(legs, beams=key)[1]) for key in (400, 100)}
 in_rooms = {jump: len(spikes_in(rooms, jump)[1]) for jump in (0.5, 0.05)}
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
-# With 400 beams and a threshold of 0.5 m, {= counted[400] =} of the 20 legs are marked, and in the
-# rooms {= in_rooms[0.5] =}. A leg that no beam meets is missed, and so is one before another. A
-# sparse scan of 100 beams leaves {= counted[100] =}. A lower threshold finds no way
-# out: at 0.05 m noise makes dips of its own, {= in_rooms[0.05] =} in rooms without a
-# single leg.
+# With 400 beams and a threshold of 0.5 m, {= counted[400] =} of the 20 legs are marked, and in the rooms
+# {= in_rooms[0.5] =} spikes. A leg that no beam meets is missed, and so is one that stands before another. In a
+# sparse scan of 100 beams {= counted[100] =} legs are left. A lower threshold does not help: at 0.05 m, noise makes
+# dips of its own, {= in_rooms[0.05] =} of them in rooms without a single leg.
 #
 # And the legs that are found all look alike. To tell them apart we would have to know where we are.
 
@@ -575,9 +574,9 @@ views.show(
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="08-far"
 # The noise grows with the range, and the band does not. At 1 m one $\sigma$ is 10 mm, at 4 m it is 40 mm. No
-# window passes beyond {= reach[fixed > 0][-1]:.1f =} m. So we measure the band in $\sigma$ of each reading: 2.8 of
-# them let {= 100 * growing.min():.1f =} % or more pass at every distance. That is the default of the package, and
-# Smolec's numbers are its preset `THESIS`.
+# window passes beyond {= reach[fixed > 0][-1]:.1f =} m. So we measure the band in $\sigma$ of each reading. With 2.8 of
+# them, {= 100 * growing.min():.1f =} % of the windows pass even at the worst distance. That is the default of the
+# package, and Smolec's numbers are its preset `THESIS`.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=4
 # ## Refit and grow
@@ -1175,9 +1174,10 @@ for (n, lives), false in table.items():
     print(f"N = {n}, lives {lives:2}: {np.sum(~false):2} true walls, {false.sum()} false")
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="08-trial"
-# Most false walls go as $N$ grows, since noise rarely makes the same wall three times running. Short true ones go with
-# them. One false wall is still there at $N = 5$: the side of a pillar that is passed slowly looks flat in
-# scan after scan. To see a thing again is no proof where the error is the same again.
+# Most false walls go as $N$ grows, since noise rarely makes the same wall three times running. At $N = 5$,
+# {= np.sum(~table[1, 3]) - np.sum(~table[5, 3]) =} true ones have gone with them, and {= table[5, 3].sum() =} false wall
+# is still there: the side of a pillar that is passed slowly looks flat in scan after scan. To see a thing again is no
+# proof where the error is the same again.
 #
 # Lives decide how long a wall may wait. With a single one, a wall that is missed once starts anew: with $N = 3$ that
 # leaves {= np.sum(~table[3, 1]) =} true walls and {= table[3, 1].sum() =} false ones. With forty it is
