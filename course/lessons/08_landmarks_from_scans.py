@@ -630,11 +630,16 @@ typical = {
     name: np.median([np.degrees(np.sqrt(line.R[1, 1])) for line in some])
     for name, some in found.items()
 }
-views.show(fig, f"The same scan in {len(pieces)} short pieces, and in {len(walls)} whole walls.")
+views.show(
+    fig,
+    f"The room round the robot, taken apart into short pieces and into whole walls; of the scan in all, into "
+    f"{len(pieces)} pieces and {len(walls)} walls.",
+)
 
 # %% [markdown] slideshow={"slide_type": "subslide"} answers="08-length"
 # {= len(pieces) =} pieces, with a $\sigma$ of $\alpha$ of {= typical["windows of 9 readings"]:.1f =}° in the median,
-# become {= len(walls) =} walls with {= typical["grown"]:.1f =}°. Neighbouring pieces differ in colour.
+# become {= len(walls) =} walls with {= typical["grown"]:.1f =}°; {= sum(line.ends[:, 1].max() > 4 for line in walls) =} of
+# them is beyond the picture. Neighbouring pieces differ in colour.
 #
 # Three things make growing safe. The refit weighs each reading by its noise. A wall ends where two beams go
 # *through* it; behind something that stands in the way it may go on, for 1.2 m at most. And readings near a
