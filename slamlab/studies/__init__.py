@@ -9,6 +9,8 @@
 - ``broken_slam``: EKF-SLAM with one thing wrong, for lesson 06; ``broken_bounds``: BOR with a bound
   broken, and beside EKF-SLAM, for lesson 10
 - ``shared_errors``, ``forgetting``, ``observability``: the experiments of lesson 07
+- ``found_walls``: recall and false metres of line extraction, ``walls_on_trial``: which walls enter
+  a map, both for lesson 08
 - ``small_errors``: what a Jacobian foretells, and what a wrong one does, in lesson 04
 - ``intel_maps``: the maps of a real log that lesson 01 shows; ``a2_at_rest``: statistics of a real
   lidar, for lesson 02
