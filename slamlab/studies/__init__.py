@@ -6,7 +6,8 @@
   table, ``three_costs``
 - ``two_halves``, ``halves_in_turn``, ``agreeing_poses``: the laps of lesson 05, run where they
   stand
-- ``broken_slam``: EKF-SLAM with one thing wrong, for lesson 06
+- ``broken_slam``: EKF-SLAM with one thing wrong, for lesson 06; ``broken_bounds``: BOR with a bound
+  broken, and beside EKF-SLAM, for lesson 10
 - ``shared_errors``, ``forgetting``, ``observability``: the experiments of lesson 07
 - ``found_walls``: recall and false metres of line extraction, ``walls_on_trial``: which walls enter
   a map, both for lesson 08
