@@ -162,6 +162,7 @@ def study(runs, jobs=None, scheduler=None):
         "versions": package_versions(),
         "seeds": [0, runs - 1],
         "band_95": band(3, runs),
+        "seed_0": {name: round(float(results[0][name][0]), 6) for name in (*drives, SLIP)},
         "drives": rounded(drives),
         "nees": {name: [round(float(each), 4) for each in row] for name, row in sizes.items()},
         "slopes": [
