@@ -28,11 +28,13 @@ class Drives:
     ----------
     errs : (steps,) root mean square of the error of x over the drives [m]
     believes : (steps,) root of the mean variance that P says [m]
+    wheels : (steps,) root mean square of odometry's error of x on the same drives [m]
     nees : float, mean NEES of the pose at the end, 3 where P is right [1]
     """
 
     errs: np.ndarray
     believes: np.ndarray
+    wheels: np.ndarray
     nees: float
 
 
@@ -64,10 +66,13 @@ def drive(rng, measured=True, slip=0.01, end_wall=False, steps=100):
 
     Returns
     -------
-    (steps, 3) errors of the pose [m, m, rad], (steps, 3, 3) what is believed of them
+    errors : (steps, 3) of the pose [m, m, rad]
+    P : (steps, 3, 3) what is believed of them
+    wheels : (steps, 3) errors of odometry alone [m, m, rad]
     """
     walls, C = np.vstack([WALLS, END]) if end_wall else WALLS, np.diag([slip, 0.005]) ** 2
     kind, true, errors, P = LINES if measured else POINTS, np.zeros(3), [], []
+    alone, wheels = np.zeros(3), []
     mak = MAK(np.zeros(3), np.zeros((3, 3)), kind=kind, first_estimates=True)
     for k in range(steps):
         true, told = f_odometry(true, STEP), rng.multivariate_normal(STEP, C)
@@ -79,7 +84,9 @@ def drive(rng, measured=True, slip=0.01, end_wall=False, steps=100):
         (mak.update if k else mak.add)(range(len(walls)), z, R)
         errors.append(mak.pose - true)
         P.append(mak.block([0, 1, 2]))
-    return np.array(errors), np.array(P)
+        alone = f_odometry(alone, told)
+        wheels.append(alone - true)
+    return np.array(errors), np.array(P), np.array(wheels)
 
 
 def drives(count, measured=True, slip=0.01, end_wall=False):
@@ -95,9 +102,7 @@ def drives(count, measured=True, slip=0.01, end_wall=False):
     Drives
     """
     runs = [drive(np.random.default_rng(k), measured, slip, end_wall) for k in range(count)]
-    errors, P = (np.array(each) for each in zip(*runs, strict=True))
-    errs, believes = (
-        np.sqrt(np.mean(errors[:, :, 0] ** 2, axis=0)),
-        np.sqrt(P[:, :, 0, 0].mean(axis=0)),
-    )
-    return Drives(errs, believes, float(nees(errors[:, -1], P[:, -1]).mean()))
+    errors, P, wheels = (np.array(each) for each in zip(*runs, strict=True))
+    errs, by_wheels = (np.sqrt(np.mean(each[:, :, 0] ** 2, axis=0)) for each in (errors, wheels))
+    believes = np.sqrt(P[:, :, 0, 0].mean(axis=0))
+    return Drives(errs, believes, by_wheels, float(nees(errors[:, -1], P[:, -1]).mean()))

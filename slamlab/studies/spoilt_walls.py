@@ -160,13 +160,15 @@ def driven(source, loop, found):
     -------
     poses : (n, 3) [m, m, rad]
     P : (n, 3, 3) what is believed of them
+    maps : list of (k, 4) line segments, the walls after each step [m]
     """
-    poses, P = [], []
+    poses, P, maps = [], [], []
     for reading, here in zip(source, found, strict=True):
         loop.step(reading.odometry, here)
         poses.append(loop.mak.pose)
         P.append(loop.mak.block([0, 1, 2]))
-    return np.array(poses), np.array(P)
+        maps.append(loop.segments())
+    return np.array(poses), np.array(P), maps
 
 
 def errors(source, poses):
@@ -242,7 +244,7 @@ def rows_of(situation, source, variants):
     rows = {(situation, "odometry"): {"rms_m": _rms(source, DeadReckoning())}}
     for name, make in variants.items():
         loop = make(source)
-        poses, P = driven(source, loop, found.get(name, grown))
+        poses, P, _ = driven(source, loop, found.get(name, grown))
         off = errors(source, poses)
         rows[situation, name] = {
             "rms_m": np.sqrt(np.mean(np.sum(off[:, :2] ** 2, axis=1))),
