@@ -173,14 +173,16 @@ def placed(metres_aside, heading_sigma_in_degrees):
     ends = np.concatenate([ends_of(wall, along).reshape(-1, 4) for wall in walls])
     told = f"ρ scatters by {100 * walls[:, 0].std():.1f} cm, "
     told += f"α by {np.degrees(wrap(walls[:, 1])).std():.1f}°"
-    fig, (ax,) = views.panels([told], (7, 6.4))
+    fig, (ax,) = views.panels([told], (8.2, 6))
     ax.set_aspect("equal", adjustable="box")
     views.draw(
         ax, Segments("landmark", ends), linewidth=0.7, label="the wall, as 40 robots place it"
     )
+    circle = World(circles=[(0.0, metres_aside, 2.0)]).outline()
+    views.draw(ax, Segments("perpendicular", circle), label="2 m round the robot")
     views.draw(ax, Points("truth", [[0, 0]]), markersize=14, label="origin of the world")
     views.draw(ax, Poses("robot", [[0, metres_aside, 0]]))
-    ax.set(xlim=(-2.5, 4.5), ylim=(-1.5, 7))
+    ax.set(xlim=(-4, 6), ylim=(-1.5, 7.2))
     views.legend_below(fig)
     return fig
 

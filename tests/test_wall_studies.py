@@ -1,0 +1,104 @@
+"""Lesson 09's studies: the small loop and the package's, spoilt parts, the corridor, sound."""
+
+import numpy as np
+import pytest
+
+from slamlab import estimators
+from slamlab.estimators.wall_slam import WallSlam
+from slamlab.sources import simulation
+from slamlab.studies import corridor, heard_walls, spoilt_walls
+from slamlab.studies.spoilt_walls import RIGHT, VARIANTS
+from slamlab.studies.study_command import stored
+
+
+@pytest.fixture(scope="module")
+def room():
+    return simulation("situation-2", np.random.default_rng(0))
+
+
+@pytest.fixture(scope="module")
+def found(room):
+    return spoilt_walls.found_by(room)
+
+
+def test_the_small_loop_believes_what_the_packages_does(room, found):
+    loop = VARIANTS[RIGHT](room)
+    poses, P, maps = spoilt_walls.driven(room, loop, found)
+    whole = WallSlam(room.robot, room.sensor, np.random.default_rng(0))
+    ran = estimators.run(room, whole)
+    np.testing.assert_allclose(poses, ran.trajectory.poses, atol=1e-9)
+    np.testing.assert_allclose(loop.mak.P, whole.filter.P, atol=1e-9)
+    assert len(maps) == len(P) == len(room)
+    assert len(maps[-1]) == len(loop.mak.ids)
+
+
+@pytest.mark.parametrize("name", [RIGHT, "degrees in the Jacobians", "paired before predict"])
+def test_a_drive_gives_its_numbers_of_the_stored_table_again(room, name):
+    rows = spoilt_walls.rows_of("situation-2", room, {name: VARIANTS[name]})
+    for (_, variant), row in rows.items():
+        was = stored("spoilt_walls")["seed_0"][variant]
+        assert row["rms_m"] == pytest.approx(was, abs=2e-6)
+
+
+def test_the_stored_table_says_what_lesson_09_says():
+    table = stored("spoilt_walls")
+    low, high = table["band_95"]
+    for name in ("situation-1", "situation-2"):
+        rows = table["situations"][name]
+        assert low < rows[RIGHT]["nees"] < high
+        assert rows["placed before predict"]["low_m"] > 0, "worse than odometry"
+        for part in ("degrees in the Jacobians", "y = a x + b"):
+            assert rows[part]["high_m"] < 0, "better than odometry"
+            assert rows[part]["nees"] > high, "and overconfident"
+            assert rows[part]["walls"] > 1.5 * rows[RIGHT]["walls"]
+        assert rows["paired before predict"]["turned_deg"] > 10 * rows[RIGHT]["turned_deg"]
+        assert rows["paired before predict"]["rms_m"] < 0.01
+        assert rows["never merged"]["rms_m"] < 1.1 * rows[RIGHT]["rms_m"]
+    assert all(row["low_m"] > 0 for row in table["listing"].values())
+    bent = table["situations"][spoilt_walls.OUT_OF_LINE]
+    assert bent["infinite lines"]["rms_m"] == pytest.approx(bent[RIGHT]["rms_m"], abs=5e-4)
+
+
+def test_of_fewer_than_six_drives_there_is_no_interval():
+    for study in (spoilt_walls.study, heard_walls.study):
+        with pytest.raises(ValueError, match="at least 6, not 5"):
+            study(5)
+
+
+def test_measured_walls_leave_the_way_along_them_in_doubt_and_feet_deny_it():
+    measured, feet = (corridor.drives(20, kind) for kind in (True, False))
+    steps = np.arange(1, 101)
+    np.testing.assert_allclose(measured.believes, 0.01 * np.sqrt(steps), rtol=0.2)
+    assert 0.7 < measured.errs[-1] / measured.believes[-1] < 1.4
+    assert feet.errs[-1] > 1.5 * feet.wheels[-1] > 5 * feet.believes[-1]
+    assert feet.nees > 100 > 10 * measured.nees
+
+
+def test_a_wall_at_the_end_helps_both_and_feet_stay_overconfident():
+    measured, feet = (corridor.drives(8, kind, end_wall=True) for kind in (True, False))
+    assert max(measured.errs[-1], feet.errs[-1]) < 0.05
+    assert feet.nees > 5 * measured.nees
+
+
+def test_a_heard_line_is_of_a_wall_or_of_none():
+    room = simulation(heard_walls.WORLD, np.random.default_rng(0))
+    found = heard_walls.errors_of(0)
+    for name, was in stored("heard_walls")["seed_0"].items():
+        assert found[name][0] == pytest.approx(was, abs=2e-6)
+    lines = heard_walls.lines_of(room.world.walls)
+    ends = room.world.walls.reshape(-1, 2, 2)
+    normals = np.stack([np.cos(lines[:, 1]), np.sin(lines[:, 1])], axis=-1)
+    np.testing.assert_allclose(np.einsum("nek,nk->ne", ends, normals), lines[:, :1] * [1, 1])
+    assert (lines[:, 0] >= 0).all()
+
+
+def test_the_stored_drives_by_sound_say_what_lesson_09_says():
+    table = stored("heard_walls")
+    assert table["drives"]["cone model"]["high_m"] < 0 < table["drives"]["lidar's lines"]["low_m"]
+    wrong = [row["no_wall"] / row["lines"] for row in table["slopes"]]
+    assert wrong == sorted(wrong, reverse=True)
+    assert wrong[0] > 0.15 > 0.03 > wrong[3]
+    low, high = table["band_95"]
+    assert table["nees"]["cone model"][-1] > high
+    assert low < table["nees"]["cone model, wheels slip"][-1] < high
+    assert table["incidences"][-1]["lines"] < 0.02 * table["incidences"][0]["lines"]
