@@ -66,7 +66,7 @@ def test_of_fewer_than_six_drives_there_is_no_interval():
 
 
 def test_measured_walls_leave_the_way_along_them_in_doubt_and_feet_deny_it():
-    measured, feet = (corridor.drives(20, kind) for kind in (True, False))
+    measured, feet = (corridor.drives(12, kind) for kind in (True, False))
     steps = np.arange(1, 101)
     np.testing.assert_allclose(measured.believes, 0.01 * np.sqrt(steps), rtol=0.2)
     assert 0.7 < measured.errs[-1] / measured.believes[-1] < 1.4
@@ -75,7 +75,7 @@ def test_measured_walls_leave_the_way_along_them_in_doubt_and_feet_deny_it():
 
 
 def test_a_wall_at_the_end_helps_both_and_feet_stay_overconfident():
-    measured, feet = (corridor.drives(8, kind, end_wall=True) for kind in (True, False))
+    measured, feet = (corridor.drives(6, kind, end_wall=True) for kind in (True, False))
     assert max(measured.errs[-1], feet.errs[-1]) < 0.05
     assert feet.nees > 5 * measured.nees
 

@@ -63,19 +63,20 @@ naive = {
     for name, source in sources.items()
 }
 driven_m = {n: np.hypot(*np.diff(s.truth.poses[:, :2], axis=0).T).sum() for n, s in sources.items()}
+step_at_most = np.abs([reading.odometry for reading in sources["situation-2"]]).max(axis=0)
 many = stored("walls")["situations"]  # the same tours, driven with 60 seeds
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
     "09-odometry",
-    "The tour of situation 1 is 43 m long. By how far is odometry alone off at its end, in the "
-    "middle one of 60 such drives?",
+    f"The tour of situation 1 is {driven_m['situation-1']:.0f} m long. How far is odometry alone off at "
+    "its end, in the middle one of 60 such drives?",
     {
         "some centimetres: random slips cancel": "slips of the distance nearly do. But a slip of the "
         "heading bends all of the way that comes after it.",
         "more than a metre": "the heading is off by some degrees, and then each metre leads astray.",
-        "about ten metres, a quarter of the way": "wheels that are unequal for good can do that; "
-        "these slip by chance, to both sides.",
+        "about ten metres, a quarter of the way": "then it would head the wrong way for most of "
+        "the tour. These wheels slip by chance, a little at a time, to both sides.",
     },
     right="more than a metre",
 )
@@ -344,8 +345,10 @@ views.show(
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # The axis is logarithmic. The error with SLAM stays below {= np.ceil(worst["SLAM"]):.0f =} cm, and its root
 # mean square is {= min(gain):.0f =} to {= max(gain):.0f =} times below odometry's. A
-# single reading of this lidar errs by 5 cm at 5 m, but each line is fitted to dozens of readings, and
-# each wall is seen dozens of times.
+# single reading of this lidar errs by 5 cm at 5 m. But a line is fitted to
+# {= np.median([len(line.beams) for seen in found["situation-1"] for line in seen]):.0f =} readings (the
+# median), and the {= len(maps["situation-1"][-1]) =} walls of the map stand for
+# {= sum(map(len, found["situation-1"])) =} lines.
 #
 # Does the filter know how good it is? One drive proves little, since the errors of neighbouring steps
 # are alike. Over 60 drives the mean NEES of the pose is
@@ -367,14 +370,8 @@ views.show(
 
 # %% slideshow={"slide_type": "fragment"}
 def error_of(pair):
-    error = pair.estimator.pose - pair.source.truth.poses[pair.count - 1]
-    return np.append(error[:2], wrap(error[2]))
-
-
-def nees_of(pair):
-    """NEES, once P has an inverse: where the robot starts is known by definition."""
-    P_rr = pair.estimator.filter.block([0, 1, 2])
-    return nees(error_of(pair), P_rr) if pair.count > 10 else np.nan
+    """How far off the robot's place is now [cm]."""
+    return 100 * np.hypot(*(pair.estimator.pose - pair.source.truth.poses[pair.count - 1])[:2])
 
 
 RED, BLUE, GREEN = (views.COLOURS[name] for name in ("naive", "corrected", "landmark"))
@@ -392,13 +389,11 @@ seen_live = views.live(
     "Rooms off a corridor, half of them seen: red points, blue walls, the robot in the upper room.",
     steps=60,
     extra=lambda pair: [Segments("axes", [[0, 0, 1, 0], [0, 0, 0, 1]])],
-    curves={
-        "error [cm]": {"corrected": lambda pair: 100 * np.hypot(*error_of(pair)[:2])},
-        "NEES": {"corrected": nees_of},
-    },
+    curves={"error [cm]": {"corrected": error_of}},
     colours=AS_IN_THE_THESIS,
     title="Rooms and walls",
     seed=1,
+    size=(900, 400),
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
@@ -565,7 +560,7 @@ Markdown("\n".join(rows))
 # large as claimed. In situation 1, most of which is a corridor, they diverge: the median drive ends
 # {= 100 * many["situation-1"]["feet, grown lines"]["final_m"]:.0f =} cm off and the worst
 # {= many["situation-1"]["feet, grown lines"]["final_m_worst"]:.1f =} m. There a robot that is off by
-# more than it believes also takes one wall for another.
+# more than it believes may also take one wall for another.
 #
 # The map of $(\rho, \alpha)$ is as good as it can be. Its points lie
 # {= 100 * many["situation-1"]["(ρ, α), first estimates"]["map_m"]:.1f =} cm off the walls in situation
@@ -674,14 +669,15 @@ views.explore(
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## Predict first
 #
-# Why does the order matter so much? Between two scans this robot drives up to 15 cm or turns by up to
-# 17°. Lines are seen from where it is *now*.
+# Why does the order matter so much? Between two scans this robot drives up to
+# {= 100 * step_at_most[0]:.0f =} cm or turns by up to {= np.degrees(step_at_most[2]):.0f =}°. Lines are seen
+# from where it is *now*.
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
     "09-order",
     "Lines are paired with the walls as expected from the pose *before* the drive; everything after "
-    "that is done rightly. The robot turns by 17° a step. What happens while it turns?",
+    "that is done rightly. The robot turns by 17° from one scan to the next. What happens meanwhile?",
     {
         "nothing: the update corrects what the pairing missed": "an update needs pairs. What was "
         "paired with nothing corrects nothing.",
@@ -793,20 +789,20 @@ print(f"{offered} points offered, {len(thinned.xy)} drawn, at most {most} in a c
 # RANSAC *chooses* a line's readings: those within $c = 2.8\,\sigma$ of the line that they make. Is the
 # line then as good as its $R = \big(\sum J^{\mathsf T} J / \sigma^2\big)^{-1}$ says?
 #
-# Let the line be off by $\delta$, everything counted in $\sigma$. What pulls it back is the mean of
-# $\varepsilon - \delta$ over the readings in its band, and the band moves along with the line. Per
+# Let the line be off by $e$, everything counted in $\sigma$. What pulls it back is the mean of
+# $\varepsilon - e$ over the readings in its band, and the band moves along with the line. Per
 # reading,
 #
-# $$ \text{pull}(\delta) = \int_{\delta - c}^{\delta + c} (\varepsilon - \delta)\,
+# $$ \text{pull}(e) = \int_{e - c}^{e + c} (\varepsilon - e)\,
 # \varphi(\varepsilon)\, d\varepsilon, \tag{09.6} $$
 #
-# with the normal density $\varphi$. The stiffness is how fast this pull grows with $\delta$.
+# with the normal density $\varphi$. The stiffness is how fast this pull grows with $e$.
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
-c, noise, delta = sp.symbols("c varepsilon delta", positive=True)
+c, noise, e = sp.symbols("c varepsilon e", positive=True)
 density = sp.exp(-(noise**2) / 2) / sp.sqrt(2 * sp.pi)
-pull = sp.integrate((noise - delta) * density, (noise, delta - c, delta + c))
-stiffness = sp.simplify(-sp.diff(pull, delta).subs(delta, 0))
+pull = sp.integrate((noise - e) * density, (noise, e - c, e + c))
+stiffness = sp.simplify(-sp.diff(pull, e).subs(e, 0))
 spread = sp.simplify(sp.integrate(noise**2 * density, (noise, -c, c)))
 share = sp.integrate(density, (noise, -c, c))
 print("stiffness − spread:", sp.simplify(stiffness - spread))
