@@ -6,7 +6,7 @@ import pytest
 from slamlab import estimators
 from slamlab.estimators.wall_slam import WallSlam
 from slamlab.sources import simulation
-from slamlab.studies import corridor, heard_walls, spoilt_walls
+from slamlab.studies import corridor, heard_walls, line_truth, spoilt_walls
 from slamlab.studies.spoilt_walls import RIGHT, VARIANTS
 from slamlab.studies.study_command import stored
 
@@ -80,16 +80,33 @@ def test_a_wall_at_the_end_helps_both_and_feet_stay_overconfident():
     assert feet.nees > 5 * measured.nees
 
 
-def test_a_heard_line_is_of_a_wall_or_of_none():
-    room = simulation(heard_walls.WORLD, np.random.default_rng(0))
+def test_a_drive_by_sound_gives_its_numbers_of_the_stored_table_again():
     found = heard_walls.errors_of(0)
     for name, was in stored("heard_walls")["seed_0"].items():
         assert found[name][0] == pytest.approx(was, abs=2e-6)
-    lines = heard_walls.lines_of(room.world.walls)
-    ends = room.world.walls.reshape(-1, 2, 2)
+
+
+def test_lines_of_walls_hold_their_ends(room):
+    walls = room.world.walls
+    lines = line_truth.lines_of(walls)
     normals = np.stack([np.cos(lines[:, 1]), np.sin(lines[:, 1])], axis=-1)
-    np.testing.assert_allclose(np.einsum("nek,nk->ne", ends, normals), lines[:, :1] * [1, 1])
+    along = np.einsum("nek,nk->ne", walls.reshape(-1, 2, 2), normals)
+    np.testing.assert_allclose(along, lines[:, :1] * [1, 1], atol=1e-9)
     assert (lines[:, 0] >= 0).all()
+    pieces = walls.reshape(-1, 2, 2)
+    assert [line_truth.wall_under(ends, walls) for ends in pieces] == list(range(len(walls)))
+
+
+def test_lines_found_at_true_poses_are_as_good_as_their_R_says(room, found):
+    assert 1.8 < line_truth.squared_errors(room, found).mean() < 2.4
+
+
+def test_of_two_feet_the_nearest_is_right_and_the_first_often_not():
+    rooms = simulation("situation-1", np.random.default_rng(1))
+    counts = line_truth.choices(rooms, spoilt_walls.found_by(rooms), 0.5)
+    assert counts["sightings"] > 10 * counts["with a choice"] > 0
+    assert counts["the nearest"] > 0.95 * counts["with a choice"]
+    assert counts["the first"] < 0.7 * counts["with a choice"]
 
 
 def test_the_stored_drives_by_sound_say_what_lesson_09_says():

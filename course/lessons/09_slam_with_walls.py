@@ -41,8 +41,8 @@ from slamlab.layers import Ellipses, Points, Poses, Segments
 from slamlab.simulation import ULTRASONIC
 from slamlab.sources import simulation
 from slamlab.sources.simulated_robot import THESIS_LIDAR
-from slamlab.studies import corridor, feet, spoilt_walls
-from slamlab.studies.heard_walls import lines_of
+from slamlab.studies import corridor, feet, line_truth, spoilt_walls
+from slamlab.studies.line_truth import lines_of
 from slamlab.studies.study_command import stored
 from slamlab.studies.wall_loop import WallLoop
 from slamlab.worlds import World
@@ -818,33 +818,9 @@ stiffness
 # Does it show? At true poses we measure the error of each line in units of its $R$. It has two numbers,
 # so its mean should be 2.
 
-
-# %% slideshow={"slide_type": "subslide"}
-def wall_under(ends, walls):
-    """The true wall on which a seen piece lies: its row."""
-    start, way = walls[:, :2], walls[:, 2:] - walls[:, :2]
-    offset = ends[:, None] - start
-    t = np.clip(np.sum(offset * way, axis=2) / np.sum(way**2, axis=1), 0, 1)
-    return np.hypot(*np.moveaxis(offset - t[..., None] * way, -1, 0)).sum(axis=0).argmin()
-
-
-def line_errors(name):
-    """Squared errors of all lines of a drive, in units of R, at true poses."""
-    walls, errors, R = sources[name].world.walls, [], []
-    for pose, seen in zip(sources[name].truth.poses, found[name], strict=True):
-        for line in seen:
-            wall = lines_of(walls)[wall_under(transform(pose, line.ends), walls)]
-            expected = models.h_line(pose, wall)
-            if expected[0] < 0:  # the robot sees its other side than the origin does
-                expected = np.array([-expected[0], expected[1] + np.pi])
-            errors.append([line.z[0] - expected[0], wrap(line.z[1] - expected[1])])
-            R.append(line.R)
-    return nees(np.array(errors), np.array(R))
-
-
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 for name in sources:
-    sizes = line_errors(name)
+    sizes = line_truth.squared_errors(sources[name], found[name])
     mean, doubt = sizes.mean(), sizes.std() / np.sqrt(len(sizes))
     print(f"{name}: {mean:.2f} ± {doubt:.2f}, without the factor {factor * mean:.2f};", end=" ")
     print(f"beyond the gate {np.mean(sizes > GATE):.1%} instead of 0.1 %")
@@ -1077,18 +1053,13 @@ for i, j in near:
 # ### The first, the nearest, and the first sight
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-choices, right, sights = 0, {"first": 0, "nearest": 0}, 0
-for pose, seen in zip(sources["situation-1"].truth.poses, found["situation-1"], strict=True):
-    for line in seen:
-        mine = true_feet[wall_under(transform(pose, line.ends), rooms)]
-        away = np.hypot(*(different - corridor.feet(models.g_line(pose, line.z))).T)
-        within, sights = np.flatnonzero(away < 0.5), sights + 1
-        if len(within) > 1:
-            choices += 1
-            for rule, k in {"first": within[0], "nearest": away.argmin()}.items():
-                right[rule] += np.allclose(different[k], mine, atol=1e-5)
-print(f"{sights} sightings at true poses, {choices} with a choice;", end=" ")
-print(", ".join(f"the {rule} is right in {n / choices:.0%}" for rule, n in right.items()))
+counts = line_truth.choices(sources["situation-1"], found["situation-1"], 0.5)
+print(
+    f"{counts['sightings']} sightings at true poses, {counts['with a choice']} with a choice;",
+    end=" ",
+)
+for rule in ("the first", "the nearest"):
+    print(f"{rule} is right in {counts[rule] / counts['with a choice']:.0%}", end="; ")
 for what, how in {"windows": replace(THESIS, band=None), "grown": None}.items():
     first_scan = lines(next(iter(room)).scan, room.sensor, np.random.default_rng(0), how)
     print(f"first scan of situation 2, lines {what}: {len(first_scan)}")

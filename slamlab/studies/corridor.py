@@ -11,7 +11,8 @@ import numpy as np
 from slamlab.evaluation import nees
 from slamlab.filters.landmark_models import LINES, POINTS
 from slamlab.filters.mak import MAK
-from slamlab.models import W_odometry, f_odometry
+from slamlab.models.jacobians import W_odometry
+from slamlab.models.motion import f_odometry
 from slamlab.models.observation import g_line, h, h_line
 
 WALLS = np.array([[1.5, np.pi / 2], [1.2, -np.pi / 2]])  # ρ [m], α [rad] of the long walls

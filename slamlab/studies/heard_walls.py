@@ -14,11 +14,11 @@ from slamlab.estimators.wall_slam import GATE, WallSlam
 from slamlab.evaluation import band, nees
 from slamlab.geometry import wrap
 from slamlab.landmarks.sonar_lines import sonar_lines
-from slamlab.models.observation import h_line
 from slamlab.parallel import map_runs
-from slamlab.simulation import ULTRASONIC
+from slamlab.simulation.range_scanners import ULTRASONIC
 from slamlab.sources.simulated_robot import THESIS_ROBOT, simulation
 from slamlab.studies import feet, study_command
+from slamlab.studies.line_truth import expected_from, lines_of
 from slamlab.studies.spoilt_walls import errors
 from slamlab.studies.study_command import TABLES, package_versions, rounded, seeds
 
@@ -45,22 +45,6 @@ def rays(sensor):
     return replace(sensor, half_cone=0.0)
 
 
-def lines_of(walls):
-    """The lines of walls, ρ ≥ 0.
-
-    Parameters
-    ----------
-    walls : (n, 4) x1 y1 x2 y2 [m]
-
-    Returns
-    -------
-    (n, 2) ρ [m], α [rad]
-    """
-    alpha = np.arctan2(walls[:, 2] - walls[:, 0], -(walls[:, 3] - walls[:, 1]))
-    rho = walls[:, 0] * np.cos(alpha) + walls[:, 1] * np.sin(alpha)
-    return np.column_stack([abs(rho), wrap(alpha + np.pi * (rho < 0))])
-
-
 def is_no_wall(line, pose, walls):
     """Whether a line that was heard at a true pose is off every wall, by its own covariance.
 
@@ -74,11 +58,7 @@ def is_no_wall(line, pose, walls):
     -------
     bool
     """
-    expected = h_line(pose, lines_of(walls))
-    behind = expected[:, 0] < 0  # of the world's origin, where the robot sees the other side
-    off = (
-        line.z - expected * np.where(behind[:, None], [-1, 1], 1) - np.pi * behind[:, None] * [0, 1]
-    )
+    off = line.z - expected_from(pose, lines_of(walls))
     off[:, 1] = wrap(off[:, 1])
     return bool(nees(off, np.broadcast_to(line.R, (len(off), 2, 2))).min() > GATE)
 

@@ -9,9 +9,9 @@ from functools import partial
 
 import numpy as np
 
-from slamlab.estimators import run
 from slamlab.estimators.dead_reckoning import DeadReckoning
 from slamlab.estimators.foot_slam import FootSlam
+from slamlab.estimators.runner import run
 from slamlab.estimators.wall_slam import AMBIGUITY_GATE
 from slamlab.evaluation import band, nees
 from slamlab.filters.landmark_models import LINES
