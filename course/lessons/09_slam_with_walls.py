@@ -176,13 +176,16 @@ def placed(metres_aside, heading_sigma_in_degrees):
     told += f"α by {np.degrees(wrap(walls[:, 1])).std():.1f}°"
     fig, (ax,) = views.panels([told], (8.2, 6))
     ax.set_aspect("equal", adjustable="box")
-    views.draw(
-        ax, Segments("landmark", ends), linewidth=0.7, label="the wall, as 40 robots place it"
-    )
-    circle = World(circles=[(0.0, metres_aside, 2.0)]).outline()
-    views.draw(ax, Segments("perpendicular", circle), label="2 m round the robot")
-    views.draw(ax, Points("truth", [[0, 0]]), markersize=14, label="origin of the world")
-    views.draw(ax, Poses("robot", [[0, metres_aside, 0]]))
+    layers = {
+        "the wall, as 40 robots place it": Segments("landmark", ends),
+        "2 m round the robot": Segments(
+            "perpendicular", World(circles=[(0.0, metres_aside, 2.0)]).outline()
+        ),
+        "origin of the world": Points("truth", [[0, 0]]),
+        "robot": Poses("robot", [[0, metres_aside, 0]]),
+    }
+    for label, layer in layers.items():
+        views.draw(ax, layer, label=label)
     ax.set(xlim=(-4, 6), ylim=(-1.5, 7.2))
     views.legend_below(fig)
     return fig
@@ -289,14 +292,14 @@ scans = {name: [reading.scan.points() for reading in source] for name, source in
 
 # %% slideshow={"slide_type": "fragment"}
 def watched(situation, step):
-    """Both maps up to a step: every fifth scan's points, and the loop's walls."""
+    """Both maps up to a step: every tenth scan's points, and the loop's walls."""
     step = min(step, len(scans[situation]) - 1)
     layers = {}
     for what, role, way in (
         ("odometry", "naive", naive[situation]),
         ("SLAM", "corrected", poses[situation]),
     ):
-        shots = [transform(way[k], scans[situation][k]) for k in range(0, step + 1, 5)]
+        shots = [transform(way[k], scans[situation][k]) for k in range(0, step + 1, 10)]
         title = f"{what}: off by {off(situation, way)[step]:.1f} cm"
         layers[title] = [Points("scan", np.vstack(shots)), Poses(role, way[: step + 1])]
     layers[title].append(Segments("landmark", maps[situation][step]))
@@ -322,19 +325,16 @@ views.explore(
 # ### How far off?
 
 # %% slideshow={"slide_type": "fragment"}
-fig, ax = views.chart("step", "error of the place [cm]", None, (10, 4.6))
 ways = {"odometry": ("naive", naive), "SLAM": ("corrected", poses)}
-for what, (role, way) in ways.items():
-    for name, dash in zip(sources, ("-", "--"), strict=True):
-        error = off(name, way[name])[1:]
-        ax.plot(error, dash, color=views.COLOURS[role], label=f"{name}, {what}")
+errors = {what: [off(name, way[name]) for name in sources] for what, (_, way) in ways.items()}
+fig, ax = views.chart("step", "error of the place [cm]", None, (10, 4.6))
+for what, (role, _) in ways.items():
+    for name, error, dash in zip(sources, errors[what], ("-", "--"), strict=True):
+        ax.plot(error[1:], dash, color=views.COLOURS[role], label=f"{name}, {what}")
 ax.set(yscale="log")
 views.legend_below(fig)
-worst = {what: max(off(n, way[n]).max() for n in sources) for what, (_, way) in ways.items()}
-rms = {
-    what: np.array([np.sqrt(np.mean(off(n, w[n]) ** 2)) for n in w])
-    for what, (_, w) in ways.items()
-}
+worst = {what: max(map(np.max, both)) for what, both in errors.items()}
+rms = {what: np.sqrt([np.mean(each**2) for each in both]) for what, both in errors.items()}
 gain = rms["odometry"] / rms["SLAM"]
 views.show(
     fig,
@@ -408,19 +408,20 @@ seen_live = views.live(
 # The filter we know takes points. So why not give it a point of each wall, the **foot** of the
 # perpendicular from the world's origin? Every wall has one, and everyone who sees the wall can compute
 # it. Its range and bearing go into the filter of lesson 06 as they are.
-#
-# But nobody *sees* a foot. It may lie where there is no wall at all. To compute it, one has to know
-# the pose.
 
 # %% slideshow={"slide_type": "subslide"}
 fig, (ax,) = views.panels([None], (9, 4.4))
-views.draw(ax, Segments("walls", [[2.4, 2, 6, 2]]), linewidth=4, label="wall")
-views.draw(ax, Segments("scan", [[4, 0.3, 4, 2]]), linewidth=2, label="measured: ρ′")
-views.draw(ax, Segments("perpendicular", [[0, 0, 0, 2]]), linewidth=2)
-views.draw(ax, Segments("naive", [[4, 0.3, 0, 2]]), label="told to the filter")
-views.draw(ax, Points("landmark", [[0, 2]]), markersize=14, label="foot")
-views.draw(ax, Points("truth", [[0, 0]]), markersize=14, label="origin of the world")
-views.draw(ax, Poses("robot", [[4, 0.3, 0]]))
+layers = {
+    "wall": Segments("walls", [[2.4, 2, 6, 2]]),
+    "measured: ρ′": Segments("scan", [[4, 0.3, 4, 2]]),
+    "perpendicular": Segments("perpendicular", [[0, 0, 0, 2]]),
+    "told to the filter": Segments("naive", [[4, 0.3, 0, 2]]),
+    "foot": Points("landmark", [[0, 2]]),
+    "origin of the world": Points("truth", [[0, 0]]),
+    "robot": Poses("robot", [[4, 0.3, 0]]),
+}
+for label, layer in layers.items():
+    views.draw(ax, layer, label=label)
 ax.margins(0.12)
 views.legend_below(fig)
 views.show(
@@ -428,6 +429,10 @@ views.show(
     "A wall above the robot. Its measured distance goes straight up to the wall; the foot lies far to "
     "the left, above the origin, where the wall has ended.",
 )
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# But nobody *sees* a foot. It may lie where there is no wall at all. To compute it, one has to know the
+# pose.
 
 # %% slideshow={"slide_type": "subslide"}
 ask(
@@ -941,9 +946,7 @@ def heard_walls(step, least_slope_in_degrees):
         Segments("landmark", [transform(place, line.ends).ravel() for line in fitted]),
         Poses("robot", [place]),
     ]
-    fig, (ax,) = views.side_by_side({f"walls heard: {len(fitted)}": layers}, size=(8, 5.4))
-    ax.lines[0].set_markersize(6)
-    return fig
+    return views.side_by_side({f"walls heard: {len(fitted)}": layers}, size=(8, 5.4))[0]
 
 
 views.explore(
@@ -1121,7 +1124,7 @@ def as_he_draws(ax, slam):
 
 def pictures(drives, alt):
     """Maps of the listing side by side: title to the arguments of its drive."""
-    fig, all_axes = views.panels(list(drives), (11, 4.6), shared=False)
+    fig, all_axes = views.panels(list(drives), (9.5, 4), shared=False)
     for ax, (situation, steps, beams, mends) in zip(all_axes, drives.values(), strict=True):
         as_he_draws(ax, feet.listing(situation, steps, beams, mends=mends)[0])
     views.legend_below(fig)
@@ -1199,7 +1202,7 @@ def constants(sightings, lives, offset_in_m, tolerance_in_mm, beams, as_printed)
         **{"sightings": sightings, "lives": lives, "offset": offset_in_m},
     )
     title = f"off by {100 * rms:.0f} cm, odometry by {100 * rms_odometry:.0f} cm"
-    fig, ax = views.axes(title, (8.5, 5.2))
+    fig, ax = views.axes(title, (8, 4.6))
     as_he_draws(ax, slam)
     views.legend_below(fig, title=slam.status)
     return fig
