@@ -47,6 +47,8 @@ from slamlab.studies.study_command import stored
 from slamlab.studies.wall_loop import WallLoop
 from slamlab.worlds import World
 
+ORIGIN = [[0, 0, 0.4, 0], [0, 0, 0, 0.4]]  # the axes of the world
+
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=4
 # ## Two buildings
 #
@@ -167,8 +169,8 @@ ask(
 
 # %% slideshow={"slide_type": "fragment"} answers="09-pivot"
 def placed(metres_aside, heading_sigma_in_degrees):
-    """Forty robots that err in their heading alone place the same wall, 2 m ahead."""
-    theta = np.radians(heading_sigma_in_degrees) * np.random.default_rng(9).normal(size=40)
+    """Twenty robots that err in their heading alone place the same wall, 2 m ahead."""
+    theta = np.radians(heading_sigma_in_degrees) * np.random.default_rng(9).normal(size=20)
     walls = np.array([models.g_line([0, metres_aside, t], [2.0, 0]) for t in theta])
     along = np.array([[-1.5, 8.0]])
     ends = np.concatenate([ends_of(wall, along).reshape(-1, 4) for wall in walls])
@@ -177,15 +179,15 @@ def placed(metres_aside, heading_sigma_in_degrees):
     fig, (ax,) = views.panels([told], (8.2, 6))
     ax.set_aspect("equal", adjustable="box")
     layers = {
-        "the wall, as 40 robots place it": Segments("landmark", ends),
+        "the wall, as 20 robots place it": Segments("landmark", ends),
         "2 m round the robot": Segments(
             "perpendicular", World(circles=[(0.0, metres_aside, 2.0)]).outline()
         ),
-        "origin of the world": Points("truth", [[0, 0]]),
+        "origin of the world": Segments("truth", ORIGIN),
         "robot": Poses("robot", [[0, metres_aside, 0]]),
     }
     for label, layer in layers.items():
-        views.draw(ax, layer, label=label)
+        views.draw(ax, layer, label=label, linewidth=0.8)
     ax.set(xlim=(-4, 6), ylim=(-1.5, 7.2))
     views.legend_below(fig)
     return fig
@@ -195,7 +197,7 @@ def placed(metres_aside, heading_sigma_in_degrees):
 views.explore(
     placed,
     lambda metres_aside, heading_sigma_in_degrees: (
-        f"Forty lines in front of a robot that stands {metres_aside:.1f} m from the origin; "
+        f"Twenty lines in front of a robot that stands {metres_aside:.1f} m from the origin; "
         "they touch one circle round the robot."
     ),
     metres_aside=(0.0, 5.0, 5.0),
@@ -417,7 +419,7 @@ layers = {
     "perpendicular": Segments("perpendicular", [[0, 0, 0, 2]]),
     "told to the filter": Segments("naive", [[4, 0.3, 0, 2]]),
     "foot": Points("landmark", [[0, 2]]),
-    "origin of the world": Points("truth", [[0, 0]]),
+    "origin of the world": Segments("truth", ORIGIN),
     "robot": Poses("robot", [[4, 0.3, 0]]),
 }
 for label, layer in layers.items():
@@ -955,7 +957,9 @@ def heard_walls(step, least_slope_in_degrees):
         Segments("landmark", [transform(place, line.ends).ravel() for line in fitted]),
         Poses("robot", [place]),
     ]
-    return views.side_by_side({f"walls heard: {len(fitted)}": layers}, size=(8, 5.4))[0]
+    fig, (ax,) = views.side_by_side({f"walls heard: {len(fitted)}": layers}, size=(8, 5.4))
+    ax.lines[0].set_markersize(6)
+    return fig
 
 
 views.explore(
@@ -1154,7 +1158,7 @@ pictures(
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # The foot near $(0, -0.4)$ is that of the short wall on the left, and nothing stands there. Walls close
 # to the robot have no foot: 21 of 25 readings within 15 mm are rare where one $\sigma$ is 15 mm, which is
-# at 1.5 m. Now 60 scans of situation 2 as printed, without any mend:
+# at 1.5 m. Now 60 scans of situation 2, as printed:
 
 # %% slideshow={"slide_type": "subslide"}
 pictures(
@@ -1163,6 +1167,9 @@ pictures(
     },
     "The way jumps by metres, and the room is drawn many times.",
 )
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# The way jumps by metres, and the room is drawn over and over.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Is it our choice of a constant?
