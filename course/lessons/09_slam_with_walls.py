@@ -559,28 +559,30 @@ for situation, variants in many.items():
         rows.append(f"| {situation[-1]} | {name} | {' | '.join(lengths)} | {size} |")
 Markdown("\n".join(rows))
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
+# %% [markdown] slideshow={"slide_type": "subslide"}
 # In situation 2, where walls in many directions surround the robot, feet end
 # {= 100 * many["situation-2"]["feet, grown lines"]["final_m"]:.0f =} cm off, far better than odometry.
 # But they are overconfident: a NEES of {= many["situation-2"]["feet, grown lines"]["nees"]:.0f =}
 # means errors about {= np.sqrt(many["situation-2"]["feet, grown lines"]["nees"] / 3):.0f =} times as
-# large as claimed. In situation 1, most of which is a corridor, they diverge: the median drive ends
+# large as claimed. In situation 1, with its corridor, the median drive ends
 # {= 100 * many["situation-1"]["feet, grown lines"]["final_m"]:.0f =} cm off and the worst
-# {= many["situation-1"]["feet, grown lines"]["final_m_worst"]:.1f =} m. There a robot that is off by
-# more than it believes may also take one wall for another.
+# {= many["situation-1"]["feet, grown lines"]["final_m_worst"]:.1f =} m; odometry has
+# {= 100 * many["situation-1"]["odometry"]["final_m"]:.0f =} cm and
+# {= many["situation-1"]["odometry"]["final_m_worst"]:.1f =} m. So feet help most of the drives a little and
+# lose some, and the filter cannot tell which: its NEES is in the thousands.
 #
-# The map of $(\rho, \alpha)$ is as good as it can be. Its points lie
+# With $(\rho, \alpha)$ the map is as good as the lidar allows. Its points lie
 # {= 100 * many["situation-1"]["(ρ, α), first estimates"]["map_m"]:.1f =} cm off the walls in situation
 # 1; with the true poses they lie {= 100 * many["situation-1"]["true poses"]["map_m"]:.1f =} cm off.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## One part at a time
 #
-# Other mistakes are smaller. We take the loop that works, spoil one part, and drive again. Here are
-# some of the candidates, all of them seen in real programs:
+# Other mistakes look smaller. We take the loop that works, spoil one part, and drive again. Here are
+# some of the candidates:
 #
 # - **Degrees:** the state's angles are in degrees, and the Jacobians are those for radians.
-# - **y = a x + b:** lines are fitted as one learns it at school, which fails for $x = $ const.
+# - **y = a x + b:** lines are fitted as one learns it at school, which cannot give a line $x = b$.
 # - **Never merged:** pieces of one wall stay several landmarks.
 # - **Paired before predict:** the lines of the new scan are paired with the map as seen from the
 #   *old* pose; then the drive is predicted.
@@ -744,7 +746,7 @@ for name, (share, heading) in shares.items():
 # it does not move. Lesson 13 matches scans as they are, without landmarks.
 #
 # **Other sensors.** `WallSlam`, the package's version of the loop, does not care where lines come
-# from. A *Deeper* section below hears them by ultrasound.
+# from. In a *Deeper* section below an ultrasonic sensor hears the walls of a room.
 #
 # **Wheels that slip a lot.** After a large slip no line fits, and the loop knows nothing better than
 # to begin a new map. `WallSlam` looks for the robot where it may be; lesson 15 closes loops.
@@ -1025,8 +1027,8 @@ Markdown("\n".join(rows))
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## In print
 #
-# Optional: what the thesis behind this lesson prints otherwise. Of its program there are figures only,
-# so "printed" means its text and its formulas.
+# Optional: what Smolec's master's thesis, whose system this is, prints otherwise. Of his program there
+# are figures only, so "printed" means his text and his formulas.
 #
 # | place | printed | right | harm |
 # |---|---|---|---|
