@@ -568,8 +568,8 @@ Markdown("\n".join(rows))
 # {= 100 * many["situation-1"]["feet, grown lines"]["final_m"]:.0f =} cm off and the worst
 # {= many["situation-1"]["feet, grown lines"]["final_m_worst"]:.1f =} m; odometry has
 # {= 100 * many["situation-1"]["odometry"]["final_m"]:.0f =} cm and
-# {= many["situation-1"]["odometry"]["final_m_worst"]:.1f =} m. So feet help most of the drives a little and
-# lose some, and the filter cannot tell which: its NEES is in the thousands.
+# {= many["situation-1"]["odometry"]["final_m_worst"]:.1f =} m. With feet the middle drive is better and
+# the worst one is worse, and the filter does not notice: its NEES is in the thousands.
 #
 # With $(\rho, \alpha)$ the map is as good as the lidar allows. Its points lie
 # {= 100 * many["situation-1"]["(ρ, α), first estimates"]["map_m"]:.1f =} cm off the walls in situation
