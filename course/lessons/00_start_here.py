@@ -244,7 +244,7 @@ for theta in (25, 115):
 # | | lesson | what it shows | lesson | exercise |
 # | --- | --- | --- | --- | --- |
 # | 08 | [Landmarks from scans](08_landmarks_from_scans.ipynb) | table legs, walls and corners found in a scan, and which of them were seen before | 75 min | 60 min |
-# | 09 | [SLAM with walls](09_slam_with_walls.ipynb) | a whole thesis system, driven live through two buildings; its flaws measured and mended | 90 min | 60 min |
+# | 09 | [SLAM with walls](09_slam_with_walls.ipynb) | a whole thesis system, driven live through two buildings; its flaws measured and mended | 60 min | 60 min |
 # | 10 | [Boxes](10_boxes.ipynb) | a filter that promises bounds, not likelihoods, and what one broken promise does | 90 min | 60 min |
 # | 11 | [Samples](11_samples.ipynb) | a cloud of guesses that can say "here or there", which no ellipse can | 90 min | 60 min |
 # | 12 | [Three filters, one robot](12_three_filters.ipynb) | box, ellipse and samples on the same three laps of a small robot, over eighty drives | 90 min | 60 min |

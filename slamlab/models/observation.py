@@ -78,7 +78,7 @@ def h_line(x, line):
 def g_line(x, z):
     """Inverse line observation model: the line that a pose sees at a distance and direction.
 
-    α = θ + α',  ρ = ρ' + x cos α + y sin α
+    α = θ + α',  ρ = ρ' + x cos α + y sin α. Equation (09.2).
 
     Parameters
     ----------

@@ -2,6 +2,9 @@
 
 - ``consistency`` (with ``ideal_filter``): NEES of EKF-SLAM; ``boxes``: BOR's guarantee
 - ``walls``: Smolec's SLAM by its parts; ``feet``: his listing, and what its verdict hangs on
+- ``wall_loop``: that SLAM in small, for lesson 09; ``spoilt_walls``: the loop with one part spoilt;
+  ``corridor``: walls measured, and feet of walls; ``heard_walls``: walls by ultrasound;
+  ``line_truth``: lines against the true walls
 - ``three``: BOR, MAK, Monte Carlo, with ``three_records`` of each drive, ``three_rows`` of its
   table, ``three_costs``
 - ``two_halves``, ``halves_in_turn``, ``agreeing_poses``: the laps of lesson 05, run where they
