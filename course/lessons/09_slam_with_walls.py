@@ -68,11 +68,14 @@ driven_m = {n: np.hypot(*np.diff(s.truth.poses[:, :2], axis=0).T).sum() for n, s
 step_at_most = np.abs([reading.odometry for reading in sources["situation-2"]]).max(axis=0)
 many = stored("walls")["situations"]  # the same tours, driven with 60 seeds
 
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# The tour of situation 1 is {= driven_m["situation-1"]:.0f =} m long.
+
 # %% slideshow={"slide_type": "fragment"}
 ask(
     "09-odometry",
-    f"The tour of situation 1 is {driven_m['situation-1']:.0f} m long. How far is odometry alone off at "
-    "its end, in the middle one of 60 such drives?",
+    "How far is odometry alone off at the end of the tour of situation 1, in the middle one of 60 such "
+    "drives?",
     {
         "some centimetres: random slips cancel": "slips of the distance nearly do. But a slip of the "
         "heading bends all of the way that comes after it.",
