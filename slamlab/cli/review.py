@@ -39,6 +39,8 @@ def run(arguments) -> int:
     try:
         if not (arguments.course or Path(course_file.NAME)).exists():
             raise UsageError("a review needs a course file: slamlab grade init")
+        if not 0 <= arguments.port <= 65_535:  # else another one would be taken
+            raise UsageError(f"--port is 0 to 65535, not {arguments.port}")
         term = term_of(arguments)
         url = arguments.db or default_url(arguments.out, new=False)
         with Gradebook(url, arguments.who) as book:
@@ -46,8 +48,8 @@ def run(arguments) -> int:
     except (UsageError, course_file.TermError, GradebookError, KeyError) as error:
         print(f"slamlab grade review: {printable(str(error.args[0]))}", file=sys.stderr)
         return 2
-    except (OSError, OverflowError) as error:
-        said = getattr(error, "strerror", None) or error
+    except OSError as error:
+        said = " ".join(filter(None, (error.filename and f"{error.filename}:", error.strerror)))
         print(f"slamlab grade review: {said}", file=sys.stderr)
         return 2
     return 0

@@ -9,7 +9,7 @@ import io
 
 from slamlab.grading import remarks
 from slamlab.grading.term.course_file import TermError
-from slamlab.reviewing.changes import MOST_LETTERS
+from slamlab.reviewing.hand_changes import MOST_LETTERS
 
 TITLES = "student", "exercise", "request"
 MOST_BYTES = 20_000_000

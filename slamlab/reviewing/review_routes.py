@@ -13,8 +13,8 @@ from slamlab.listening.door import Door
 from slamlab.listening.ending import end_on_signals
 from slamlab.listening.entrance import Enter
 from slamlab.listening.rates import Rate
-from slamlab.reviewing import changes
-from slamlab.reviewing.overview import overview
+from slamlab.reviewing import hand_changes
+from slamlab.reviewing.class_overview import overview
 from slamlab.reviewing.submission_view import submission_view
 from slamlab.reviewing.visible_text import visible
 
@@ -69,7 +69,7 @@ class Asked(guard.Guarded):
         """Do something and answer what it gives."""
         try:
             told = await self._review.do(deed, *given)
-        except changes.Refused as error:
+        except hand_changes.Refused as error:
             self.set_status(409)
             told = {"error": str(error)}
         except GradebookError as error:
@@ -99,11 +99,11 @@ class Submission(Asked):
             standing = _standing(state, row, exercise)
             match said:
                 case {"task": str(task), "points": points}:
-                    changes.set_points(state, standing, seen, task, points, text)
+                    hand_changes.set_points(state, standing, seen, task, points, text)
                 case {"request": str(request)}:
-                    changes.answer(state, standing, seen, request, text)
+                    hand_changes.answer(state, standing, seen, request, text)
                 case _:
-                    changes.comment(state, standing, seen, text)
+                    hand_changes.comment(state, standing, seen, text)
             self._review.touched.add(exercise)
             state.refresh()
             return submission_view(state, _standing(state, row, exercise))

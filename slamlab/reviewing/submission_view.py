@@ -5,8 +5,8 @@ from slamlab.grading import remarks
 from slamlab.grading.ledger.contents import ContentError
 from slamlab.grading.local_times import local_time
 from slamlab.grading.rejudging import NotKept, kept_cells
+from slamlab.reviewing.class_overview import cell, open_requests, signs
 from slamlab.reviewing.class_state import OVERRIDE
-from slamlab.reviewing.overview import cell, open_requests, signs
 
 
 def submission_view(state, standing):

@@ -77,7 +77,7 @@ function draw() {
     const { id, title, points } = table.exercises[column];
     return make("th", { scope: "col", title: `${title}, ${points} points`, textContent: id });
   }));
-  const body = rows.map((row) => make("tr", {}, make("th", { scope: "row", textContent: nameOf(row) }),
+  const body = rows.map((row) => make("tr", {}, make("th", { scope: "row", textContent: nameOf(row), title: nameOf(row) }),
     ...columns.map((column) => drawCell(row, column))));
   at("place").replaceChildren(make("table", {}, make("thead", {}, head), make("tbody", {}, ...body)));
   at("count").textContent = `${rows.length} of ${table.students.length} students, ${shown.length} cells`;
@@ -189,7 +189,7 @@ function showTask(task, told) {
     task.problem ? make("p", { className: "broken", textContent: task.problem }) : null,
     laws.length ? make("ul", { className: "laws" }, ...laws) : null,
     task.hint ? make("p", { textContent: `Hint: ${task.hint}` }) : null,
-    make("details", { open: mistakes.length > 0 }, make("summary", { textContent: `The class: ${all} all points, ${some} some, ${none} none` }),
+    make("details", { open: mistakes.length > 0 && !(task.judged >= task.most) }, make("summary", { textContent: `The class: ${all} all points, ${some} some, ${none} none` }),
       mistakes.length ? make("ul", {}, ...mistakes) : make("p", { className: "faint", textContent: "no mistake that has a name" })),
     pointsForm(task, told));
 }
