@@ -7,7 +7,7 @@ from pathlib import Path
 
 import nbformat
 
-from course import values
+from course import questions, values
 from course.derive import FOLDERS, derive
 from course.execute import ExecutionError, carry_outputs, execute, executed, same_code
 from course.source import ROOT, CourseError, file_name, sources
@@ -30,8 +30,9 @@ def build(path, force=False, root=ROOT):
     ------
     CourseError : where the source breaks the standards or a cell fails
     """
-    done = []
-    for derived in derive(path, root):
+    done, all_derived = [], derive(path, root)
+    _keep_questions(all_derived[0].source, root)  # notebooks ask by the id when they are run
+    for derived in all_derived:
         stored, notebook = _stored(derived.path), derived.notebook
         ran = False
         if derived.runs:
@@ -65,8 +66,11 @@ def differences(path, root=ROOT):
     ------
     CourseError : where the source breaks the course's standards
     """
-    found = []
-    for derived in derive(path, root):
+    found, all_derived = [], derive(path, root)
+    asked, kept = all_derived[0].source, questions.file(all_derived[0].source, root)
+    if asked.kind == "lesson" and questions.text(asked) != _text(kept):
+        found.append(f"{kept.relative_to(root).as_posix()}: holds other questions")
+    for derived in all_derived:
         name, stored = derived.path.relative_to(root).as_posix(), _stored(derived.path)
         if stored is None:
             found.append(f"{name}: is missing")
@@ -134,6 +138,19 @@ def _select_sources(names):
         if not hits:
             problems.append(f"{name}: no such source in course/lessons or course/exercises")
     return (chosen if names else known), problems
+
+
+def _keep_questions(source, root):
+    """Store what a lesson asks, if that is new."""
+    file, text = questions.file(source, root), questions.text(source)
+    if source.kind != "lesson" or text == _text(file):
+        return
+    file.parent.mkdir(parents=True, exist_ok=True)
+    file.write_text(text, encoding="utf-8", newline="\n")
+
+
+def _text(file):
+    return file.read_text(encoding="utf-8") if file.exists() else ""
 
 
 def _run(derived):

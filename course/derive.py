@@ -6,7 +6,7 @@ from pathlib import Path
 
 import nbformat
 
-from course import glossary
+from course import glossary, questions
 from course.exercise import (
     PROTECTED,
     VALIDATE,
@@ -140,6 +140,8 @@ def _cell(cell, exercise, stubs):
         text = strip_solutions(text) if stubs else text
     elif cell.text == VALIDATE:
         metadata |= PROTECTED
+    elif cell.type == "code":
+        text = questions.short(text)
     if stubs and "nbval-check-output" in cell.tags:  # nothing is stored to compare with
         metadata["tags"] = [tag for tag in cell.tags if tag != "nbval-check-output"]
     if not metadata.get("tags", True):

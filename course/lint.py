@@ -5,7 +5,7 @@ import importlib
 import re
 from itertools import pairwise
 
-from course import equations
+from course import equations, questions
 from course.exercise import SolutionError, solution_regions
 from course.figure_lint import figure_problems
 from course.source import CHECK, ID, METADATA, heading, main_line
@@ -149,6 +149,10 @@ def _questions(source):
             if not id.startswith(f"{source.number}-") or id in asked:
                 yield cell, f"call the question {source.number}-…, and each one differently"
             asked.add(id)
+            try:
+                questions.asked(cell.text)
+            except ValueError:
+                yield cell, "a question is stored: write out what is asked, compute nothing in it"
         if cell.answers and cell.answers not in asked:
             yield cell, f"answers a question {cell.answers!r} that no cell before it asks"
         if cell.answers and cell.type == "markdown" and heading(cell.text):

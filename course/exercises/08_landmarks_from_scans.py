@@ -5,14 +5,14 @@
 # decide which wall of the map was seen, find round pillars as well, and take a whole scan apart into
 # its walls.
 #
-# **60 minutes. Before:** lesson 08.
+# **60 minutes. Before:** [lesson 08](../notebooks/08_landmarks_from_scans.ipynb).
 #
 # Replace each `raise NotImplementedError(...)` by your code, run the cell, then run the check below
 # it, as often as you like. A check tries random inputs, and inputs at the edge of what the task
 # promises, and tells you which law is broken.
 #
-# Metres and radians throughout. A line is `[ρ, α]`: all points $(a, b)$ with
-# $a\cos\alpha + b\sin\alpha = \rho$.
+# Metres and radians throughout. A line is `[ρ, α]`: all points $p = (p_x, p_y)$ with
+# $p_x\cos\alpha + p_y\sin\alpha = \rho$, as in (08.2).
 
 # %%
 import numpy as np
@@ -24,15 +24,15 @@ from slamlab.geometry import wrap
 # %% [markdown]
 # ## Fit a wall
 #
-# **Predict first.** Five points of a wall straight ahead: all x are 2.0 m, the y are −1 to 1 m.
-# What are ρ and α? And what would `np.polyfit(x, y, 1)` say?
+# **Predict first.** Five points of a wall straight ahead: $p_x$ is 2.0 m for all of them, and $p_y$ runs from
+# −1 to 1 m. What are $\rho$ and $\alpha$? And what would `np.polyfit(x, y, 1)` say?
 #
-# **Your task.** Return the ρ ≥ 0 and the α of the line that has the least sum of squared distances
-# to the points. The best line goes through the centroid; its normal is the direction in which the
-# points scatter least. How you find it is up to you.
+# **Your task.** Return the $\rho \ge 0$ and the $\alpha$ of the line whose sum of squared distances to the points
+# is least. It goes through the centroid, and its normal is the direction in which the points scatter least. How
+# you find it is up to you.
 #
-# There are two points or more, not all in one place, and they may lie exactly on a line. The line
-# does not pass through the origin. Do not change the points that you are given.
+# You get two points or more. They are not all in one place, but they may lie exactly on a line. The line does not
+# pass through the origin. Do not change the points that you are given.
 
 
 # %%
@@ -82,22 +82,23 @@ def _():
 # %% [markdown]
 # ## Where two walls meet
 #
-# You have two lines of one scan, each with its covariance `R`. The errors of a line's ρ and α are
-# correlated; those of different lines are independent. Their corner **p** lies on both lines:
+# You have two lines of one scan, each with its covariance `R`. The errors of $\rho$ and $\alpha$ of a line are
+# correlated; those of different lines are independent. The corner $p$ lies on both lines. With
+# $n = (\cos\alpha, \sin\alpha)$ for the normal of a line,
 #
-# $$\mathbf n_1 \cdot \mathbf p = \rho_1, \qquad \mathbf n_2 \cdot \mathbf p = \rho_2, \qquad
-# \mathbf n = (\cos\alpha, \sin\alpha)$$
+# $$n_1 \cdot p = \rho_1, \qquad n_2 \cdot p = \rho_2.$$
 #
-# **Predict first.** Two walls at a right angle; only the α of the first is unsure. Along which wall
+# **Predict first.** Two walls meet at a right angle, and only the $\alpha$ of the first is unsure. Along which wall
 # is the corner unsure?
 #
-# **Your task.** The corner and its covariance `P`. Differentiate n·p = ρ on both sides:
+# **Your task.** Return the corner and its covariance `P`, as in (08.9). You need not solve for $p$ by hand to
+# differentiate it. Differentiate both sides of $n \cdot p = \rho$ instead:
 #
-# $$\mathbf n \cdot d\mathbf p = d\rho - (\mathbf n' \cdot \mathbf p)\, d\alpha, \qquad
-# \mathbf n' = (-\sin\alpha, \cos\alpha)$$
+# $$n \cdot \mathrm dp = \mathrm d\rho - (n' \cdot p)\, \mathrm d\alpha, \qquad
+# n' = (-\sin\alpha, \cos\alpha).$$
 #
-# The walls are at least 10° from parallel. ρ may be zero or negative, α may be any angle, and the
-# covariance of a line that is known exactly is zero. Do not change the arguments.
+# The walls are at least 10° from parallel. $\rho$ may be zero or negative, and $\alpha$ may be any angle. A line that
+# is known exactly has a covariance of zero. Do not change the arguments.
 
 
 # %%
@@ -123,7 +124,7 @@ def corner(z1, R1, z2, R2):
 check("08-corner")
 
 # %% [markdown]
-# 500 scans of the same corner; 95 of 100 should lie inside your ellipse.
+# Below are the corners of 500 scans. Of every 100, some 95 should lie inside your ellipse.
 
 
 # %%
@@ -141,19 +142,20 @@ def _():
 # %% [markdown]
 # ## Which wall was it?
 #
-# The scan shows m walls, `z` (m, 2): each row is a ρ and an α. The map expects N walls at
-# `expected` (N, 2), and for each of them the innovation has the covariance `S` (N, 2, 2).
+# The scan shows $m$ walls: each row of `z` (m, 2) is a $\rho$ and an $\alpha$. Of the map's $N$ walls the robot
+# expects to see `expected` (N, 2), and for each of them the innovation has the covariance `S` (N, 2, 2).
 #
-# **Predict first.** A sighting is 0.1 m and 0.1 rad off what is expected of wall A, 0.3 m and 0 rad
-# off wall B. Which is nearer? What do you have to know to answer?
+# **Predict first.** A sighting is 0.1 m and 0.1 rad off what is expected of wall A, and 0.3 m and 0 rad off wall B.
+# Which is nearer? What do you have to know to answer?
 #
-# **Your task.** Pair sightings with walls by the squared Mahalanobis distance
+# **Your task.** Pair sightings with walls by the square of the Mahalanobis distance (08.11),
 #
-# $$d^2 = \mathbf v^\top S^{-1} \mathbf v, \qquad \mathbf v = \mathbf z - \text{expected, its angle wrapped.}$$
+# $$d^2 = v^{\mathsf T} S^{-1} v,$$
 #
-# Of all pairs with $d^2 \le$ `gate` make the nearest first, then the next nearest of those that are
-# left, and so on. Each wall and each sighting is used at most once. The map may be empty (N = 0),
-# and so may the scan (m = 0). Do not change the arguments.
+# where the innovation $v$ is the sighting minus what is expected, with its angle wrapped. Of all pairs with
+# $d^2 \le$ `gate`, make the nearest first, then the nearest of those that are left, and so on. Each wall and each
+# sighting is used at most once. The map may be empty ($N = 0$), and so may the scan ($m = 0$). Do not change the
+# arguments.
 
 
 # %%
@@ -182,8 +184,8 @@ def associate(z, expected, S, gate):
 check("08-associate")
 
 # %% [markdown]
-# The example of the lesson: the robot's heading is unsure, its place is not. Wall 0 is farther by
-# Pythagoras, and yet:
+# This is the lesson's example, with a heading that is unsure and a place that is not. By Pythagoras wall 0 is the
+# farther one. By your function?
 
 
 # %%
@@ -198,32 +200,31 @@ def _():
 # %% [markdown]
 # ## A round pillar
 #
-# The lesson's RANSAC takes the flat side of a pillar for a wall. Let us look for pillars themselves.
-# A reading **p** on a circle with centre **c** and radius r obeys $|\mathbf p - \mathbf c|^2 = r^2$.
-# That is not linear in **c** and r. But multiply it out, and call $d = r^2 - |\mathbf c|^2$:
+# The lesson's RANSAC sometimes takes the side of a pillar for a wall. Let us look for the pillars themselves. A
+# reading $p$ on a circle round the centre $c$ obeys $|p - c|^2 = \text{radius}^2$, which is not linear in what we
+# look for. But multiply it out, and give $\text{radius}^2 - |c|^2$ a name of its own, $d$:
 #
-# $$2\,\mathbf c \cdot \mathbf p + d = |\mathbf p|^2$$
+# $$2\,c \cdot p + d = |p|^2.$$
 #
-# This *is* linear, in $c_x$, $c_y$ and $d$: three points determine them, and more points do so by
-# least squares.
+# This *is* linear, in $c_x$, $c_y$ and $d$. Three points determine the three of them; with more points, least
+# squares does.
 #
-# **Predict first.** How many readings have to be drawn for one guess? If 60 % of the readings are of
-# the pillar, which share of the guesses is of the pillar alone? And what does a guess look like that
-# was drawn from a *wall*: which centre, which radius?
+# **Predict first.** How many readings have to be drawn for one guess? If 60 % of the readings are of the pillar,
+# which share of the guesses is of the pillar alone? And if all readings of a guess are of a *wall*: which centre does
+# it get, and which radius?
 #
-# **Your task** is two functions. `fit_circle` returns the circle whose c and d have the least sum of
-# squared differences between the two sides of the equation above, over all points. It is given three
-# points or more, which are not all on one line.
+# **Your task** is two functions. `fit_circle` returns the circle whose $c$ and $d$ make the sum of the squared
+# differences between the two sides of the equation least, over all points. It is given three points or more, which
+# are not all on one line.
 #
-# `find_pillar` is RANSAC. It guesses `tries` times: draw three different readings with `rng` and take
-# the circle through them. A guess whose radius is above `largest` [m] is no pillar and does not
-# count. For the others, count the readings that are within `band` [m] of the circle, on either side
-# of it. Of the guess with the most, refit the circle on those that agreed (with your `fit_circle`),
-# and return it with them; where the best guess has fewer than `needed` (3 or more), return `None`.
+# `find_pillar` is RANSAC. It guesses `tries` times: draw three different readings with `rng`, and take the circle
+# through them. A guess whose radius is above `largest` [m] is no pillar and does not count. For each of the others,
+# count the readings that are within `band` [m] of the circle, on either side of it. Take the guess on which most
+# readings agree, refit the circle to these readings with your `fit_circle`, and return it together with them. If
+# fewer than `needed` (3 or more) agree with the best guess, return `None`.
 #
-# The readings come in no order. There may be fewer than three, and some that you draw may lie
-# *exactly* on one line: no circle goes through those, and your function has to go on. Do not change
-# the points that you are given.
+# The readings come in no order. There may be fewer than three. Some that you draw may lie *exactly* on one line; no
+# circle goes through those, and your function has to go on. Do not change the points that you are given.
 
 
 # %%
@@ -269,7 +270,7 @@ def find_pillar(points, band, largest, needed, tries, rng):
 check("08-pillar")
 
 # %% [markdown]
-# A pillar of 40 cm before a wall, and some clutter. The wall has more readings than the pillar:
+# Here is a pillar of 40 cm before a wall, with some clutter. The wall has more readings than the pillar has.
 
 
 # %%
@@ -300,37 +301,32 @@ def _():
 # %% [markdown]
 # ## Make it better: all walls of a scan
 #
-# One wall is a beginning; a map needs all of them. In these rooms a quarter of the beams meet
-# something that is no wall: people, bags, chairs' legs. Windows of 25 neighbours, as in the thesis,
-# never pass there.
+# One wall is a beginning, but a map needs all of them. In these rooms a quarter of the beams meet something that is
+# no wall: people, bags, the legs of chairs. A window of 25 neighbours is hardly ever free of clutter there.
 #
-# **Predict first.** With a quarter of clutter, how likely are nine neighbouring readings all of the
-# wall? And two neighbours?
+# **Predict first.** With a quarter of clutter, how likely is it that nine neighbouring readings are all of the wall?
+# And two neighbours?
 #
-# **Your task.** Give each reading the number of its wall: readings of one wall get the same number,
-# other walls another one, clutter gets −1. All readings of one *straight line* are of one wall, also
-# where something stands before its middle. Which numbers you use does not matter, if they are whole
-# and 0 or more.
+# **Your task.** Give each reading the number of its wall. Readings of one wall get the same number, those of another
+# wall another one, and clutter gets −1. All readings of one *straight line* are of one wall, even where something
+# stands before its middle. Which numbers you use does not matter, as long as they are whole and 0 or more.
 #
-# Any method will do. The readings `points` are one turn of a lidar that stands at the origin, in the
-# order of their bearing, so the last one is the neighbour of the first. Each range errs by `share` of
-# itself (1σ, along the beam). A scan has 180 readings or more of some six to ten walls. Do not change
-# the points, and keep an eye on the time: a scan should not take much longer than 10 ms.
+# Any method will do. The readings `points` are one turn of a lidar that stands at the origin. They come in the order
+# of their bearing, so the last one is the neighbour of the first. Each range errs by `share` of itself ($1\sigma$,
+# along the beam). A scan has 180 readings or more, of some six to ten walls. Do not change the points, and keep an eye
+# on the time: a scan should not take much longer than 10 ms.
 #
-# **How it is scored.** Each of your walls stands for at most one true wall, and each true wall for at
-# most one of yours; in the pairing that suits you best, the readings that both have are *right*. The
-# share is
+# **How it is scored.** Each of your walls stands for at most one true wall, and each true wall for at most one of
+# yours. In the pairing that suits you best, the readings that both have are *right*. Your share is
 #
-# $$\frac{2 \cdot \text{right}}{\text{readings of true walls} + \text{readings you gave a number}}$$
+# $$\frac{2 \cdot \text{right}}{\text{readings of true walls} + \text{readings you gave a number}},$$
 #
-# averaged over scans, and 1 if all is right. True walls with fewer than eight readings are passed
-# over. There are four steps, from 0.7 to 0.92. The grader draws other rooms, so leave the step that
-# you aim at some margin.
+# averaged over scans; it is 1 if all is right. True walls with fewer than eight readings are passed over. There are
+# four steps, from 0.7 to 0.92. The grader draws other rooms, so leave some margin above the step that you aim at.
 #
-# If you lack a beginning: find the line that most readings agree on, take these away, and so on.
-# Then ask yourself which guesses are worth making, how wide the band should be near and far, straight
-# on and at a slant (the lesson's "Not all readings are alike"), and who gets a reading that two lines
-# want.
+# If you do not know how to begin: find the line that most readings agree on, take these readings away, and look for
+# the next. Then ask yourself three questions. Which guesses are worth making? How wide should the band be near and
+# far, straight on and at a slant (the lesson's "How sure is that line?")? And who gets a reading that two lines want?
 
 
 # %%
@@ -385,7 +381,7 @@ def segment(points, share):
 check("08-segments")
 
 # %% [markdown]
-# One of these rooms, a colour and a mark a wall:
+# Here is one of these rooms; each of your walls has a colour and a mark.
 
 
 # %%
@@ -419,5 +415,5 @@ def _():
 # %% [markdown]
 # ## Done?
 #
-# Save the notebook. The cell below then says what the grader will say about it;
-# the grader draws other inputs. The next lesson puts walls into a filter that drives.
+# Save the notebook. The cell below then says what the grader will say about it; the grader draws other inputs. The
+# next lesson puts walls into a filter that drives.

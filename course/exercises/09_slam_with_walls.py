@@ -2,20 +2,22 @@
 # # Exercise 09 · SLAM with walls
 #
 # **You will be able to** run EKF-SLAM on walls: place one, see it again, keep count of its life,
-# say where it ends and how sure that is, and draw a room without what only seemed a wall.
+# say where it ends and how sure that is, and draw a room without the things that only looked like
+# walls.
 #
-# **60 minutes. Before:** lesson 09; exercise 06 for the filter on points.
+# **60 minutes. Before:** [lesson 09](../notebooks/09_slam_with_walls.ipynb), and exercise 06 for the
+# filter on points.
 #
-# Replace each `raise NotImplementedError(...)` by your code, run the cell, then run the check below
-# it, as often as you like. A check tries random inputs and others that are as special as the text
-# allows. Where a law is broken it shows a small input that breaks it, and `hint("09-place")` in a
-# cell of your own leads on. No function may change what it is given: whoever called it still needs
-# it.
+# Replace each `raise NotImplementedError(...)` by your code and run the cell. Then run the check below
+# it, as often as you like. A check tries random inputs, and others that are as special as the text
+# allows. Where your function breaks a law, the check shows a small input that breaks it, and
+# `hint("09-place")` in a cell of your own leads on. No function may change what it is given, since
+# whoever called it still needs it.
 #
-# A wall is the line of all points (a, b) with a cos α + b sin α = ρ. The robot at `[x, y, θ]` sees
-# it at `z = [ρ', α']`: how far from the robot, and where the normal points, counted from the
-# heading. The state is `x = [x, y, θ, ρ_0, α_0, ρ_1, α_1, …]`. Metres and radians throughout;
-# `wrap` takes an angle to (−π, π].
+# A wall is the line of all points $(a, b)$ with $a \cos\alpha + b \sin\alpha = \rho$. The robot at
+# $x, y, \theta$ sees it at $z = (\rho', \alpha')$: how far it is from the robot, and where its normal
+# points, counted from the heading. In the code the state is `x = [x, y, θ, ρ_0, α_0, ρ_1, α_1, …]`. We
+# use metres and radians throughout, and `wrap` takes an angle to $(-\pi, \pi]$.
 
 # %%
 import numpy as np
@@ -28,18 +30,20 @@ from slamlab.layers import Ellipses, Poses, Segments
 # %% [markdown]
 # ## Place a wall
 #
-# The robot at `x`, which errs with covariance `P` (3, 3), sees a wall at `z`, which errs with `R`
-# (2, 2). With α = θ + α',
+# The robot's pose `x` errs with covariance `P` (3, 3). It sees a wall at `z`, which errs with `R`
+# (2, 2). By (09.2) of the lesson,
 #
-# $$\rho = \rho' + x \cos\alpha + y \sin\alpha$$
+# $$ \alpha = \theta + \alpha', \qquad \rho = \rho' + x \cos\alpha + y \sin\alpha. $$
 #
-# **Predict first.** The robot stands far from the world's origin and is unsure of θ. Which of the
-# wall's two numbers suffers? Which errors does the wall share with the robot?
+# **Predict first.** The robot stands far from the world's origin and is unsure of $\theta$. Which of
+# the wall's two numbers suffers? Which errors does the wall share with the robot?
 #
-# **Your task.** The line (ρ, α) in the world, its covariance C = J_x P J_xᵀ + J_z R J_zᵀ, and
-# X = J_x P, which it shares with the pose. J_x (2, 3) and J_z (2, 2) are the slopes of the line by
-# the pose and by z: derive them, and mind that α is inside the cosine, too. Where ρ comes out
-# negative, leave it so: the normal goes on pointing away from the robot.
+# **Your task.** Return the line $(\rho, \alpha)$ in the world, its covariance
+# $C = J_{\mathrm r} P J_{\mathrm r}^{\mathsf T} + J_z R J_z^{\mathsf T}$, and
+# $X = J_{\mathrm r} P$, the covariance of the line's error with the pose's. The Jacobians of the line
+# with respect to the pose, $J_{\mathrm r}$ (2, 3), and with respect to $z$, $J_z$ (2, 2), are yours to
+# derive. Mind that $\alpha$ stands inside the cosine, too. Where $\rho$ comes out negative, leave it
+# so: the normal goes on pointing away from the robot.
 
 
 # %%
@@ -63,9 +67,9 @@ def place(x, P, z, R):
 check("09-place")
 
 # %% [markdown]
-# Your function at work. The same wall, seen 2 m ahead, from a robot that is unsure of its heading
-# by 2°: at the origin, then 5 m to the side of it. Before you run it: in which of the two is ρ
-# worse known?
+# Here is your function at work. A robot that is unsure of its heading by 2° sees a wall 2 m ahead,
+# first from the origin and then from 5 m to the side of it. Before you run the cell: from where is
+# $\rho$ less certain?
 
 
 # %%
@@ -81,18 +85,19 @@ def _():
 # %% [markdown]
 # ## See it again
 #
-# Wall `j` is seen again, at `z`. From the robot it should be at
+# Wall `j` is seen again, at `z`. By (09.1) of the lesson the robot expects it at
 #
-# $$\rho' = \rho - x \cos\alpha - y \sin\alpha, \qquad \alpha' = \alpha - \theta$$
+# $$ \rho' = \rho - x \cos\alpha - y \sin\alpha, \qquad \alpha' = \alpha - \theta. $$
 #
-# **Predict first.** H has 2 rows. Which columns are not zero? Which entry would be wrong if angles
-# were in degrees?
+# **Predict first.** $H$ has two rows. Which of its columns are not zero? Which entries would be wrong
+# if angles were in degrees?
 #
-# **Your task.** x and P after the update, over the whole state: v = z − h, S = H P Hᵀ + R,
-# K = P Hᵀ S⁻¹, x ← x + K v, P ← P − K S Kᵀ. The map holds one wall or more; the wall may be behind
-# the robot, and the robot may head for −x, where θ and α jump from π to −π. A wall may be so near
-# that x has the robot beyond it: then the ρ' that is expected is negative, and remains so. It does
-# not matter whether the angles in the new x lie within ±π.
+# **Your task.** Return $x$ and $P$ after the update of the whole state: $v = z - h$,
+# $S = H P H^{\mathsf T} + R$, $K = P H^{\mathsf T} S^{-1}$, $x \leftarrow x + K v$,
+# $P \leftarrow P - K S K^{\mathsf T}$. The map holds one wall or more. The wall may be behind the robot,
+# and the robot may head for $-x$, where $\theta$ and $\alpha$ jump from $\pi$ to $-\pi$. A wall may be
+# so near that the estimate has the robot beyond it; then the expected $\rho'$ is negative, and stays
+# so. The angles in the new $x$ need not lie within $\pm\pi$.
 
 
 # %%
@@ -123,21 +128,21 @@ check("09-update")
 # ## Sightings and lives
 #
 # A book says of each wall how often it was seen and how many lives it has left:
-# `book[id] = (sightings, lives left)`. Each scan gives `seen`, a list of ids.
+# `book[id] = (sightings, lives left)`. Each scan gives `seen`, a list of ids. These are the rules:
 #
 # - A new id comes into the book with one sighting and all `lives`.
-# - A wall that is seen counts one sighting more and gets all its lives back. It may stand in a scan
-#   more than once: one look is one sighting.
-# - A wall that is not seen loses a life; at 0 it leaves the book. If it comes back, it is new.
+# - A wall that is seen gets one more sighting, and all its lives back. It may stand in a scan more than
+#   once; one look is one sighting.
+# - A wall that is not seen loses a life. At 0 it leaves the book, and if it comes back, it is new.
 # - `used` are the walls of *this scan* that have been seen `N` times or more, this time included.
 #
 # **Predict first.** With `lives = 3`, a wall is seen, missed in two scans, and seen again. Is it in
 # the book all the time? And with three scans missed?
 #
-# **Your task.** The book after the scan, and the list of ids used, in any order. Book and scan may be
-# empty, ids are whole numbers from 0 on, and N and lives are 1 or more. The check begins with an empty
-# book and hands yours on from scan to scan; it shows its scans as rows of a table that is filled up
-# with −1, and what your book says as a row for each scan with a column for each id.
+# **Your task.** Return the book after the scan, and the list of the ids used, in any order. Book and
+# scan may be empty, ids are whole numbers from 0 on, and `N` and `lives` are 1 or more. The check begins
+# with an empty book and hands yours on from scan to scan. It shows its scans as rows of a table that is
+# filled up with −1, and what your book says as a row for each scan with a column for each id.
 
 
 # %%
@@ -165,8 +170,9 @@ check("09-life")
 # %% [markdown]
 # ## Through a corridor
 #
-# Here is the rest of the filter, as in exercise 06. A new wall shares errors with *everything* the
-# pose is correlated with: `place` gives X = J_x P for the pose alone, and X P⁻¹ is J_x again.
+# Here is the rest of the filter, as in exercise 06. A new wall shares errors with *everything* that the
+# pose is correlated with. `place` gives $X = J_{\mathrm r} P$ for the pose alone, and $X P^{-1}$ is
+# $J_{\mathrm r}$ again.
 
 
 # %%
@@ -189,9 +195,9 @@ def add(x, P, z, R):
 
 
 # %% [markdown]
-# Ten metres down a corridor, of which only the two walls are seen, with your `place` and `update`.
-# Before you run it: which of three σ grow, that of the place along the corridor, of the place across
-# it, of the distance from the left wall?
+# With your `place` and `update` a robot drives ten metres down a corridor, of which it sees only the two
+# walls. Before you run the cell: which of three $\sigma$ will grow, that of the place along the
+# corridor, of the place across it, of the distance from the left wall?
 
 
 # %%
@@ -214,31 +220,32 @@ def _():
 
 
 # %% [markdown]
-# **See:** along the corridor σ should grow as the wheels' noise does: nothing measures it. The
-# distance from the wall should stay known to a centimetre. And yet the place *across* is less and
-# less known: the whole corridor hangs on the heading with which its walls were placed, and the
-# farther away, the more that swings.
+# **See:** along the corridor $\sigma$ should grow as the noise of the wheels adds up, since nothing
+# measures it. The distance from the wall should stay known to a centimetre. And yet the place *across*
+# is less and less certain: the direction of the whole corridor comes from the heading with which its
+# walls were placed, and an error of that direction matters more, the farther the robot has come.
 #
 # ## Where a wall ends
 #
 # A line has no ends, but a wall has: a door-post, a corner. The robot sees the end of wall `j` as the
-# last beam that still meets it, in the direction β from its heading. How far that single beam went
-# is a poor reading; where it meets the line, the filter knows far better. So the end is
+# last beam that still meets it, in the direction $\beta$ from its heading. The range of that single beam
+# is a poor reading. The filter knows far better where the beam meets the line. So the end is
 #
-# $$p = \begin{bmatrix} x \\ y \end{bmatrix} + r
+# $$ p = \begin{bmatrix} x \\ y \end{bmatrix} + r
 # \begin{bmatrix} \cos(\theta + \beta) \\ \sin(\theta + \beta) \end{bmatrix},
-# \qquad \text{with } r \text{ such that } p \text{ lies on the wall.}$$
+# \qquad \text{with } r \text{ such that } p \text{ lies on the wall.} $$
 #
-# The beam's direction errs by σ, for the wall ends somewhere between it and the next. That error has
-# nothing to do with those of the state, but all of the state's hang together. The lesson draws its
-# walls from end to end and never asks how sure these ends are; its derivation of `place` covers it.
+# The beam's direction errs by $\sigma$, since the wall ends somewhere between this beam and the next.
+# That error has nothing to do with those of the state, while the errors of the state depend on each
+# other. The lesson draws its walls from end to end and never asks how sure these ends are. What you need
+# is the recipe of `place`: an estimate is a function of things that err.
 #
-# **Predict first.** The beam meets the wall at a slant. In which direction is the end known worst?
+# **Predict first.** The beam meets the wall at a slant. In which direction is the end least certain?
 # And if the robot errs by 10 cm along the wall, but the wall is known exactly?
 #
-# **Your task.** The end p, its covariance C, and X, what p shares with the whole state. Beam and
-# normal are less than 80° apart, and r is positive. The state holds one wall or more, P is
-# the covariance of all of it, and sigma may be 0.
+# **Your task.** Return the end $p$, its covariance $C$, and $X$, the covariance of its error with that of
+# the whole state. Beam and normal are less than 80° apart, and $r$ is positive. The state holds one wall
+# or more, $P$ is the covariance of all of it, and `sigma` may be 0.
 
 
 # %%
@@ -270,7 +277,7 @@ def end_point(x, P, j, beta, sigma):
 check("09-end")
 
 # %% [markdown]
-# Three beams from one robot to one wall, which is known to 2 cm and half a degree. Before you draw:
+# Three beams of one robot meet one wall, which is known to 2 cm and half a degree. Before you draw them:
 # how long will the three ellipses be, and which way will they lie?
 
 
@@ -292,32 +299,31 @@ def _():
 
 
 # %% [markdown]
-# **See:** across the wall all ends are known as well as the wall is. Along it, the flatter the beam,
-# the less: half a degree of a beam that grazes the wall is a long way on it.
+# **See:** across the wall, all ends are known as well as the wall is. Along it they are less certain, the
+# flatter the beam meets the wall: half a degree of a grazing beam is a long way on the wall.
 #
 # ## Make it better: a map without ghosts
 #
 # A robot goes once round a room with eight straight walls, and nobody tells it which wall is which.
 # A wall is *in view* while the robot is in front of it and within `far`; then four scans of five find
-# it. Not all that looks like a wall is one:
+# it. But not everything that looks like a wall is one:
 #
-# - in each scan up to two lines are nothing at all, and never come back,
-# - three things in the room, a cart, a screen, a row of chairs, are found as walls are, but they stand
-#   for 12 to 15 scans only. In a dozen others or more their places are in view, before or after, and
-#   nothing is there.
+# - In each scan, up to two lines are nothing at all, and never come back.
+# - Three things in the room, say a cart, a screen and a row of chairs, are found as walls are, but they
+#   stand there for 12 to 15 scans only. In a dozen other scans or more, before or after, their places
+#   are in view and nothing is there.
 #
-# Some walls are in view for longer than others; the shortest of them is found no more often than a
-# thing is. The wheels alone drift by a quarter of a radian on the way
-# round.
+# Some walls are in view for longer than others. The one that is in view for the shortest time is found no
+# more often than a thing is. The wheels alone drift by a quarter of a radian on the way round.
 #
 # **Predict first.** The lesson's rule takes in what is sighted three times. Which of the two kinds of
 # ghosts does it let in? Would five times help, or ten? And what does a book of lives do to the walls
 # that the robot has left behind?
 #
-# **Your task.** The walls of the room, as good a list as you can make of the whole drive. The first
-# scan is taken at the start, before the first drive. A wall is right if it is off by less than 50 cm,
-# as seen from the middle of the way, and 0.2 rad; each counts once. Points come in four steps; the
-# lesson's rule reaches the lowest. You may use all the functions above.
+# **Your task.** Return the walls of the room, as good a list as you can make of the whole drive. The
+# first scan is taken at the start, before the first drive. A wall is right if it is off by less than
+# 50 cm, as seen from the middle of the way, and 0.2 rad. Each counts once. Points come in four steps, and
+# the lesson's rule reaches the lowest. You may use all the functions above.
 
 
 # %%
@@ -360,8 +366,8 @@ def clean_map(x, P, drives, C, scans, R, far):
 check("09-ghosts")
 
 # %% [markdown]
-# A drive to look at, in a plain room with four walls and one cart that stands across it for twelve
-# scans. Before you run it: which of the five will your map hold?
+# Here is a drive to look at, in a plain room with four walls and one cart that stands across it for
+# twelve scans. Before you run the cell: which of the five will your map hold?
 
 
 # %%
@@ -402,10 +408,10 @@ def _():
 
 
 # %% [markdown]
-# **See:** four lines near four walls, and none where the cart stood. What is left of the error turns
-# the map as a whole: it hangs on the heading with which its first walls were placed.
+# **See:** there should be four lines near four walls, and none where the cart stood. The error that is
+# left turns the map as a whole. It comes from the heading with which its first walls were placed.
 #
 # ## Done?
 #
-# Save the notebook. The cell below then says what the grader will say about it;
-# the grader draws other inputs. Then drive the robot yourself: lesson 09 has the buttons.
+# Save the notebook. The cell below then says what the grader will say about it, but the grader draws
+# other inputs. Then drive the robot yourself: lesson 09 has the buttons.

@@ -1,22 +1,22 @@
 # %% [markdown]
-# # 10 · Boxes: exercise
+# # Exercise 10 · Boxes
 #
-# **You will be able to** write the pieces of a filter that never loses the truth: the box after a
-# drive, the edges of a sighting, the heading over the seam. You will derive what a sensor that
-# measures nothing but a range leaves of a box, and find out how small boxes can be made without
-# losing anything.
+# **You will be able to** write the pieces of a filter that does not lose the truth: the box after a drive, the
+# edges of a sighting, and the heading over the seam. You will derive what is left of a box by a sensor that
+# measures nothing but a range, and find out how small boxes can be made without losing anything.
 #
-# **60 minutes. Before:** lesson 10.
+# **60 minutes. Before:** lesson [10 · Boxes](../notebooks/10_boxes.ipynb).
 #
-# Replace each `raise NotImplementedError(...)` by your code, run the cell, then run the check below
-# it, as often as you like. A check tries random inputs and inputs at the edge of what is promised,
-# and tells you which law is broken.
+# Replace each `raise NotImplementedError(...)` by your code, run the cell, then run the check below it, as
+# often as you like. A check tries random inputs and inputs at the edges of what the text promises. Where a law is
+# broken it shows a small input that breaks it, and `hint("10-predict")` in a cell of your own leads on.
 #
-# Metres and radians throughout. A **box** is `[x_min, x_max, y_min, y_max]`; it may be a single
-# point. A **heading** is `[right, left]`: every direction met going counter-clockwise from right to
-# left. `right` lies in $(-\pi, \pi]$, `left` is not less than `right` and may be more than $\pi$. A
-# sighting is `z = [r, β]`, off by at most `bounds = [d_r, d_β]`. Arguments are arrays of floats or
-# numbers; leave them as they are, since the caller still needs them.
+# All lengths are in metres, all angles in radians. A **box** is `[x_min, x_max, y_min, y_max]`, and it may be a single
+# point. A **heading** is `[right, left]`: every direction that one meets going counter-clockwise from right to
+# left. `right` lies in $(-\pi, \pi]$; `left` is not less than `right`, and may be more than $\pi$. A
+# sighting is `z = [r, β]`. Its range is off by at most $d_r$ and its bearing by at most $d_\beta$, together
+# `bounds = [d_r, d_β]`. Arguments are arrays of floats, or numbers. No function may change the arrays it is given, because
+# whoever called it still needs them.
 
 # %%
 import numpy as np
@@ -29,18 +29,18 @@ from slamlab.layers import Boxes, Points
 # %% [markdown]
 # ## The box after a drive
 #
-# A robot somewhere in `box`, with any heading θ from right to left, drives a way w (from `way[0]` to
-# `way[1]`) in the direction θ + δ (δ from `direction[0]` to `direction[1]`):
+# A robot is somewhere in `box`, and its heading $\theta$ anywhere from right to left. It drives a distance $d$, from
+# `way[0]` to `way[1]`, in the direction $\theta + \delta$, with $\delta$ from `direction[0]` to `direction[1]`. By (10.3)
 #
-# $$x' = x + w\cos(\theta+\delta),\qquad y' = y + w\sin(\theta+\delta)$$
+# $$x' = x + d\cos(\theta+\delta),\qquad y' = y + d\sin(\theta+\delta).$$
 #
-# **Predict first.** The robot looks east, give or take 0.5 rad, and drives 1 m. What is the largest
-# x' − x? Do the two ends of the heading tell you?
+# **Predict first.** The robot looks north, give or take 0.5 rad, and drives 1 m. What is the largest
+# $y' - y$? Do the two ends of the heading tell you?
 #
-# **Your task.** The smallest box that holds every place where it may be. A way may be negative: the
-# robot backs. Any of the intervals may have no width, heading and direction together may be more than
-# a whole turn wide, and a direction may be several turns, such as 14 rad. Hint: write
-# `cosine_range(low, high)` first; what is the sine's?
+# **Your task.** Return the smallest box that holds every place where the robot may be afterwards. The distance may be
+# negative, when the robot backs. Any of the intervals may have no width; heading and direction together may be wider than
+# a whole turn; and a direction may be several turns, such as 14 rad. It helps to write a function
+# `cosine_range(low, high)` first. How do you get the sine's from it?
 
 
 # %%
@@ -71,7 +71,7 @@ def predict(box, heading, way, direction):
 check("10-predict")
 
 # %% [markdown]
-# 500 drives and your box. No point may lie outside, and each side should be touched.
+# These are 500 drives and your box. No point may lie outside, and there should be points near each side.
 
 
 # %%
@@ -80,7 +80,7 @@ def _():
     rng, heading, way = np.random.default_rng(1), (-0.7, 0.5), (0.8, 1.2)
     box = predict(np.zeros(4), np.array(heading), np.array(way), np.zeros(2))
     w, theta = rng.uniform(*zip(way, heading, strict=True), (500, 2)).T
-    fig, ax = views.axes("500 drives", size=(5, 4))
+    fig, ax = views.axes("500 drives", size=(8, 5))
     views.draw(ax, Points("samples", np.column_stack([w * np.cos(theta), w * np.sin(theta)])))
     views.draw(ax, Boxes("your box", [box]))
     views.legend(ax)
@@ -91,20 +91,19 @@ def _():
 # ## The edges of a sighting
 #
 # The robot sees an object at `z`, off by at most `bounds`. Its heading is known up to
-# `[right, left]`, so it looks along `direction` = middle of the heading + β, give or take
-# $d_{abs} = d_\beta + (left - right)/2$.
+# `[right, left]`, so it looks in the `direction` that is the middle of the heading plus $\beta$, and by (10.5) that
+# is off by at most $d_{\mathrm{abs}} = d_\beta + (\text{left} - \text{right})/2$.
 #
-# The places where the object may be lie between four **edges**: *far* and *near* stand across
-# `direction`, *left* and *right* are rays at `direction` $\pm\, d_{abs}$. An edge is a row
-# `[a, b, c]`: it allows $a x + b y \le c$, and $(a, b)$ points out.
+# The places where the object may be lie between four **edges**. *Far* and *near* stand at a right angle to
+# `direction`; *left* and *right* are the rays at `direction` $\pm\, d_{\mathrm{abs}}$. An edge is a row
+# `[a, b, c]`. It allows the places with $a x + b y \le c$, and its vector $(a, b)$, the lesson's $n$, points out.
 #
-# **Predict first.** How far from the robot is the near edge: $r - d_r$? Draw the piece of a ring, and
-# look at its inner corners. Then: the robot is not at one point but somewhere in its box. Which
-# point of the box decides how far each edge must be moved out?
+# **Predict first.** Draw the sector of a ring, and its near edge. Then ask: the robot is not at one point but somewhere in its
+# box. Which point of the box decides how far each edge must be pushed out?
 #
-# **Your task.** The four rows far, near, left, right (in this order), moved out for the robot's box.
-# Here $d_{abs}$ is well below $\pi/2$, and $r$ is not less than $d_r$; bounds may be 0, and the heading
-# may be known exactly. How long $(a, b)$ is does not matter.
+# **Your task.** Return four rows, for far, near, left and right in this order, pushed out for the robot's box.
+# Here $d_{\mathrm{abs}}$ is well below $\pi/2$, and $r$ is not less than $d_r$. Bounds may be 0, and the heading
+# may be known exactly. The length of $(a, b)$ does not matter.
 
 
 # %%
@@ -139,8 +138,8 @@ check("10-edges")
 
 
 # %% [markdown]
-# Your edges round four pieces of rings, one from each corner of the robot's box. The shaded sides
-# are forbidden; nothing orange may lie in them.
+# These are your edges round four sectors, one from each corner of the robot's box. The shaded sides are
+# forbidden, and nothing orange may lie in them.
 
 
 # %%
@@ -150,7 +149,7 @@ def _():
     heading = np.array([-0.1, 0.5])
     lines = edges(z, bounds, heading, box)
     direction, d_abs = heading.mean() + z[1], bounds[1] + 0.3
-    fig, ax = views.boxes.scene("Your edges", (-0.8, 4, -1, 3.2))
+    fig, ax = views.boxes.scene("Your edges", (-1.6, 4.8, -1, 3.2), size=(8, 5.6))
     for corner in [(x, y) for x in box[:2] for y in box[2:]]:
         ring = (2.2, 2.8), (direction - d_abs, direction + d_abs)
         views.boxes.sector(ax, corner, *ring, alpha=0.2)
@@ -163,19 +162,19 @@ def _():
 # %% [markdown]
 # ## The heading
 #
-# Wherever the robot is in its box and the object in its own, the bearing in the world from one to
-# the other lies between two extremes. The robot measured the bearing `bearing` relative to its
-# heading, off by at most `bound`. What is left of the heading?
+# Wherever the robot is in its box and the object in its own, the bearing in the world from the one to the other lies
+# between two extremes. The robot has measured the bearing relative to its heading, as `bearing`, off by at most `bound`. What
+# does (10.10) leave of the heading?
 #
-# The extreme bearings are among those from a corner of one box to a corner of the other.
+# The extreme bearings are among those that lead from a corner of one box to a corner of the other.
 #
-# **Predict first.** The object is due west: bearings of 3.1 and of −3.1. Which of the two is the
-# right one, which the left? And what does the sighting say when the two boxes overlap?
+# **Predict first.** The object is due west, and there are bearings of 3.1 and of −3.1. Which of the two is the
+# right end, which the left? And what does the sighting say when the two boxes overlap?
 #
-# **Your task.** The heading after the sighting, `[right, left]`; where the boxes overlap it is what it
-# was. Boxes either overlap or are clearly apart, they never just touch. The sighting agrees with the
-# heading, and what they have in common is one piece, never two. The bearing lies in $(-\pi, \pi]$.
-# `wrap` is at hand: compare angles only after counting them from one of them.
+# **Your task.** Return the heading after the sighting, `[right, left]`; where the boxes overlap it is what it was. Boxes
+# either overlap or are clearly apart; they never just touch. The sighting agrees with the heading, and what they have in
+# common is one piece, never two. The bearing lies in $(-\pi, \pi]$. You have `wrap`: compare angles only after you have
+# counted them from one of them.
 
 
 # %%
@@ -212,27 +211,26 @@ check("10-heading")
 # %% [markdown]
 # ## A range alone
 #
-# A radio beacon is timed, or an echo is: both tell how far, and nothing about the direction. The
-# range is `r`, off by at most `bound`. The places that may be seen are now a whole ring, and there is
-# no direction across which an edge could stand. Yet the lesson's derivation asks a question that can
-# be asked here as well: *which point leaves most room?*
+# A radio beacon is timed, or an echo is. Either tells how far away the object is, and nothing about its direction. The range is
+# `r`, off by at most `bound`. Now the possible places fill a whole ring, and there is no direction across which an edge
+# could stand. Yet the question behind (10.9) can be asked here as well: *which point leaves most room?*
 #
-# Let $(d_x, d_y)$ be the object's place minus the robot's. All that the range says is
+# Let $(\Delta x, \Delta y)$ be the object's place minus the robot's. All that the range says is
 #
-# $$(r - bound)^2 \le d_x^2 + d_y^2 \le (r + bound)^2$$
+# $$(r - d_r)^2 \;\le\; \Delta x^2 + \Delta y^2 \;\le\; (r + d_r)^2,$$
 #
-# where $r - bound$ is to be read as 0 if it is negative. The robot's and the object's box say between
-# which numbers $d_x$ lies, and $d_y$ by itself.
+# with `bound` for $d_r$, and with 0 for $r - d_r$ if that is negative. The two boxes say between which numbers
+# $\Delta x$ lies, and $\Delta y$ independently of it.
 #
 # **Predict first.** A robot stands at the origin, and the range is exactly 2 m. The object is known to
 # be in the box $-3 \le x \le 3$, $0 \le y \le 1$. Which $x$ are possible? What is the smallest box?
 #
-# Then: for which $d_y$ may $|d_x|$ be largest, and for which smallest? Some $d_x$ are negative, some
-# positive, and the robot's place is not known: what does that make of the object's $x$?
+# Then: for which $\Delta y$ can $|\Delta x|$ be largest, and for which can it be smallest? Some $\Delta x$ are negative and
+# some positive, and the robot's place is not known. What does that make of the object's $x$?
 #
-# **Your task.** The smallest box round all places of `box` that are so far away from some place of
-# `robot`; `None` where there is no such place. The two boxes may overlap. `r` and `bound` are not
-# negative; `r` may be less than `bound`. Circles never just touch: it is always clear what is left.
+# **Your task.** Return the smallest box round all places of `box` that have such a distance from some place of
+# `robot`, or `None` where there is no such place. The two boxes may overlap. `r` and `bound` are not
+# negative, and `r` may be less than `bound`. Circles never just touch a box, so it is always clear what is left.
 
 
 # %%
@@ -270,8 +268,8 @@ def ring(robot, box, r, bound):
 check("10-ring")
 
 # %% [markdown]
-# A box that a ring crosses twice, and what you keep of it. The dots are places that agree with the
-# range for some place of the robot; none may lie outside, and each side should be touched.
+# A ring crosses this box twice. The dots are places that agree with the range for some place of the robot. None may lie
+# outside of what you keep, and there should be dots near each side.
 
 
 # %%
@@ -281,7 +279,7 @@ def _():
     kept = ring(np.array(robot), np.array(box), 2.0, 0.1)
     stands, place = (rng.uniform(b[::2], b[1::2], (20_000, 2)) for b in (robot, box))
     agree = place[np.abs(np.hypot(*(place - stands).T) - 2.0) <= 0.1]
-    fig, ax = views.boxes.scene("Your ring", (-3.2, 3.4, -1.2, 3.4))
+    fig, ax = views.boxes.scene("Your ring", (-3.6, 3.8, -1.2, 3.4), size=(8, 5.4))
     views.draw(ax, Points("samples", agree), color=views.COLOURS["scan"])
     views.draw(ax, Boxes("robot", [robot]))
     views.draw(ax, Boxes("before", [box]))
@@ -297,10 +295,9 @@ def _():
 # ## As small as can be
 #
 # A robot stands somewhere in its box and looks round once. It sees objects whose places are known
-# exactly. `look` takes the sightings in one after the other as the lesson does: the robot's box is cut
-# by the edges seen from the object, that is with the heading turned by $\pi$, and then the heading is
-# sharpened. Where $d_{abs}$ is a right angle or more, four half-planes would cut off places that are
-# possible, so the box is left as it is.
+# exactly. `look` takes in the sightings one after the other, as the lesson does. The robot's box is cut by the edges seen from
+# the object, that is with the heading turned by $\pi$; then the heading is sharpened. Where $d_{\mathrm{abs}}$ is a right
+# angle or more, four edges would cut off places that are possible, so there the box is left as it is.
 
 
 # %%
@@ -345,22 +342,20 @@ def look(robot, heading, objects, z, bounds):
 
 
 # %% [markdown]
-# This is sound, and it gives much away. After one round box and heading are some five times as wide
-# as they would have to be; round after round, until nothing shrinks any more, they still are three
-# times as wide.
+# This is sound, and it gives much away. After one round the box and the heading are some five times as wide as they would have
+# to be. Round after round, until nothing shrinks any more, they are still three times as wide.
 #
 # **Predict first.** Two things make them wide. The edges are drawn for *all* headings from right to
 # left at once: what would they look like if the heading were known ten times as well? And after each
 # edge a box is put round what is left: which places come back by that?
 #
-# **Your task.** The smallest box and heading that you can *guarantee*, by any method: every pose
-# that agrees with all sightings, and with the box and the heading given, has to be inside. That is
-# checked, on many robots, for the poses farthest out. Besides, the average width of your boxes and
-# headings is compared with the smallest there are: no wider than those of `look` earns half a point,
-# at most 1.85, 1.6 and 1.4 times as wide as the smallest earn more, step by step.
+# **Your task.** Return the smallest box and heading that you can *guarantee*, by any method. Every pose that agrees with all
+# sightings, and with the box and the heading given, has to be inside. This is checked, on many robots, for the poses farthest
+# out. Besides, the average width of your boxes and headings is compared with the smallest there are: no wider than those of
+# `look` earns half a point, and at most 1.85, 1.6 and 1.4 times as wide as the smallest earns more, step by step.
 #
 # There may be one object, many, or none at all, and they may stand in the robot's box. left − right
-# is at most 4 rad. Ranges and bearings are off by at most `bounds`, which are above 0; no range is
+# is at most 4 rad. Ranges and bearings are off by at most `bounds`, which are above 0, and no range is
 # less than its bound. Bearings lie in $(-\pi, \pi]$. Some pose always agrees with everything. A robot
 # should not take longer than a tenth of a second.
 
@@ -415,8 +410,8 @@ def narrow(robot, heading, objects, z, bounds):
 check("10-narrow")
 
 # %% [markdown]
-# One of those robots. The dots are poses that agree with everything; the smallest box has them all
-# inside and is touched on every side.
+# This is one of those robots. The dots are poses that agree with everything. The smallest box has them all inside, and
+# dots near every side.
 
 
 # %%
@@ -434,7 +429,7 @@ def _():
         dx, dy = x - poses[:, 0], y - poses[:, 1]
         off = np.hypot(dx, dy) - seen[0], wrap(np.arctan2(dy, dx) - poses[:, 2] - seen[1])
         poses = poses[(np.abs(off) <= bounds[:, None]).all(axis=0)]
-    fig, ax = views.boxes.scene("Yours, and one round", (-0.7, 1.6, -0.9, 0.6))
+    fig, ax = views.boxes.scene("Yours, and one round", (-0.9, 1.6, -0.9, 0.6), size=(8, 5.2))
     views.draw(ax, Points("agree with all", poses[:, :2]), color=views.COLOURS["scan"])
     for name, box, colour in (("before", robot, "before"), ("yours", yours[0], "corrected")):
         views.draw(ax, Boxes(name, [box]), color=views.COLOURS[colour], linewidth=2.5)
@@ -449,5 +444,5 @@ def _():
 # %% [markdown]
 # ## Done?
 #
-# Save the notebook. The cell below then says what the grader will say about it;
-# the grader draws other inputs. The next lesson drops boxes and ellipses for a cloud of samples.
+# Save the notebook. The cell below then says what the grader will say about it; the grader draws other inputs.
+# **Next:** [lesson 11](../notebooks/11_samples.ipynb) drops boxes and ellipses for a cloud of samples.

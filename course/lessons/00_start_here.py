@@ -95,7 +95,7 @@ views.draw(ax, Poses("robot", pose))
 views.legend(ax, loc="upper right")
 views.show(fig, alt="Walls of a room in grey; a scan's points lie on those that face the lidar.")
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="00-missing"
 # The points lie on what faces the lidar. Behind the table in the middle, the cupboards and the
 # pillars there is nothing: **a scan is never the room, it is what one place sees of it**. This is
 # why a robot has to drive, and why it has to know where it was.
@@ -202,7 +202,7 @@ for theta in (25, 115):
     r, beta = models.h(np.array([2.5, 1.0, np.radians(theta)]), landmark)
     print(f"θ = {theta:3d}°   r = {r:.2f} m   β = {np.degrees(beta):6.1f}°")
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="00-turn"
 # The bearing loses what the heading gains, and the range $r$ does not change. A robot that misjudges
 # its heading therefore misjudges the direction of **everything** that it sees. Lesson 01 begins with
 # this.
@@ -244,7 +244,7 @@ for theta in (25, 115):
 # | | lesson | what it shows | lesson | exercise |
 # | --- | --- | --- | --- | --- |
 # | 08 | [Landmarks from scans](08_landmarks_from_scans.ipynb) | table legs, walls and corners found in a scan, and which of them were seen before | 75 min | 60 min |
-# | 09 | [SLAM with walls](09_slam_with_walls.ipynb) | a whole thesis system, driven live through two buildings; its flaws measured and mended | 90 min | 60 min |
+# | 09 | [SLAM with walls](09_slam_with_walls.ipynb) | a whole thesis system, driven live through two buildings; its flaws measured and mended | 60 min | 60 min |
 # | 10 | [Boxes](10_boxes.ipynb) | a filter that promises bounds, not likelihoods, and what one broken promise does | 90 min | 60 min |
 # | 11 | [Samples](11_samples.ipynb) | a cloud of guesses that can say "here or there", which no ellipse can | 90 min | 60 min |
 # | 12 | [Three filters, one robot](12_three_filters.ipynb) | box, ellipse and samples on the same three laps of a small robot, over eighty drives | 90 min | 60 min |

@@ -99,7 +99,7 @@ views.show(
     f"walls and ends {np.hypot(*gap[:2]):.1f} m from its start.",
 )
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="01-gap"
 # The true lap, in black, closes. The lap of the odometry leans over more and more, cuts through
 # walls and ends {= np.hypot(*gap[:2]):.1f =} m away from its start. Compare: 0.3 % of 42 m are only
 # {= 100 * 0.003 * 42:.0f =} cm. The gap is {= np.hypot(*gap[:2]) / (0.003 * 42):.0f =} times as
@@ -139,7 +139,7 @@ turned = np.degrees(robot.robot.turn_per_metre)
 print(f"{turned:.2f}° a metre make {42 * turned:.0f}° in 42 m")
 print(f"in the run above the lap ended turned by {np.degrees(gap[2]):.0f}°")
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="01-turn"
 # The unequal wheels explain {= 42 * turned:.0f =} of the {= abs(np.degrees(gap[2])):.0f =} degrees;
 # the misjudged distance between the wheels and their slip made the rest. An error of length is
 # added once, when it is made. An error of heading **stays**, and from then on every step goes the
@@ -195,7 +195,7 @@ views.show(
     "second corridor across the first.",
 )
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="01-smear"
 # Left, {= len(readings) =} scans fall on the same walls. Right, walls that were seen for a while
 # are smeared, and at the lower left two corridors cross where there is one: **the ends do not
 # meet**. The lidar is as good in this map as in the other. The poses are not, and a map is only as
@@ -471,7 +471,7 @@ views.show(
     fig, alt=f"Left the smeared corridor; right the matched one, sharp, closed to {miss:.0f} cm."
 )
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="01-cure"
 # The robot, its wheels and its scans are the same. On the right the walls are sharp, and the lap
 # misses its start by {= miss:.0f =} cm where odometry misses it by
 # {= 100 * np.hypot(*gap[:2]):.0f =}. Was this luck? We drive three more laps, and look at single
@@ -553,7 +553,7 @@ views.show(
     "whose walls stand twice.",
 )
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="01-again"
 # Mind the scales: the left map is {= long:.0f =} m long, the right one {= across:.0f =} m. By the
 # wheels alone the laps lie over each other, turned, until nothing can be made out. On the right
 # stands a building. Held

@@ -198,7 +198,7 @@ views.explore(
     heading_in_degrees=(-180, 180, 0),
 )
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="02-arc"
 # On the left every straight wall is an arc. Where two walls meet, two arcs meet; where something
 # hides what is behind it, $r$ *jumps*. Turn the robot, and the left picture slides sideways, while
 # the right one turns the other way: in its own frame the robot never turns.
@@ -397,7 +397,7 @@ views.explore(
     minus_forgotten=True,
 )
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="02-minus"
 # Each mirrored scan looks like a room, only another one, and nobody would notice. After the turn
 # the two disagree, and they disagree by *twice* the turn. So test a driver with a robot that turns.
 
@@ -518,7 +518,7 @@ views.explore(
     range_error_in_percent=(0.0, 1.0, 0.4),
 )
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="02-slant"
 # The marks lie on the curve: 0.4 % square on, and more than twice as much beyond 80°. A few lie far
 # above it. These are beams that pass close to an edge and meet now the near surface, now the one
 # behind it; no bell curve describes them.
@@ -640,7 +640,7 @@ views.explore(
     metres_to_the_door=(1.0, 3.0, 2.0),
 )
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="02-door"
 # At 25° {= heard(25, 2)[2] =} of 91 directions hears through the door, and the wall comes out bent.
 # At 0°, where the sensor is a lidar, {= heard(0, 2)[2] =} do. From
 # {= next(cone for cone in range(40) if heard(cone, 2)[2] == 0) =}° on the door is shut: a robot
@@ -712,7 +712,7 @@ for name, errors in wheel_errors.items():
     told = [f"{round(mean):4} ± {spread:2.0f}" for mean, spread in errors]
     print(f"{name:18}", "  ".join(told), "mm after 1, 4, 16 m")
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="02-wheels"
 # After sixteen times the way the ticks err by as little as before, slip by
 # {= wheel_errors["slip"][2][1] / wheel_errors["slip"][0][1]:.1f =} times as much, and the wrong
 # wheel by
@@ -888,7 +888,7 @@ views.explore(
     c_2_in_mm_per_square_metre=(0.0, 1.0, 0.0),
 )
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="02-far"
 # The guess fits at {= np.interp(0.004, share_class[4:], r_class[4:]):.1f =} m and nowhere else. At
 # {= r_class[0]:.1f =} m the real device is {= 0.004 / share_class[0]:.1f =} times better, and at
 # {= r_class[-1]:.1f =} m {= share_class[-1] / 0.004:.1f =} times worse. The data sheet's 0.75 %

@@ -243,7 +243,7 @@ views.explore(
     steps=(0, 12, 4),
 )
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="03-streak"
 # **See:** a streak that rises to the right, and an ellipse that holds it. Position and speed have
 # become *correlated*, though nothing but time has passed. Put the slider to 0 and go on step by
 # step. The filter draws this ellipse without knowing any of the dots. How does it do that?
@@ -491,7 +491,7 @@ left = rest * sp.Matrix([[a, c], [c, b]]) * rest.T + gains * R_1 * gains.T
 best = sp.solve([left.trace().diff(k_1), left.trace().diff(k_2)], [k_1, k_2])
 gains.subs(best)
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="03-speed"
 # The speed's gain is $c / (a + R)$: **without a covariance there is no correction.** Nobody
 # measures the speed. It is corrected through what it shares with the position, and through nothing
 # else.
@@ -615,7 +615,7 @@ views.explore(
     usual_sigma=(0.05, 0.3, 0.1),
 )
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="03-shape"
 # **See:** the carts believe a small innovation almost fully, and a very large one hardly at all.
 # The straight line of a gain can do neither. Now move the slider to the right end, where all
 # readings are equally good and the noise is a bell: the dots lie on the line.
@@ -633,7 +633,7 @@ for low, high in [(0, 0.5), (2, 2.5)]:
     those = (abs(odd_v) > low) & (abs(odd_v) < high)
     print(f"innovation {low} to {high} m: error left {np.std(remaining[those]):.2f} m")
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="03-shape"
 # A reading far off leaves a robot in doubt: was it the reading that was wrong, or its own belief?
 # The filter's $P$ is the same for all readings. It is right on average, and wrong for each of the
 # two groups.
@@ -707,7 +707,7 @@ views.show(
     f"to {happens[-1]:.2f}; the claim falls all the way to {claims[-1]:.2f}, below zero.",
 )
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="03-double"
 # **See:** the short form is right at $s = 0$ and $s = 1$ only. With a smaller gain it is too
 # modest, with a larger one it boasts: at $s = 2$ it claims a *negative* mean square. Joseph's form
 # (03.15) would pass through all the dots, and programs prefer it.
@@ -896,7 +896,7 @@ views.explore(
     believed_noise=(0.5, 2.0, 1.0),
 )
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="03-half-slip"
 # **See:** the right filter (blue) stays in the band. The other one (red) leaves it within seconds,
 # and is worst where nothing is measured and its trust in the wheels is all it has. Believe in
 # *twice* the slip, and NEES falls below the band. That is consistent by (03.18), but knowledge is
@@ -919,7 +919,7 @@ for name, believed in cases.items():
     nis, alike = whiteness(filtered(zs, *believed))
     print(f"{name:22} mean NIS {nis:.2f}   neighbours alike {alike:+.2f}")
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="03-half-slip"
 # The last filter is wrong twice, and its NIS hardly shows it: one mistake makes innovations larger,
 # the other makes $S$ larger, too. But its innovations resemble their neighbours. It is surprised to
 # the same side again and again, and learns nothing from it. So look at both numbers.

@@ -241,7 +241,7 @@ views.show(
     fig, f"Without a map the spread grows to {largest[0]:.2f} m, with one to {largest[1]:.2f}."
 )
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="05-largest"
 # Without a map the ellipses swell to {= largest[0]:.2f =} m on the far side of the lap. (On the way home
 # they shrink again: an error of the heading at the start turns the whole lap about its start.) With
 # the map the largest after the start measures {= largest[1]:.2f =} m, in a stretch where no landmark is
@@ -363,7 +363,7 @@ views.explore(
 )
 held = {s: agreeing_poses.share_inside(*where_may_it_be(1, s)[1:]) for s in (0.1, 1.5)}
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="05-circle"
 # The poses that agree with one sight lie on an arc round the landmark. The filter's ellipse (95 %) is narrow
 # towards the landmark and long across, as (05.7) says. Show it a second landmark, and a spot remains.
 #
@@ -436,7 +436,7 @@ views.explore(
 )
 off = {metres: two_halves.mean_nees(laps_located(metres, 20)).mean() for metres in (0.05, 0.3)}
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="05-wrong-map"
 # The scale is logarithmic. With landmarks off by 0.3 m, NEES is {= off[0.3]:.0f =} on average instead of 3,
 # and it does not recover: $P_{ii} = 0$ tells the filter that no landmark can be wrong. Even 0.05 m,
 # half of what the sensor errs by, makes it {= off[0.05]:.1f =}.
@@ -631,7 +631,7 @@ views.explore(
 )
 by_the_wheels = mean_spread(two_halves.draw_map(run, wheels))
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="05-trust"
 # The ellipses lie beside the crosses, and are as small as before. Now move the share to 0: the crosses
 # return into the ellipses. Is this lap an exception? Here are thirty.
 
@@ -693,7 +693,7 @@ left = [steps[values > high_20][0] for values in list(NEES.values())[1:]]
 said = f"NEES of both schemes rises to {min(peaks[1:]):.0f} and more; of one filter, "
 views.show(fig, f"{said}to {peaks[0]:.1f}, about where the band ends.")
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="05-turns"
 # Both schemes leave the band by step {= max(left) =} and climb to {= peaks[1]:.0f =} and
 # {= peaks[2]:.0f =}. Their errors are then {= np.sqrt(peaks[1] / 3):.0f =} and
 # {= np.sqrt(peaks[2] / 3):.0f =} times as large as they believe. One filter for pose and map, which keeps

@@ -126,7 +126,7 @@ P_doubt = np.diag([0.15, 0.15, 0.08]) ** 2
 sigma_seen = innovations(P_doubt)[:, 1].std()
 sigma_apart, sigma_together = (np.sqrt(S[1, 1]) for S in expected(P_doubt))
 
-# %% [markdown] slideshow={"slide_type": "subslide"}
+# %% [markdown] slideshow={"slide_type": "subslide"} answers="06-second"
 # The bearings of the 1000 robots scatter by {= sigma_seen:.3f =} rad. The filter that keeps
 # $P_{\mathrm ri}$ expects {= sigma_together:.3f =} rad, the other one {= sigma_apart:.3f =}. Move the sliders:
 # however lost the robots are, their innovations stay as small, since each landmark is lost *with* its robot.
@@ -221,7 +221,7 @@ mak.predict(compose(mak.pose, STEP), Q_STEP)
 changed = np.sum(before != mak.P)
 print(f"100 landmarks: a drive changes {changed} of the {before.size} numbers in P")
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="06-drive"
 # These are the 9 of the corner and 8 for each landmark, a stripe along two edges. A drive costs a time that grows
 # with $N$, not with $N^2$.
 
@@ -312,7 +312,7 @@ views.show(
     "and the upright one without P_ni does not.",
 )
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="06-strangers"
 # Where landmark $i$ lies farther up than believed, so does $n$: the correlation is {= rho_in:.2f =}. The same robot
 # placed both. Without $P_{ni}$ the filter would expect cases that hardly ever happen, at the upper left, and rule
 # out some that do, at the upper right.
@@ -438,7 +438,7 @@ views.show(
     f"{far['b']:.0f} cm; a moves by {far['a']:.1f} cm.",
 )
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="06-unseen"
 # Nobody looked at $b$, and yet it moved by {= far["b"]:.0f =} cm and grew surer. It had been placed by the robot, and
 # the robot has learned how wrong it was. $a$ moved by {= far["a"]:.1f =} cm only, for it was the sure one: the
 # information went from $a$ to whoever needed it.
@@ -527,7 +527,7 @@ views.show(
     f"{100 * own[-1]:.0f} cm, its σ with it; odometry's error goes on growing to {wheels[-1]:.1f} m.",
 )
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="06-drift"
 # While all landmarks are new, the filter drifts: a map of its own making cannot tell the robot where it is. In this
 # run its error reaches {= own.max():.1f =} m. In {= np.sum(by_filter < by_wheels) =} of 20 such runs it drifts less
 # than the wheels. It *knows* that it drifts, for its σ grows along with its error. And then, at step
@@ -601,7 +601,7 @@ views.show(
     f"{len(shrunk)} are smaller by a fifth or more.",
 )
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="06-shrink"
 # {= np.sum(shrunk > 0) =} of {= len(shrunk) =} ellipses shrank within six steps, among them those on the far side,
 # which have long been out of sight. In the order in which the landmarks were found, they lost this share of their
 # area:
@@ -760,7 +760,7 @@ views.explore(
     turn_noise=(0.2, 3.0, 1.8),
 )
 
-# %% [markdown] slideshow={"slide_type": "subslide"}
+# %% [markdown] slideshow={"slide_type": "subslide"} answers="06-honest"
 # With a short sight and poor wheels, NEES is {= short.mean():.1f =} on average, and {= short.max():.0f =} at
 # its peak. With the same wheels and a sight of 4 m it is {= far_sighted.mean():.1f =}; the first robot's was
 # {= as_before.mean():.1f =}. The robot's error is smaller than the wheels' in {= better[1.5] =} of the 12 runs with
@@ -829,7 +829,7 @@ for name, end in table.items():
     print(f"{name:28} {end.landmarks:6.2f} {end.robot:10.2f} {end.claimed:12.2f} {end.nees:7.1f}")
 print(f"{'wheels alone':28} {wheels_last:17.2f}")
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="06-order"
 # The map errs {= wrong_order.landmarks / right_order.landmarks:.1f =} times as much, and NEES is
 # {= wrong_order.nees:.0f =} instead of {= right_order.nees:.1f =}. The map still looks like a map, and the robot is
 # still better than its wheels. Such a mistake survives unless somebody computes NEES.

@@ -336,7 +336,7 @@ views.explore(
     landmark=(0, 15, 5),
 )
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="07-closing"
 # The true way is black, the estimate blue. A landmark's colour is its correlation with the one in
 # the square, whose rows and columns are framed on the right (of the 2 × 2 block, the mean of x with
 # x and y with y). Just before the loop closes, 5 and its neighbours are red: they err *together*.
@@ -408,7 +408,7 @@ print(f"{strong.sum()} strong correlations of x with y: {against:.0%} are negati
 print(f"{as_foretold:.0%} have the sign that (07.9) foretells")
 print(f"of all the map's variance, {shifts:.0%} is displacement and {turn:.0%} a turn")
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="07-sign"
 # Just before the loop closes, {= 100 * (shifts + turn):.0f =} % of the map's variance is that of a
 # stiff plate that is pushed about on a table. Only the rest bends the map. So the *shape* of the map
 # is known better than its place. We shall meet this twice again.
@@ -479,7 +479,7 @@ views.explore(
     wheel_noise=(0.5, 2.0, 1.0),
 )
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="07-drop"
 # With all terms NEES never exceeds {= mean_nees(1.0).max():.1f =}, and the band ends at
 # {= band(3, RUNS)[1]:.1f =}. With none it climbs to {= mean_nees(0.0).max():.0f =}: errors
 # {= np.sqrt(mean_nees(0.0).max() / 3):.0f =} times as large as claimed. It falls when the loop
@@ -586,7 +586,7 @@ views.show(
     "rises again; a landmark's and a vector's only fall.",
 )
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="07-grow"
 # The robot's curve rises until the loop closes, falls steeply, and rises again. Landmark 5 and the
 # vector from 5 to 6 only go down. And the vector is known better than the landmark: what the two
 # landmarks share drops out of their difference.
@@ -683,7 +683,7 @@ views.explore(
     start_sigma=(0.0, 0.4, 0.2),
 )
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="07-limit"
 # With a compass the landmark comes down to the grey line, the doubt about the start: after twelve
 # rounds it is known to {= own[-1]:.3f =} m. The vector to the next landmark, at
 # {= vector[-1]:.3f =} m, goes on falling.
@@ -769,7 +769,7 @@ fig, ax = views.growth(
 )
 views.show(fig, f"Memory runs beside the line N²; time grows as N to the {slope:.1f} at the end.")
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="07-price"
 # On these axes a power is a straight line, and its slope is the exponent. Memory follows (07.13).
 # Time is flat at first, where calling functions costs more than arithmetic; from 400 landmarks on
 # it grows as $N^{ {= slope:.1f =} }$ on the machine that ran this. As long as every number of $P$
@@ -924,7 +924,7 @@ views.explore(
     first_estimates=False,
 )
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="07-rank"
 # Of the three red bars, which must vanish, one does not. (What the other two show is rounding.)
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"] answers="07-rank"

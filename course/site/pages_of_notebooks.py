@@ -4,7 +4,8 @@ import copy
 import re
 
 from course.site.moving_outputs import with_moving
-from course.site.questions import asks, question
+from course.questions import asks
+from course.site.questions import question
 
 NOTE = "notes"
 PLACEHOLDER = re.compile(r"Run this cell [^.]*\.")  # words in place of a widget

@@ -1,10 +1,12 @@
 """Questions of a lesson on its page: each choice unfolds to what is to be said of it."""
 
-import ast
 import html
 from dataclasses import dataclass
 
 import nbformat
+
+from course.questions import asked
+from slamlab.checks.stored_questions import stored_question
 
 
 @dataclass(frozen=True)
@@ -39,33 +41,16 @@ def question(code):
     -------
     Question
     """
-    call = _call(code)
-    if call is None:
-        return None
     try:
-        return _read(call)
+        told = asked(code)
     except ValueError:  # no literal
         return None
+    if told and "text" not in told:
+        told |= stored_question(told["id"])
+    return _read(told) if told else None
 
 
-def asks(code):
-    """Whether a cell of code asks a question.
-
-    Parameters
-    ----------
-    code : str
-
-    Returns
-    -------
-    bool
-    """
-    return _call(code) is not None
-
-
-def _read(call):
-    names = ("id", "text", "choices")
-    told = dict(zip(names, map(ast.literal_eval, call.args), strict=False))
-    told |= {each.arg: ast.literal_eval(each.value) for each in call.keywords}
+def _read(told):
     right = told["right"]
     if "choices" in told:
         return Question(told["text"], told["choices"], right)
@@ -74,18 +59,6 @@ def _read(call):
     wrong = {f"{value:g}{unit}": why for value, why in told.get("wrong", {}).items()}
     ordered = sorted((found | wrong).items(), key=lambda each: float(each[0].split()[0]))
     return Question(told["text"], dict(ordered), f"{right:g}{unit}")
-
-
-def _call(code):
-    """The call of ``ask`` at the top level of some code, or None."""
-    try:
-        body = ast.parse(code).body
-    except SyntaxError:
-        return None
-    calls = [each.value for each in body if isinstance(each, ast.Expr)]
-    named = [each for each in calls if isinstance(each, ast.Call)]
-    asked = [each for each in named if isinstance(each.func, ast.Name) and each.func.id == "ask"]
-    return asked[0] if asked else None
 
 
 def _fold(choice, said, is_right):

@@ -3,7 +3,7 @@
 Read in this order:
 
 - here: check, hint, ask, attempt, validate; ``time_limit``: their timeout
-- ``ladder``: what hint says; ``questions``: what ask shows
+- ``ladder``: what hint says; ``questions``: what ask shows, ``stored_questions``: of lessons
 - ``notebook_file``: where this notebook stands, what of it is not saved
 - ``validation``: a whole notebook judged as grading judges it
 - ``setup_check``: whether this machine has what the course needs
@@ -55,7 +55,7 @@ def hint(task_id):
     print(said)
 
 
-def ask(id, text, choices=None, right=None, *, tolerance=None, unit="", reason="", wrong=None):
+def ask(id, text=None, choices=None, right=None, *, tolerance=None, unit="", reason="", wrong=None):
     """Ask a question of a lesson, with choices or for a number; the answer opens what follows.
 
     Each answer gets its reason. It goes into the progress and nowhere else: nothing is graded.
@@ -63,7 +63,7 @@ def ask(id, text, choices=None, right=None, *, tolerance=None, unit="", reason="
     Parameters
     ----------
     id : str such as "04-leaning"; a cell marked ``answers="04-leaning"`` opens when it is answered
-    text : str, the question, Markdown
+    text : str, the question, Markdown; None: all but the id is stored, as of all lessons
     choices : dict or None, choice to the reason why it is right or wrong; None asks for a number
     right : str or float, the right choice or number
     tolerance : float, how far a number may be off
@@ -73,10 +73,12 @@ def ask(id, text, choices=None, right=None, *, tolerance=None, unit="", reason="
 
     Raises
     ------
-    ValueError : choices without the right one, a number without a tolerance
+    ValueError : choices without the right one, a number without a tolerance, an unknown id
     """
-    from slamlab.checks import questions
+    from slamlab.checks import questions, stored_questions
 
+    if text is None:
+        return ask(id, **stored_questions.stored_question(id))
     if choices is not None:
         questions.ask_choice(id, text, choices, right)
     else:

@@ -17,6 +17,8 @@ BISECTOR_GATE = np.radians(30)  # corners of one map that might be confused diff
 def squared_distances(mak, z, R):
     """Squared Mahalanobis distance vᵀ S⁻¹ v of every observation to every landmark.
 
+    The square of equation (08.11).
+
     S_i = H_r P_rr H_rᵀ + H_r P_ri H_pᵀ + (H_r P_ri H_pᵀ)ᵀ + H_p P_ii H_pᵀ + R
 
     Parameters

@@ -13,6 +13,7 @@ def squared_difference(mak, i, j):
     """Squared Mahalanobis distance of two landmarks from being one: dᵀ D⁻¹ d of d = p_j − p_i.
 
     D = P_ii − P_ij − P_ji + P_jj; if they are one, it is χ² of 2 degrees of freedom.
+    Equation (09.4).
 
     Parameters
     ----------
@@ -34,7 +35,7 @@ def merge(mak, kept, gone):
     """Merge two landmarks: the update by d = p_gone − p_kept = 0 with R = 0; one leaves the state.
 
     P ← P − P Hᵀ (H P Hᵀ)⁻¹ H P with H = ∂d/∂x, after which both are equal for sure. Of copies that
-    are independent the information adds up: P⁻¹ = P_kept⁻¹ + P_gone⁻¹.
+    are independent the information adds up: P⁻¹ = P_kept⁻¹ + P_gone⁻¹. Equation (09.3).
 
     Parameters
     ----------

@@ -13,7 +13,7 @@ import sqlalchemy as sa
 from slamlab.grading import gradebook_rows, older_gradebooks
 from slamlab.grading import remarks as by_hand
 from slamlab.grading.database import Database, GradebookError
-from slamlab.grading.ledger import chain_merging, chains, contents, forgetting, sightings
+from slamlab.grading.ledger import chain_merging, chains, contents, forgotten_students, sightings
 from slamlab.grading.ledger.chains import LEDGER, Entry
 
 
@@ -259,7 +259,7 @@ class Gradebook:
         -------
         list of Record, his attempts as they were
         """
-        told = self._write(lambda c: forgetting.forget(c, student, self.who))
+        told = self._write(lambda c: forgotten_students.forget(c, student, self.who))
         return [gradebook_rows.stored_record(record) for record in told]
 
     def _read(self, work):

@@ -28,6 +28,7 @@ def corners(lines, reach=0.4, min_angle=0.5):
     """Extract the corners, intersections of the lines of one scan.
 
     n_1·p = ρ_1, n_2·p = ρ_2; the slope of p by (ρ, α) of each line carries their covariances.
+    Equation (08.9).
 
     Parameters
     ----------

@@ -1,7 +1,7 @@
 """Line fitting: weighted total least squares of scan points, each weighed by its own noise.
 
-Minimised are the residuals, Σ e² / σ², e = a cos α + b sin α − ρ, over distance ρ and direction α
-of the normal. Unlike y = a x + b it has no walls it cannot fit.
+Minimised are the residuals, Σ e² / σ², e = p_x cos α + p_y sin α − ρ, over distance ρ and direction
+α of the normal. Unlike y = m x + c it has no walls it cannot fit.
 """
 
 from dataclasses import dataclass
@@ -106,6 +106,8 @@ def cloud(scan, sensor, floor=0.002):
 def total_least_squares(points):
     """Total least squares (orthogonal regression): the line of points of equal noise.
 
+    Equations (08.5) and (08.6).
+
     Parameters
     ----------
     points : (n, 2) [m], at least two
@@ -124,7 +126,7 @@ def fit(cloud, rows, start=None, iterations=ITERATIONS):
     """Fit a line to points of a scan, each weighed by its own noise: maximum likelihood.
 
     By Gauss-Newton. A point errs along its beam, so it slides along a slanting wall as it
-    leaves it; where on the wall it belongs its beam tells, not its range.
+    leaves it; where on the wall it belongs its beam tells, not its range. Its R is equation (08.8).
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Lines of walls as Smolec's listing finds them: round a number of random readings, y = a x + b.
+"""Lines of walls as Smolec's listing finds them: round a number of random readings, y = m x + c.
 
 :mod:`slamlab.landmarks.ransac` is the same with what is mended: found readings are used up, and
 every direction can be fitted.
@@ -8,9 +8,9 @@ import numpy as np
 
 
 def ordinary_least_squares(points):
-    """Ordinary least squares of y = a x + b, as ρ and α: a line along y has no a.
+    """Ordinary least squares of y = m x + c, as ρ and α: a line along y has no m.
 
-    a = S_xy / S_xx,  b = ȳ − a x̄; the normal is along (−a, 1)
+    m = σ_xy / σ_x²,  c = ȳ − m x̄; the normal is along (−m, 1). Equation (08.1).
 
     Parameters
     ----------

@@ -31,6 +31,8 @@ MAX_SHARED = 0.3  # of a wall's readings, that a better supported one holds alre
 def slant(beta, alpha, half_cone):
     """Angle between a wall's normal and where its echo comes from: u = β − α less the half cone.
 
+    Equation (09.7).
+
     Parameters
     ----------
     beta : (...,) directions of beams [rad]

@@ -54,7 +54,8 @@ def g(x, z):
 def h_line(x, line):
     """Line observation model: distance and direction of a wall's line seen from a pose.
 
-    ρ' = ρ − x cos α − y sin α,  α' = α − θ, for the line of all (a, b) with a cos α + b sin α = ρ
+    ρ' = ρ − x cos α − y sin α,  α' = α − θ, for the line of all p with p_x cos α + p_y sin α = ρ.
+    Equation (08.10).
 
     The normal keeps pointing the way it did when the line was placed, so ρ' is negative for whom
     has gone through the wall; nothing jumps there.
@@ -77,7 +78,7 @@ def h_line(x, line):
 def g_line(x, z):
     """Inverse line observation model: the line that a pose sees at a distance and direction.
 
-    α = θ + α',  ρ = ρ' + x cos α + y sin α
+    α = θ + α',  ρ = ρ' + x cos α + y sin α. Equation (09.2).
 
     Parameters
     ----------

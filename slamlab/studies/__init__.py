@@ -2,12 +2,18 @@
 
 - ``consistency`` (with ``ideal_filter``): NEES of EKF-SLAM; ``boxes``: BOR's guarantee
 - ``walls``: Smolec's SLAM by its parts; ``feet``: his listing, and what its verdict hangs on
+- ``wall_loop``: that SLAM in small, for lesson 09; ``spoilt_walls``: the loop with one part spoilt;
+  ``corridor``: walls measured, and feet of walls; ``heard_walls``: walls by ultrasound;
+  ``line_truth``: lines against the true walls
 - ``three``: BOR, MAK, Monte Carlo, with ``three_records`` of each drive, ``three_rows`` of its
   table, ``three_costs``
 - ``two_halves``, ``halves_in_turn``, ``agreeing_poses``: the laps of lesson 05, run where they
   stand
-- ``broken_slam``: EKF-SLAM with one thing wrong, for lesson 06
+- ``broken_slam``: EKF-SLAM with one thing wrong, for lesson 06; ``broken_bounds``: BOR with a bound
+  broken, and beside EKF-SLAM, for lesson 10
 - ``shared_errors``, ``forgetting``, ``observability``: the experiments of lesson 07
+- ``found_walls``: recall and false metres of line extraction, ``walls_on_trial``: which walls enter
+  a map, both for lesson 08
 - ``small_errors``: what a Jacobian foretells, and what a wrong one does, in lesson 04
 - ``intel_maps``: the maps of a real log that lesson 01 shows; ``a2_at_rest``: statistics of a real
   lidar, for lesson 02

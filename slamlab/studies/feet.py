@@ -72,8 +72,30 @@ def _rms(source, readings, slam):
     for reading in readings:
         slam.step(reading)
         poses.append(slam.pose[:2].copy())
-    errors = np.array(poses) - source.truth.poses[:, :2]
+    errors = np.array(poses) - source.truth.poses[: len(poses), :2]
     return np.sqrt(np.mean(np.sum(errors**2, axis=1)))
+
+
+def listing(situation, steps, beams=THESIS_LIDAR.beams, **options):
+    """Drive the listing through the first steps of a situation, seed 1, and odometry beside it.
+
+    Parameters
+    ----------
+    situation : str, such as "situation-2"
+    steps : int
+    beams : int, of the lidar
+    options : of :class:`FootSlam`, such as ``mends``
+
+    Returns
+    -------
+    slam : FootSlam, after the last step
+    rms : float, root mean square error of its position [m]
+    rms_odometry : float [m]
+    """
+    source = simulation(situation, np.random.default_rng(1), replace(THESIS_LIDAR, beams=beams))
+    slam = FootSlam(source.robot, source.sensor, np.random.default_rng(1), **options)
+    readings = list(source)[:steps]
+    return slam, _rms(source, readings, slam), _rms(source, readings, DeadReckoning())
 
 
 def study(runs, jobs=None, scheduler=None):

@@ -13,6 +13,20 @@ from slamlab.parallel import RunError
 TABLES = Path(__file__).parent.parent / "data" / "studies"  # the stored tables
 
 
+def stored(name):
+    """The stored table of a study.
+
+    Parameters
+    ----------
+    name : str, of the study's module
+
+    Returns
+    -------
+    dict
+    """
+    return json.loads((TABLES / f"{name}.json").read_text(encoding="utf-8"))
+
+
 def parser(name, runs):
     """Argument parser of a study's command line.
 

@@ -36,7 +36,7 @@ def angle_sum(a, b):
 
 
 def contains(a, angle):
-    """Whether an interval contains an angle (membership, wrapped)."""
+    """Whether an interval contains an angle (membership, wrapped). Equation (10.2)."""
     return (angle - a[0]) % (2 * pi) <= width(a)
 
 

@@ -7,7 +7,7 @@ def clip(box, edge):
     """Clip a box by a half-plane: the smallest box (hull) of the part inside.
 
     A point (x, y) of it has a x ≤ c − b y; the most that allows for x is with the y of the box that
-    makes b y least. The same for y.
+    makes b y least. The same for y. Equation (10.9).
 
     Parameters
     ----------

@@ -61,6 +61,7 @@ def contract_heading(heading, robot, box, z, bounds):
     """Contract the heading: bearings between two boxes, turned back by β ± d_β (5.2.8).
 
     θ ∈ bearings − [β − d_β, β + d_β]. An intersection of two pieces is enclosed by one interval.
+    Equation (10.10).
 
     Parameters
     ----------

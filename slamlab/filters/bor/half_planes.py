@@ -16,6 +16,8 @@ SIDE_NORMALS = (1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)
 def absolute_bearing(heading, z, bounds):
     """Absolute bearing of an observation and its half-width: β + θ, d_abs = d_β + d_θ (5.2.5).
 
+    Equation (10.5).
+
     Parameters
     ----------
     heading : (right, left) of the robot [rad]
@@ -48,12 +50,29 @@ def edges(z, bounds, direction, d_abs, origin):
     r, dr = z[0], bounds[0]
     if d_abs >= pi / 2:
         return tuple(offset_edge(a, b, r + dr, origin) for a, b in SIDE_NORMALS)
+    return tuple(offset_edge(*edge, origin) for edge in sector_edges(r, dr, direction, d_abs))
+
+
+def sector_edges(r, dr, direction, d_abs):
+    """Half-planes (edges) of a sector of a ring as seen from the origin; valid for d_abs < π/2.
+
+    Equation (10.6).
+
+    Parameters
+    ----------
+    r, dr : float, range and its bound [m]
+    direction, d_abs : float, absolute bearing and its half-width [rad]
+
+    Returns
+    -------
+    far, near, left, right : half-planes (a, b, c)
+    """
     u, left, right = direction, direction + d_abs, direction - d_abs
     return (
-        offset_edge(cos(u), sin(u), r + dr, origin),
-        offset_edge(-cos(u), -sin(u), -max(r - dr, 0.0) * cos(d_abs), origin),
-        offset_edge(-sin(left), cos(left), 0.0, origin),
-        offset_edge(sin(right), -cos(right), 0.0, origin),
+        (cos(u), sin(u), r + dr),
+        (-cos(u), -sin(u), -max(r - dr, 0.0) * cos(d_abs)),
+        (-sin(left), cos(left), 0.0),
+        (sin(right), -cos(right), 0.0),
     )
 
 
@@ -68,7 +87,7 @@ def reversed_edges(z, bounds, direction, d_abs, target):
 def offset_edge(a, b, c, origin):
     """Offset a half-plane to hold for every origin in a box (Minkowski sum with the box).
 
-    c' = c + max (a x + b y) over the box
+    c' = c + max (a x + b y) over the box. Equation (10.8).
 
     Parameters
     ----------

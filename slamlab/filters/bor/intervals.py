@@ -22,7 +22,7 @@ def scaled(factor, a):
 
 
 def product(a, b):
-    """Interval product: the smallest and the largest of the four products of the ends."""
+    """Interval product: the smallest, the largest of the ends' four products. Equation (10.4)."""
     products = a[0] * b[0], a[0] * b[1], a[1] * b[0], a[1] * b[1]
     return min(products), max(products)
 

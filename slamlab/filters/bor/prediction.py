@@ -22,7 +22,7 @@ def predict_box(robot, heading, distance, direction, turn):
     """Prediction of the robot's box and heading by the motion model.
 
     x' = x + w cos(θ + δ),  y' = y + w sin(θ + δ),  θ' = θ + τ; every quantity stands once in each,
-    so the bounds are the tightest there are.
+    so the bounds are the tightest there are. Equation (10.3).
 
     Parameters
     ----------

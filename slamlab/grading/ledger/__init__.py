@@ -3,7 +3,8 @@
 Read in this order:
 
 - ``chains``: the rows, their hashes, and how one is appended
-- ``chain_merging``: two ledgers in one; ``forgetting``: what is deleted when a student asks for it
+- ``chain_merging``: two ledgers in one; ``forgotten_students``: what is deleted when one of them
+  asks for it
 - ``contents``: notebooks' cells and workers' outputs, kept compressed by their hashes
 - ``sightings``: in which order the judge first saw what was handed in
 - ``chain_proof``: whether a row was altered; ``score_proof``: whether the judge says the same again

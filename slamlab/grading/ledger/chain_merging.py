@@ -3,7 +3,7 @@
 import sqlalchemy as sa
 
 from slamlab.grading.database import GradebookError
-from slamlab.grading.ledger import chains, forgetting
+from slamlab.grading.ledger import chains, forgotten_students
 from slamlab.grading.ledger.chains import LEDGER
 
 
@@ -53,7 +53,7 @@ def merge(connection, theirs, who):
     if not new:
         return
     connection.execute(sa.insert(LEDGER), new)
-    forgetting.forget_rows(connection, forgetting.forgotten(connection))
+    forgotten_students.forget_rows(connection, forgotten_students.forgotten(connection))
     before = chains.own_head(connection)
     body = {"ours": [before["chain"], before["number"], before["hash"]], "theirs": heads(theirs)}
     chains.append(connection, [chains.Entry("merge", body)], who)

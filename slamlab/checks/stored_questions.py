@@ -1,0 +1,30 @@
+"""What the lessons ask, as stored: a notebook asks by the id, so that no code tells answers."""
+
+import json
+from importlib import resources
+
+
+def stored_question(id):
+    """Look up what is asked by an id.
+
+    Parameters
+    ----------
+    id : str such as "04-leaning"
+
+    Returns
+    -------
+    dict, the arguments of :func:`slamlab.checks.ask` but for the id
+
+    Raises
+    ------
+    ValueError : there is no such question
+    """
+    lesson = id.split("-")[0]
+    file = resources.files("slamlab").joinpath("data", "questions", f"{lesson}.json")
+    asked = json.loads(file.read_text(encoding="utf-8")) if file.is_file() else {}
+    if id not in asked:
+        raise ValueError(f"there is no question {id!r}: its text, and what is right, must be given")
+    told = asked[id]
+    if "wrong" in told:
+        told["wrong"] = dict(told["wrong"])  # pairs, for JSON's keys are no numbers
+    return told

@@ -1,0 +1,172 @@
+"""``python -m slamlab.studies.heard_walls``: SLAM with the walls that an ultrasonic sensor hears.
+
+Drives through the room of lesson 01, each with odometry, with the cone model, and with a sensor
+model that keeps silent about its cone, so that RANSAC takes the echoes for points of walls.
+"""
+
+import sys
+from dataclasses import replace
+
+import numpy as np
+
+from slamlab.estimators.dead_reckoning import DeadReckoning
+from slamlab.estimators.wall_slam import GATE, WallSlam
+from slamlab.evaluation import band, nees
+from slamlab.geometry import wrap
+from slamlab.landmarks.sonar_lines import sonar_lines
+from slamlab.parallel import map_runs
+from slamlab.simulation.range_scanners import ULTRASONIC
+from slamlab.sources.simulated_robot import THESIS_ROBOT, simulation
+from slamlab.studies import feet, study_command
+from slamlab.studies.line_truth import expected_from, lines_of
+from slamlab.studies.spoilt_walls import errors
+from slamlab.studies.study_command import TABLES, package_versions, rounded, seeds
+
+TABLE = TABLES / "heard_walls.json"
+WORLD = "room-ultrasonic"
+LEAST = feet.LEAST
+SLOPES = (0, 10, 20, 25, 30)  # that a wall has to be followed over [deg]
+INCIDENCES = (90, 30, 20, 10)  # beyond which a smooth wall mirrors the sound away [deg]
+STEPS = slice(15, 80, 13)  # at which NEES is taken
+CONE, RAYS, SLIP, WHEELS = "cone model", "lidar's lines", "cone model, wheels slip", "odometry"
+
+
+def rays(sensor):
+    """A sensor model that keeps silent about its cone.
+
+    Parameters
+    ----------
+    sensor : SensorModel
+
+    Returns
+    -------
+    SensorModel
+    """
+    return replace(sensor, half_cone=0.0)
+
+
+def is_no_wall(line, pose, walls):
+    """Whether a line that was heard at a true pose is off every wall, by its own covariance.
+
+    Parameters
+    ----------
+    line : Line
+    pose : (3,) [m, m, rad]
+    walls : (n, 4) x1 y1 x2 y2 [m]
+
+    Returns
+    -------
+    bool
+    """
+    off = line.z - expected_from(pose, lines_of(walls))
+    off[:, 1] = wrap(off[:, 1])
+    return bool(nees(off, np.broadcast_to(line.R, (len(off), 2, 2))).min() > GATE)
+
+
+def errors_of(seed):
+    """One drive: each estimator's error, NEES, and the lines that slopes and mirrors leave.
+
+    Parameters
+    ----------
+    seed : int
+
+    Returns
+    -------
+    dict, name to (rms [m], (5,) NEES, walls in the map), slope to (lines, of them no wall),
+    incidence to (echoes, lines)
+    """
+    source = simulation(WORLD, np.random.default_rng(seed))
+    slipping = simulation(WORLD, np.random.default_rng(seed), robot=THESIS_ROBOT)
+    rng = np.random.default_rng(0)
+    found = {
+        WHEELS: _driven(source, DeadReckoning()),
+        RAYS: _driven(source, WallSlam(source.robot, rays(source.sensor), rng)),
+        CONE: _driven(source, WallSlam(source.robot, source.sensor, rng)),
+        SLIP: _driven(slipping, WallSlam(slipping.robot, slipping.sensor, rng)),
+    }
+    readings = list(source)
+    for slope in SLOPES:
+        heard = [
+            is_no_wall(line, pose, source.world.walls)
+            for reading, pose in zip(readings, source.truth.poses, strict=True)
+            for line in sonar_lines(reading.scan, ULTRASONIC.model, np.radians(slope))
+        ]
+        found[f"slope {slope}"] = len(heard), sum(heard)
+    for incidence in INCIDENCES:
+        mirror = replace(ULTRASONIC, max_incidence=np.radians(incidence))
+        scans = [r.scan for r in simulation(WORLD, np.random.default_rng(seed), lidar=mirror)]
+        count = sum(len(sonar_lines(scan, ULTRASONIC.model)) for scan in scans)
+        found[f"incidence {incidence}"] = sum(scan.valid.sum() for scan in scans), count
+    return found
+
+
+def _driven(source, slam):
+    poses, P = [], []
+    for reading in source:
+        slam.step(reading)
+        poses.append(slam.pose.copy())
+        if hasattr(slam, "filter"):
+            P.append(slam.filter.block([0, 1, 2]))
+    off = errors(source, np.array(poses))
+    rms = np.sqrt(np.mean(np.sum(off[:, :2] ** 2, axis=1)))
+    if not P:
+        return rms, np.full(5, np.nan), 0
+    return rms, nees(off[STEPS], np.array(P)[STEPS]), len(slam.filter.ids)
+
+
+def study(runs, jobs=None, scheduler=None):
+    """The tables: medians over the drives, paired differences to odometry, mean NEES.
+
+    Parameters
+    ----------
+    runs : int; seeds 0 to runs − 1
+    jobs, scheduler : see :func:`slamlab.parallel.map_runs`
+
+    Returns
+    -------
+    dict
+
+    Raises
+    ------
+    ValueError : fewer runs than 6
+    """
+    results = map_runs(errors_of, seeds(runs, LEAST), jobs, scheduler)
+    wheels = np.array([one[WHEELS][0] for one in results])
+    drives = {}
+    for name in (WHEELS, RAYS, CONE):
+        off = np.array([one[name][0] for one in results])
+        walls = np.median([one[name][2] for one in results])
+        drives[name] = feet.row(off, wheels) | {"better": np.sum(off < wheels), "walls": walls}
+    sizes = {name: np.mean([one[name][1] for one in results], axis=0) for name in (CONE, SLIP)}
+    return {
+        "versions": package_versions(),
+        "seeds": [0, runs - 1],
+        "band_95": band(3, runs),
+        "seed_0": {name: round(float(results[0][name][0]), 6) for name in (*drives, SLIP)},
+        "drives": rounded(drives),
+        "nees": {name: [round(float(each), 4) for each in row] for name, row in sizes.items()},
+        "slopes": [
+            dict(zip(("degrees", "lines", "no_wall"), _sums(results, "slope", each), strict=True))
+            for each in SLOPES
+        ],
+        "incidences": [
+            dict(
+                zip(("degrees", "echoes", "lines"), _sums(results, "incidence", each), strict=True)
+            )
+            for each in INCIDENCES
+        ],
+    }
+
+
+def _sums(results, name, degrees):
+    counts = np.sum([one[f"{name} {degrees}"] for one in results], axis=0)
+    return [degrees, *map(int, counts)]
+
+
+def main(argv=None):
+    """The command: run the study, write its table; exit code 0, or 2 on an error."""
+    return study_command.main("heard_walls", 20, study, argv)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
