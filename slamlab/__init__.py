@@ -36,6 +36,7 @@ checks           what notebooks call: ``check``, ``hint``, ``ask``, ``validate``
 lecturing        a lesson's slides rehearsed and printed, in a browser without a window
 studies          tables of many runs, each made by a command
 listening        one guard for whatever listens on the network
+reviewing        a class's marks in a page, changed by hand: ``slamlab grade review``
 console          SLAM live in a page of the browser, driven there: ``slamlab live``
 audience         a lecture's class: its phones see the slide and are asked; ``audience.start``
 cli              the command ``slamlab``

@@ -123,6 +123,14 @@ def term_of(arguments):
     return found
 
 
+def open_page(address):
+    """Open a page in a browser, or say that there is none."""
+    import webbrowser
+
+    if not webbrowser.open(address):
+        print("no browser was found: open that address in one", flush=True)
+
+
 class Interruptible:
     """Wrapper of a source that ends it, not the program, at Ctrl-C or when devices are lost.
 

@@ -5,7 +5,13 @@ import sys
 from contextlib import nullcontext
 from pathlib import Path
 
-from slamlab.cli.common import SOURCES, add_estimator_options, estimator_options, generator
+from slamlab.cli.common import (
+    SOURCES,
+    add_estimator_options,
+    estimator_options,
+    generator,
+    open_page,
+)
 
 FIRST_READING_TIMEOUT = 10.0  # [s]: a lidar's motor takes some seconds to turn evenly
 
@@ -101,14 +107,7 @@ async def _served(arguments, stepper):
         print(f"open {address}")
         print("0.5, 30 drives (metres, degrees); an empty line stops; reset; exit", flush=True)
         if not arguments.no_open:
-            _open(address)
+            open_page(address)
         terminal.hear(desk, asyncio.get_running_loop())
 
     await serve(desk, arguments.port, begun)
-
-
-def _open(address):
-    import webbrowser
-
-    if not webbrowser.open(address):
-        print("no browser was found: open that address in one", flush=True)

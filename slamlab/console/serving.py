@@ -5,7 +5,6 @@ import contextlib
 import json
 import logging
 import secrets
-import signal
 import time
 from importlib.resources import files
 
@@ -15,6 +14,7 @@ from slamlab.console.desk import TICK
 from slamlab.console.watchers import PageScreen
 from slamlab.listening import guard
 from slamlab.listening.door import Door
+from slamlab.listening.ending import end_on_signals
 from slamlab.listening.entrance import Enter
 from slamlab.listening.rates import Bucket, Rate
 from slamlab.views.player.library import HERE as PLAYER
@@ -141,7 +141,7 @@ async def serve(desk, port=0, begun=lambda address: None):
     # a cookie is sent to every port of an address: its name says whose it is
     door = Door(f"slamlab-live-{secrets.token_hex(4)}")
     server, port = guard.listen(routes(desk), guard.Guard(door), port=port)
-    _end_on_signals(desk)
+    end_on_signals(desk.over.set)
     try:
         begun(f"http://127.0.0.1:{port}/#{door.token}")
         while not desk.over.is_set():
@@ -155,9 +155,3 @@ async def serve(desk, port=0, begun=lambda address: None):
         for socket in tuple(desk.sockets):
             socket.close(1001, "The program has ended.")
         await asyncio.sleep(TICK)  # for that to be heard
-
-
-def _end_on_signals(desk):
-    for name in ("SIGINT", "SIGTERM", "SIGHUP"):
-        with contextlib.suppress(NotImplementedError, AttributeError, RuntimeError, ValueError):
-            asyncio.get_running_loop().add_signal_handler(getattr(signal, name), desk.over.set)

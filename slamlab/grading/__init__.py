@@ -11,10 +11,10 @@ Read in this order:
   ``sandbox`` (``bubblewrap``, ``landlock``, ``seccomp``), ``quotas``, ``tree_removal``,
   ``isolation``; ``probe`` and ``probe_drives``: the self-test
 - ``gradebook``, ``gradebook_rows``, ``database``, ``ledger``, ``older_gradebooks``, ``marks``,
-  ``late_policy``, ``toml_files``: attempts, overrides, late policy
+  ``remarks``, ``late_policy``, ``toml_files``: attempts, overrides, late policy
 - ``evidence``, ``course_digests``, ``rejudging``, ``rejudge_report``: judging again, by another
   version, what is kept of an attempt
-- ``feedback``, ``redaction``, ``local_times``, ``class_report``, ``similarity``, ``grade_tables``,
-  ``nbgrader_gradebook``: feedback pages, reports, exports
+- ``feedback``, ``redaction``, ``local_times``, ``class_report``, ``similarity``,
+  ``hostile_signs``, ``grade_tables``, ``nbgrader_gradebook``: feedback pages, reports, exports
 - ``term``: a course file, a roster, downloads of Moodle and Canvas, releases
 """

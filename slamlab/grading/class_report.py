@@ -50,7 +50,7 @@ def write_report(out, marks):
             "exercise": catalogue.exercise(id),
             "count": len(of_this),
             "median": median(totals),
-            "tasks": [_task(task, of_this) for task in catalogue.exercise(id).tasks],
+            "tasks": [task_report(task, of_this) for task in catalogue.exercise(id).tasks],
         }
     page = TEMPLATES.get_template("class.html").render(
         exercises=exercises,
@@ -61,7 +61,18 @@ def write_report(out, marks):
     write_atomically(out / "class.html", page)
 
 
-def _task(task, records):
+def task_report(task, records):
+    """Statistics of one task over the class.
+
+    Parameters
+    ----------
+    task : Task
+    records : list of Record, graded, of its exercise
+
+    Returns
+    -------
+    TaskReport
+    """
     verdicts = [v for record in records for v in record.verdicts if v.task == task.id]
     counts = [
         sum(verdict.full for verdict in verdicts),

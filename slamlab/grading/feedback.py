@@ -64,6 +64,7 @@ def feedback_text(mark: Mark, student=None, zone=None) -> str:
         lines.append(f"{points(mark.late_penalty)} taken for lateness, handed in {when}")
     for task, why in mark.override_reasons.items():
         lines.append(f"{task} set by hand to {points(mark.points[task])}: {why}")
+    lines += mark.remarks
     for verdict in record.verdicts:
         earned = f"{number(verdict.points)} of {points(verdict.max_points)}"
         lines += ["", f"{record.titles.get(verdict.task, verdict.task)}: {earned}"]

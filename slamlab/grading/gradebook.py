@@ -8,7 +8,10 @@ rewritten: of the rows of one key the last one holds.
 
 import json
 
+import sqlalchemy as sa
+
 from slamlab.grading import gradebook_rows, older_gradebooks
+from slamlab.grading import remarks as by_hand
 from slamlab.grading.database import Database, GradebookError
 from slamlab.grading.ledger import chain_merging, chains, contents, forgotten_students, sightings
 from slamlab.grading.ledger.chains import LEDGER, Entry
@@ -125,14 +128,25 @@ class Gradebook:
         self._write(merged)
         return len(self.attempts()) - before
 
-    def rows(self):
-        """All rows of the ledger, in order.
+    def rows(self, after=0, kinds=None):
+        """Rows of the ledger, in order.
+
+        Parameters
+        ----------
+        after : int, the id of a row; those that were stored after it
+        kinds : list of str or None, for all
 
         Returns
         -------
         list of dict
         """
-        return self._read(chains.rows)
+        asked = [LEDGER.c.id > after] + ([LEDGER.c.kind.in_(kinds)] if kinds else [])
+        return self._read(lambda connection: chains.rows(connection, *asked))
+
+    def newest_row(self):
+        """The id of the row that was stored last; 0 for none."""
+        last = sa.select(sa.func.coalesce(sa.func.max(LEDGER.c.id), 0))
+        return self._read(lambda connection: connection.execute(last).scalar_one())
 
     def contents(self, names):
         """What is kept of attempts, by the hashes that their records name; see :mod:`contents`.
@@ -191,6 +205,15 @@ class Gradebook:
         """
         found = self.notes("override")
         return {(one["submission"], one["task"]): (one["points"], one["reason"]) for one in found}
+
+    def remarks(self):
+        """What was written to students by hand.
+
+        Returns
+        -------
+        dict, submission to tuple of str
+        """
+        return by_hand.of_submissions(*(self.notes(kind) for kind in by_hand.KINDS))
 
     def note(self, kind, body, submission=None):
         """Append a row of another kind.

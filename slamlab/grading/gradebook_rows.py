@@ -76,4 +76,4 @@ def stored_record(stored):
     )
     cells = {int(cell): problem for cell, problem in stored["cells"].items()}
     found = Record(**(stored | {"verdicts": verdicts, "cells": cells}))
-    return replace(found, notes=tuple(found.notes))
+    return replace(found, notes=tuple(found.notes), signs=tuple(found.signs))

@@ -16,12 +16,14 @@ class Mark:
     points : task to points, manual overrides included
     override_reasons : task to the reason of its override
     late_penalty : float, points deducted by the late policy
+    remarks : tuple of str, what somebody wrote to the student by hand
     """
 
     record: Record
     points: dict[str, float]
     override_reasons: dict[str, str]
     late_penalty: float
+    remarks: tuple[str, ...] = ()
 
     @property
     def total(self):
@@ -30,16 +32,17 @@ class Mark:
 
     @property
     def note(self):
-        """One line: the judge's note, the overrides, the late penalty."""
+        """One line: the judge's note, the overrides, the late penalty, the remarks."""
         changed = [
             f"{task} set to {self.points[task]:g}: {why}"
             for task, why in self.override_reasons.items()
         ]
         late = [f"{self.late_penalty:g} taken for lateness"] if self.late_penalty else []
-        return "; ".join([*filter(None, [self.record.note]), *changed, *late])
+        said = [" ".join(remark.split()) for remark in self.remarks]
+        return "; ".join([*filter(None, [self.record.note]), *changed, *late, *said])
 
 
-def mark(record, overrides=None, policy=None):
+def mark(record, overrides=None, policy=None, remarks=None):
     """Compute the mark of one submission from record, overrides and late policy.
 
     Points set by hand count also for what could not be graded.
@@ -49,6 +52,7 @@ def mark(record, overrides=None, policy=None):
     record : Record
     overrides : (submission, task) to (points, reason)
     policy : LatePolicy or None, for the one that was stored with the record
+    remarks : submission to tuple of str, see :mod:`slamlab.grading.remarks`
 
     Returns
     -------
@@ -65,4 +69,5 @@ def mark(record, overrides=None, policy=None):
         policy = LatePolicy.restored(record.policy) if record.policy else NO_PENALTY
     earned = sum(points.values())
     taken = policy.penalty(record.exercise, record.handed_in, earned, record.student)
-    return Mark(record, points, override_reasons, taken)
+    told = (remarks or {}).get(record.submission, ())
+    return Mark(record, points, override_reasons, taken, told)

@@ -36,6 +36,7 @@ class Record:
     seen : int or None, the counter of when the judge first saw it
     kept : "cells" and "outputs" to the hash of what is kept of them
     contents : hash to bytes, of what is to be kept; stored apart from the record
+    signs : what its code has that no exercise asks for, see :mod:`slamlab.grading.hostile_signs`
     """
 
     submission: str
@@ -60,6 +61,7 @@ class Record:
     seen: int | None = None
     kept: dict[str, str] = field(default_factory=dict)
     contents: dict[str, bytes] = field(default_factory=dict, compare=False, repr=False)
+    signs: tuple[str, ...] = ()
 
     @property
     def graded(self):

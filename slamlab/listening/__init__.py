@@ -6,4 +6,5 @@ A process of its own listens: without Jupyter's token, files or kernel. Read in 
 - ``door``: who comes in: a token or a code changed into a cookie; a key; ``entrance``: its route
 - ``crowd``: how many connections may be open, and whose gives way
 - ``rates``: how often something may be done
+- ``ending``: Ctrl-C, and signals that ask it to go
 """

@@ -1,0 +1,122 @@
+"""Hostile signs: what a submission's code has that no exercise asks for; a hint, not a verdict.
+
+The judge needs none of this: what code may do is bounded by the sandbox, and what it earns by laws.
+A person who looks wants to know where to look.
+"""
+
+import ast
+import re
+
+from slamlab.grading.similarity import MAX_CHARACTERS
+
+MOST = 20  # signs told of one submission
+_MODULES = """
+os subprocess socket ctypes signal gc inspect resource fcntl multiprocessing threading shutil glob
+atexit faulthandler builtins importlib mmap pickle pty urllib requests http
+"""
+_CALLS = """
+open eval exec compile __import__ breakpoint input exit quit SystemExit get_ipython
+"""
+_INNER = """
+_getframe settrace setprofile f_back f_locals f_globals ast_transformers __subclasses__ __globals__
+__code__ __closure__ __bases__ __mro__ __builtins__ __reduce__ __reduce_ex__ __eq__ __array__
+__array_ufunc__ __array_function__ __getattribute__ modules
+"""
+COURSE = ("slamlab.grading", "slamlab.exercises")
+MODULES, CALLS = frozenset(_MODULES.split()), frozenset(_CALLS.split())
+INNER = frozenset(_INNER.split())
+"""Attributes and methods by which code reaches into its interpreter, or lies about its answers."""
+OWN_NAMES = frozenset(("check", "attempt", "hint"))
+_SHELL = re.compile(r"^\s*(?:\w+ *= *)?(!|%%(?:bash|sh|script|javascript|html)\b)(?!pip )", re.M)
+
+
+def signs(cells):
+    """The signs in a notebook's cells.
+
+    Parameters
+    ----------
+    cells : list of (number, source)
+
+    Returns
+    -------
+    tuple of str, such as "cell 3: imports os"
+    """
+    found, letters, modules = {}, 0, set()
+    for number, source in cells:
+        letters += len(source)
+        if letters > MAX_CHARACTERS:
+            found[f"cell {number}: more than anybody writes by hand"] = None
+            break
+        for said in _of_cell(source, modules):
+            found[f"cell {number}: {said}"] = None
+    return tuple(found)[:MOST]
+
+
+def behaviour(record):
+    """What a submission did while it was judged that an honest one seldom does.
+
+    Parameters
+    ----------
+    record : Record
+
+    Returns
+    -------
+    list of str
+    """
+    said = [f"{v.task}: ended its process" for v in record.verdicts if v.kind == "died"]
+    for number, problem in record.cells.items():
+        if problem.startswith("ended the whole"):
+            said.append(f"cell {number}: ended its process")
+        elif re.match(r"PermissionError|BlockingIOError|OSError", problem):
+            said.append(f"cell {number}: was refused by the system")
+    return said
+
+
+def _of_cell(source, modules):
+    """The signs in one cell; modules are the names that stand for modules so far, added to."""
+    if shell := _SHELL.search(source):
+        yield f"a line for a shell or a page, {shell[1]}"
+    try:
+        nodes = list(ast.walk(ast.parse(source)))
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        for word in sorted(set(re.findall(r"\w+", source[:MAX_CHARACTERS])) & (MODULES | INNER)):
+            yield f"names {word}"
+        return
+    for node in nodes:
+        if isinstance(node, ast.Import | ast.ImportFrom):
+            yield from _of_import(node, modules)
+    for node in nodes:
+        if isinstance(node, ast.Attribute):
+            yield from _of_attribute(node, modules)
+        elif isinstance(node, ast.FunctionDef) and node.name in INNER:
+            yield f"defines {node.name}"
+        elif isinstance(node, ast.Name):
+            yield from _of_name(node)
+
+
+def _of_import(node, modules):
+    if isinstance(node, ast.Import):
+        names = [alias.name for alias in node.names]
+        modules.update((alias.asname or alias.name).split(".")[0] for alias in node.names)
+    else:
+        names = [node.module or ""]
+    for name in names:
+        if name.split(".")[0] in MODULES or name.startswith(COURSE):
+            yield f"imports {name}"
+
+
+def _of_attribute(node, modules):
+    if node.attr in INNER:
+        yield f"uses {node.attr}"
+    root = node
+    while isinstance(root, ast.Attribute):
+        root = root.value
+    if not isinstance(node.ctx, ast.Load) and isinstance(root, ast.Name) and root.id in modules:
+        yield f"changes {ast.unparse(node)}"
+
+
+def _of_name(node):
+    if node.id in INNER or (node.id in CALLS and isinstance(node.ctx, ast.Load)):
+        yield f"uses {node.id}"
+    elif node.id in OWN_NAMES and isinstance(node.ctx, ast.Store):
+        yield f"changes {node.id}"

@@ -1,0 +1,175 @@
+"""A review in a real browser, by keyboard alone; nothing that a student wrote runs in it."""
+
+import asyncio
+import json
+from concurrent.futures import Future, ThreadPoolExecutor
+
+import pytest
+from axe_playwright_python.sync_playwright import Axe
+
+from slamlab.exercises.verdict import LawResult, Verdict
+from slamlab.grading.gradebook import Gradebook, default_url
+from slamlab.grading.ledger import contents
+from slamlab.grading.records import Record
+from slamlab.grading.term import term
+from slamlab.reviewing import requests_file
+from slamlab.reviewing.class_state import ClassState
+from slamlab.reviewing.review_routes import serve
+from tests.patience import PATIENCE
+
+EVIL = (
+    "<img src=http://example.org/x onerror=\"document.title='run'\"><script>document.title='run'"
+    "</script><svg onload=\"document.title='run'\"></svg><style>body{display:none}</style>"
+)
+COURSE = 'name = "SLAM"\ntime_zone = "UTC"\n[exercises.04]\n[exercises.06]\n'
+ROSTER = f'id,name,section\ns1,"{EVIL.replace(chr(34), chr(34) * 2)}",A\ns2,Ben Ivo,B\ns3,Cy,B\n'
+
+
+def record(student, exercise, points):
+    law = LawResult(EVIL, EVIL, points, 3.5, int(points < 3.5), 20)
+    task = {"04": "04-h-robot", "06": "06-update"}[exercise]
+    verdict = Verdict(task, points, 3.5, (law,), hint=EVIL)
+    data = contents.packed(json.dumps([[1, EVIL], [2, "import os  # \u202e"]]).encode())
+    name = contents.name_of(data)
+    return Record(
+        f"{student}-{exercise}{EVIL}.ipynb", student, exercise, verdicts=(verdict,),
+        cells={2: f"PermissionError: {EVIL}"}, notes=(EVIL,), sha256=student * 8, seed="b" * 64,
+        titles={task: EVIL}, kept={"cells": name}, contents={name: data}, signs=(EVIL,),
+    )  # fmt: skip
+
+
+@pytest.fixture
+def state(tmp_path):
+    """A class of which everybody writes HTML wherever something can be written."""
+    (tmp_path / "course.toml").write_text(COURSE, "utf-8")
+    (tmp_path / "roster.csv").write_text(ROSTER, "utf-8")
+    made = term.load(tmp_path / "course.toml")
+    made.course.results.mkdir()
+    with Gradebook(default_url(made.course.results), "Tutor") as book:
+        book.add_all([record("s1", "04", 1.0), record("s1", "06", 3.5), record("s2", "04", 2.0)])
+        opened = ClassState(made, book)
+        file = tmp_path / "requests.csv"
+        file.write_text(f"student;exercise;request\ns2;04;'{EVIL.replace(chr(34), '')}\n", "utf-8")
+        requests_file.read_requests(opened, file)
+        yield opened
+
+
+@pytest.fixture
+def page(browser, state):
+    """The page of that class; nothing goes wrong on it, and nothing else is loaded."""
+    address, over, wrong = Future(), Future(), []
+
+    async def serve_it():
+        stop = asyncio.Event()
+        over.set_result((asyncio.get_running_loop(), stop))
+        await serve(state, begun=address.set_result, over=stop)
+
+    with ThreadPoolExecutor(1) as thread:
+        task = thread.submit(asyncio.run, serve_it())
+        place = address.result(PATIENCE)
+        context = browser.new_context(viewport={"width": 1300, "height": 900})
+        try:
+            opened = context.new_page()
+            opened.set_default_timeout(1000 * PATIENCE)
+            opened.on("console", lambda said: said.type == "error" and wrong.append(said.text))
+            opened.on("pageerror", lambda error: wrong.append(str(error)))
+            host = place.split("#")[0]
+            opened.on(
+                "request", lambda asked: asked.url.startswith(host) or wrong.append(asked.url)
+            )
+            opened.goto(place)
+            opened.locator("td button").first.wait_for()
+            yield opened
+        finally:
+            context.close()
+            loop, stop = over.result(PATIENCE)
+            loop.call_soon_threadsafe(stop.set)
+            task.result(PATIENCE)
+    # a change that is refused is no fault of the page, though the browser notes it
+    assert [said for said in wrong if "409 (Conflict)" not in said] == []
+
+
+def focused(page):
+    return page.evaluate("document.activeElement.getAttribute('aria-label')")
+
+
+def test_a_class_is_reviewed_by_keyboard_and_nothing_of_a_student_runs(page, state):
+    assert page.url.endswith("/") and page.title() == "Review"
+    page.keyboard.press("Tab")  # name, section, exercise, state, flagged, table
+    assert page.evaluate("document.activeElement.id") == "who"
+    for _ in range(4):
+        page.keyboard.press("Tab")
+    assert page.evaluate("document.activeElement.id") == "flagged"
+    page.keyboard.press("Space")
+    page.get_by_text("2 of 3 students, 3 cells").wait_for()
+    page.locator("td button[tabindex='0']").focus()
+    assert "04: 1, some points, flagged" in focused(page)
+    for key, there in (("ArrowRight", "06: 3.5"), ("ArrowDown", "06: –"), ("ArrowLeft", "04: 2"),
+                       ("Home", "04: 2"), ("ArrowUp", "04: 1")):  # fmt: skip
+        page.keyboard.press(key)
+        assert there in focused(page)
+    page.keyboard.press("Enter")
+    page.locator("#where", has_text="1 of 3").wait_for()
+    page.keyboard.press("1")
+    page.keyboard.type("2.5")
+    page.keyboard.press("Tab")
+    page.keyboard.type("why not")
+    page.keyboard.press("Escape")  # what was typed is kept while another one is looked at
+    page.keyboard.press("j")
+    page.locator("#where", has_text="2 of 3").wait_for()
+    page.keyboard.press("j")
+    page.locator("#where", has_text="3 of 3").wait_for()
+    assert page.locator("#code pre").all_text_contents() == [EVIL, "import os  # ⟦202e⟧"]
+    page.get_by_label("answer").fill("it is as it is")
+    page.get_by_role("button", name="answer", exact=True).press("Enter")
+    page.get_by_text("Asked for another look, answered").wait_for()
+    page.keyboard.press("k")
+    page.locator("#where", has_text="2 of 3").wait_for()
+    page.keyboard.press("k")
+    page.locator("#where", has_text="1 of 3").wait_for()
+    page.keyboard.press("1")
+    page.keyboard.press("Tab")
+    page.keyboard.press("Enter")
+    page.get_by_text("set by hand: why not").wait_for()
+    page.keyboard.press("c")
+    page.keyboard.type(EVIL)
+    page.get_by_role("button", name="save comment").press("Enter")
+    page.locator("#history", has_text="comment: <img").wait_for()
+    page.keyboard.press("Escape")
+    page.locator("td button[aria-label*='04: 2.5']").wait_for()
+    assert "by hand" in focused(page)
+    told = [row["kind"] for row in state.book.rows()]
+    assert told[-3:] == ["answer", "override", "comment"]
+    assert state.book.rows()[-1]["who"] == "Tutor"
+    assert page.title() == "Review"
+    assert page.evaluate("document.querySelectorAll('img, main script, main style').length") == 0
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_the_page_can_be_used_by_all(page, scheme):
+    page.emulate_media(color_scheme=scheme)
+    for width in (1300, 390):
+        page.set_viewport_size({"width": width, "height": 800})
+        for opened in (False, True):
+            if opened:
+                page.locator("td button").first.click()
+                page.locator("#verdict .box").first.wait_for()
+            assert page.evaluate("document.documentElement.scrollWidth <= window.innerWidth")
+            found = Axe().run(page, options={"resultTypes": ["violations"]})
+            assert [each["id"] for each in found.response["violations"]] == []
+        page.get_by_role("button", name="table").click()
+        page.locator("td button").first.wait_for()
+
+
+def test_a_change_that_is_refused_keeps_what_was_typed(page, state):
+    page.locator("td button").first.click()
+    page.get_by_label("reason for the points of 04-h-robot").fill("my words")
+    with Gradebook(default_url(state.term.course.results), "Another") as other:
+        other.override_points(f"s1-04{EVIL}.ipynb", "04", "04-h-robot", 3, "other words")
+    page.get_by_label("reason for the points of 04-h-robot").press("Enter")
+    page.get_by_text("Not saved: Another has changed it meanwhile").wait_for()
+    page.get_by_text("set by hand: other words").wait_for()
+    reason = page.get_by_label("reason for the points of 04-h-robot")
+    assert reason.input_value() == "my words"
+    reason.press("Enter")
+    page.get_by_text("set by hand: my words").wait_for()
