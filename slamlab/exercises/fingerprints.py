@@ -107,7 +107,19 @@ def of_answers(task, sets, answers):
     return {part: fingerprint(arrays) for part, arrays in parts.items()}
 
 
-def recognise(task, sets, answers) -> Mistake | None:
+@dataclass(frozen=True)
+class Recognised(Mistake):
+    """A mistake that a program explains; a slip may be called as a family is.
+
+    Parameters
+    ----------
+    family : bool, whether it is of a family, not a slip with a hint of its own
+    """
+
+    family: bool
+
+
+def recognise(task, sets, answers) -> Recognised | None:
     """Name the mistake that explains an answer, if exactly one does.
 
     One program that computes all of it explains it best; else one that computes all that is wrong.
@@ -121,7 +133,7 @@ def recognise(task, sets, answers) -> Mistake | None:
 
     Returns
     -------
-    Mistake or None
+    Recognised or None
     """
     table = tables(task.id[:2]).get(task.id)
     if table is None:
@@ -137,7 +149,7 @@ def recognise(task, sets, answers) -> Mistake | None:
     for programs in explaining:
         label = _single(set(table.labels[programs].tolist()), table.slips)
         if label:
-            return Mistake(table.names[label], table.hints[label])
+            return Recognised(table.names[label], table.hints[label], label > table.slips)
     return None
 
 

@@ -5,7 +5,6 @@ from dataclasses import replace
 from slamlab.exercises import case_text, cases, fingerprints
 from slamlab.exercises.drives import StudentError
 from slamlab.exercises.drives.input_sets import MAIN, run_sets
-from slamlab.exercises.families import FAMILIES
 from slamlab.exercises.task import IDLE, OPEN_SEED, Task
 from slamlab.exercises.verdict import Verdict
 
@@ -79,6 +78,6 @@ def recognised(task: Task, verdict: Verdict, answered) -> Verdict:
         mistake = fingerprints.recognise(task, *answered())
     except StudentError:
         return verdict
-    if not mistake or (verdict.diagnosis and mistake.name in FAMILIES):  # a property says more
+    if not mistake or (verdict.diagnosis and mistake.family):  # a property says more
         return verdict
     return replace(verdict, diagnosis=mistake.name, hint=mistake.hint)
