@@ -7,7 +7,7 @@ from pathlib import Path
 
 import nbformat
 
-from course import questions, values
+from course import asking, values
 from course.derive import FOLDERS, derive
 from course.execute import ExecutionError, carry_outputs, execute, executed, same_code
 from course.source import ROOT, CourseError, file_name, sources
@@ -67,8 +67,8 @@ def differences(path, root=ROOT):
     CourseError : where the source breaks the course's standards
     """
     found, all_derived = [], derive(path, root)
-    asked, kept = all_derived[0].source, questions.file(all_derived[0].source, root)
-    if asked.kind == "lesson" and questions.text(asked) != _text(kept):
+    asked, kept = all_derived[0].source, asking.file(all_derived[0].source, root)
+    if asked.kind == "lesson" and asking.text(asked) != _text(kept):
         found.append(f"{kept.relative_to(root).as_posix()}: holds other questions")
     for derived in all_derived:
         name, stored = derived.path.relative_to(root).as_posix(), _stored(derived.path)
@@ -142,7 +142,7 @@ def _select_sources(names):
 
 def _keep_questions(source, root):
     """Store what a lesson asks, if that is new."""
-    file, text = questions.file(source, root), questions.text(source)
+    file, text = asking.file(source, root), asking.text(source)
     if source.kind != "lesson" or text == _text(file):
         return
     file.parent.mkdir(parents=True, exist_ok=True)

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import nbformat
 
-from course import glossary, questions
+from course import asking, glossary
 from course.exercise import (
     PROTECTED,
     VALIDATE,
@@ -141,7 +141,7 @@ def _cell(cell, exercise, stubs):
     elif cell.text == VALIDATE:
         metadata |= PROTECTED
     elif cell.type == "code":
-        text = questions.short(text)
+        text = asking.short(text)
     if stubs and "nbval-check-output" in cell.tags:  # nothing is stored to compare with
         metadata["tags"] = [tag for tag in cell.tags if tag != "nbval-check-output"]
     if not metadata.get("tags", True):

@@ -5,7 +5,7 @@ import importlib
 import re
 from itertools import pairwise
 
-from course import equations, questions
+from course import asking, equations
 from course.exercise import SolutionError, solution_regions
 from course.figure_lint import figure_problems
 from course.source import CHECK, ID, METADATA, heading, main_line
@@ -150,7 +150,7 @@ def _questions(source):
                 yield cell, f"call the question {source.number}-…, and each one differently"
             asked.add(id)
             try:
-                questions.asked(cell.text)
+                asking.asked(cell.text)
             except ValueError:
                 yield cell, "a question is stored: write out what is asked, compute nothing in it"
         if cell.answers and cell.answers not in asked:

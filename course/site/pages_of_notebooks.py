@@ -4,7 +4,7 @@ import copy
 import re
 
 from course.site.moving_outputs import with_moving
-from course.questions import asks
+from course.asking import asks
 from course.site.questions import question
 
 NOTE = "notes"

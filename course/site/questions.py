@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import nbformat
 
-from course.questions import asked
+from course.asking import asked
 from slamlab.checks.stored_questions import stored_question
 
 

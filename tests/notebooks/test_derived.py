@@ -10,10 +10,10 @@ import pytest
 from nbgrader.nbgraderformat import MetadataValidator
 from nbgrader.preprocessors import CheckCellMetadata
 
+from course.asking import asks
 from course.build import differences, orphans
 from course.derive import derive
 from course.exercise import solution_lines
-from course.questions import asks
 from course.source import ID, ROOT, file_name, read
 from slamlab.exercises import catalogue
 from tests.notebooks import (
