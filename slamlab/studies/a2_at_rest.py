@@ -5,7 +5,6 @@ of them that lesson 02 analyses. What takes scans serves simulated ones as well.
 """
 
 import argparse
-import json
 import sys
 from functools import cache
 from itertools import pairwise
@@ -14,6 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from slamlab import sources
+from slamlab.studies import study_command
 from slamlab.studies.study_command import TABLES, package_versions, write
 
 TABLE = TABLES / "a2-at-rest.json"
@@ -190,7 +190,7 @@ def stored():
     shares of lost ones, bearings of a recording's empties, turn by turn [degree]; "first_turn",
     (n, 2) cells of 5 cm that its points fall into
     """
-    return json.loads(TABLE.read_text(encoding="utf-8"))
+    return study_command.stored(TABLE.stem)
 
 
 def study():
