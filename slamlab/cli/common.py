@@ -123,6 +123,23 @@ def term_of(arguments):
     return found
 
 
+def add_page_options(parser):
+    """Add the options of every command that serves a page to this machine's browser."""
+    parser.add_argument("--port", metavar="N", type=int, default=0, help="any free one by default")
+    parser.add_argument("--no-open", action="store_true", help="only print the page's address")
+
+
+def check_port(arguments):
+    """Refuse a port that there is none of; another one would be taken.
+
+    Raises
+    ------
+    UsageError
+    """
+    if not 0 <= arguments.port <= 65_535:
+        raise UsageError(f"--port is 0 to 65535, not {arguments.port}")
+
+
 def open_page(address):
     """Open a page in a browser, or say that there is none."""
     import webbrowser

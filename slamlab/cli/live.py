@@ -7,7 +7,10 @@ from pathlib import Path
 
 from slamlab.cli.common import (
     SOURCES,
+    UsageError,
     add_estimator_options,
+    add_page_options,
+    check_port,
     estimator_options,
     generator,
     open_page,
@@ -42,8 +45,7 @@ def add_parser(subparsers):
     parser.add_argument(
         "--merge", metavar="N", type=int, help="turns of a lidar that become one scan (1)"
     )
-    parser.add_argument("--port", metavar="N", type=int, default=0, help="any free one by default")
-    parser.add_argument("--no-open", action="store_true", help="only print the page's address")
+    add_page_options(parser)
     add_estimator_options(parser)
     parser.set_defaults(run=run)
 
@@ -59,6 +61,7 @@ def run(arguments) -> int:
 
     make = partial(estimators.make, arguments.estimator, **estimator_options(arguments))
     try:
+        check_port(arguments)
         generator(arguments.seed)  # says what is wrong with a seed
         if not 0 < arguments.speed <= 1000:
             raise ValueError(f"--speed is 1 to 1000 steps a second, not {arguments.speed}")
@@ -75,7 +78,7 @@ def run(arguments) -> int:
     except OSError as error:
         print(f"slamlab live: {error.filename or ''} {error.strerror or error}", file=sys.stderr)
         return 2
-    except ValueError as error:
+    except (UsageError, ValueError) as error:
         print(f"slamlab live: {error}", file=sys.stderr)
         return 2
     for name in ("map", "film", "record"):

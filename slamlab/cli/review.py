@@ -4,7 +4,15 @@ import asyncio
 import sys
 from pathlib import Path
 
-from slamlab.cli.common import COURSE, UsageError, add_who_option, open_page, term_of
+from slamlab.cli.common import (
+    COURSE,
+    UsageError,
+    add_page_options,
+    add_who_option,
+    check_port,
+    open_page,
+    term_of,
+)
 from slamlab.cli.grade_output import printable
 
 
@@ -25,8 +33,7 @@ def add_parser(subparsers):
         type=Path,
         help="a CSV of requests for another look: student, exercise, request",
     )
-    parser.add_argument("--port", metavar="N", type=int, default=0, help="any free one by default")
-    parser.add_argument("--no-open", action="store_true", help="only print the page's address")
+    add_page_options(parser)
     add_who_option(parser)
     parser.set_defaults(run=run, out=None, db=None, policy=None)
 
@@ -39,8 +46,7 @@ def run(arguments) -> int:
     try:
         if not (arguments.course or Path(course_file.NAME)).exists():
             raise UsageError("a review needs a course file: slamlab grade init")
-        if not 0 <= arguments.port <= 65_535:  # else another one would be taken
-            raise UsageError(f"--port is 0 to 65535, not {arguments.port}")
+        check_port(arguments)
         term = term_of(arguments)
         url = arguments.db or default_url(arguments.out, new=False)
         with Gradebook(url, arguments.who) as book:
