@@ -50,7 +50,8 @@ class LivePage:
         page.goto(address or self.address)
         self.pages.append(context)
         if address is None:
-            page.locator(".slamlab-live[data-frame]").wait_for()
+            # the picture is painted once before its first frame is there
+            page.locator(".slamlab-status", has_text="pose").wait_for()
         return page
 
     def type(self, text):
