@@ -6,7 +6,7 @@ from pathlib import Path
 
 import nbformat
 
-from course import asking, glossary
+from course import asking, glossary, visible_code
 from course.exercise import (
     PROTECTED,
     VALIDATE,
@@ -132,6 +132,8 @@ def _cell(cell, exercise, stubs):
         told = metadata.get("slamlab", {}) | {"answers": cell.answers}
         folded = "outputs_hidden" if cell.type == "code" else "source_hidden"
         metadata |= {"slamlab": told, "jupyter": {folded: True}}
+    if visible_code.FOLDED in cell.tags:
+        metadata["jupyter"] = metadata.get("jupyter", {}) | {"source_hidden": True}
     text = glossary.filled(cell.text)
     if cell.check:
         metadata |= check_metadata(exercise.task(cell.check))

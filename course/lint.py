@@ -5,7 +5,7 @@ import importlib
 import re
 from itertools import pairwise
 
-from course import asking, equations
+from course import asking, equations, visible_code
 from course.exercise import SolutionError, solution_regions
 from course.figure_lint import figure_problems
 from course.source import CHECK, ID, METADATA, heading, main_line
@@ -13,7 +13,8 @@ from slamlab.lecturing.planning import total
 from slamlab.coursework.overview import QUESTION
 
 TAGS = {
-    "code",
+    visible_code.FOLDED,
+    visible_code.SUBJECT,
     "lecturer",
     "nbval-check-output",
     "nbval-ignore-output",
@@ -55,6 +56,8 @@ def lint(source, exercise=None):
     problems += [f"{source.at(cell)}: {text}" for cell, text in _questions(source)]
     problems += [f"{source.at(cell)}: {text}" for cell, text in equations.problems(source)]
     problems += [f"{source.at(cell)}: {text}" for cell, text in _first_and_last_cell(source)]
+    if source.kind == "lesson":
+        problems += [f"{source.at(cell)}: {text}" for cell, text in visible_code.problems(source)]
     if source.kind == "exercise":
         problems += [f"{source.at(cell)}: {text}" for cell, text in _checks(source, exercise)]
         for cell in source.cells:

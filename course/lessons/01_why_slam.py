@@ -12,7 +12,7 @@
 # from. Poll the class on the first question before you run anything. If time is short, leave out
 # "How errors grow": the exercise comes back to it.
 
-# %% slideshow={"slide_type": "skip"} name="imports"
+# %% slideshow={"slide_type": "skip"} name="imports" tags=["folded"]
 from itertools import accumulate
 
 import numpy as np
@@ -87,7 +87,7 @@ naive = chain([reading.odometry for reading in readings[1:]])
 gap = between(truth[-1], naive[-1])
 print(f"misses the start by {np.hypot(*gap[:2]):.1f} m, turned by {np.degrees(gap[2]):.0f}°")
 
-# %% slideshow={"slide_type": "subslide"} name="dead-reckoning-picture" answers="01-gap"
+# %% slideshow={"slide_type": "subslide"} name="dead-reckoning-picture" answers="01-gap" tags=["folded"]
 fig, ax = views.axes("One lap of the corridor", size=(8, 5.6))
 views.draw(ax, Segments("walls", robot.world.outline()))
 views.draw(ax, Poses("truth", truth))
@@ -182,7 +182,7 @@ def map_from(poses, readings):
     return np.vstack([transform(pose, reading.scan.points()) for pose, reading in pairs])
 
 
-# %% slideshow={"slide_type": "fragment"} name="two-maps-picture" answers="01-smear"
+# %% slideshow={"slide_type": "fragment"} name="two-maps-picture" answers="01-smear" tags=["folded"]
 fig, _ = views.side_by_side(
     {
         "from the true poses": [Points("map", map_from(truth, readings))],
@@ -372,7 +372,7 @@ length = [straight_drives(way, 0.02, 0.0, rng)[:, 0].std() for way in ways]
 heading = [straight_drives(way, 0.0, np.radians(1), rng)[:, 1].std() for way in ways]
 slow, fast = (np.polyfit(np.log(ways), np.log(errors), 1)[0] for errors in (length, heading))
 
-# %% slideshow={"slide_type": "-"} name="growth-picture"
+# %% slideshow={"slide_type": "-"} name="growth-picture" tags=["folded"]
 fig, _ = views.growth(
     ways,
     {"length error 2 %": length, "heading error 1°": heading},
@@ -398,7 +398,7 @@ views.show(fig, f"Length errors rise with slope {slow:.1f} on the axes, heading'
 # exchange the two errors.
 
 
-# %% name="cloud"
+# %% name="cloud" tags=["folded"]
 def cloud(way_in_metres, heading_error_in_degrees, length_error_in_percent):
     """The ends of 800 drives that were to lead straight ahead."""
     errors = length_error_in_percent / 100, np.radians(heading_error_in_degrees)
@@ -459,7 +459,7 @@ for name, poses in {"odometry": naive, "icp": corrected}.items():
     ahead, left, turn = between(truth[-1], poses[-1])
     print(f"{name:8}  misses by {100 * np.hypot(ahead, left):5.1f} cm and {np.degrees(turn):5.1f}°")
 
-# %% slideshow={"slide_type": "fragment"} name="cure-picture" answers="01-cure"
+# %% slideshow={"slide_type": "fragment"} name="cure-picture" answers="01-cure" tags=["folded"]
 miss = 100 * np.hypot(*between(truth[-1], corrected[-1])[:2])
 fig, _ = views.side_by_side(
     {
@@ -538,7 +538,7 @@ long, across = (np.ptp(points, axis=0).max() for points in intel.points.values()
 print(f"a way of {intel.way:.0f} m, in {intel.readings} readings")
 print(f"maps {long:.0f} m long (odometry) and {across:.0f} m (icp)")
 
-# %% slideshow={"slide_type": "subslide"} name="intel-picture" answers="01-again"
+# %% slideshow={"slide_type": "subslide"} name="intel-picture" answers="01-again" tags=["folded"]
 fig, _ = views.side_by_side(
     {
         "Intel Research Lab: odometry alone": [Points("naive", intel.points["odometry"])],

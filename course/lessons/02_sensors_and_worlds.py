@@ -15,7 +15,7 @@
 # remember is the end of part two, where the numbers of a real device give away how it works. Polls
 # that work well: the wall behind the sensor, the forgotten minus, the three errors of a wheel.
 
-# %% slideshow={"slide_type": "skip"} name="imports"
+# %% slideshow={"slide_type": "skip"} name="imports" tags=["folded"]
 from dataclasses import replace
 
 import numpy as np
@@ -92,7 +92,7 @@ ask(
     right="r is below zero",
 )
 
-# %% slideshow={"slide_type": "fragment"} name="four-walls" answers="02-meet"
+# %% slideshow={"slide_type": "fragment"} name="four-walls" answers="02-meet" tags=["folded"]
 FOUR_WALLS = {
     "in the way": (2.0, -0.5, 1.5, 2.5),
     "behind": (-1.5, 0.5, -0.5, -1.5),
@@ -171,7 +171,7 @@ ask(
 )
 
 
-# %% slideshow={"slide_type": "fragment"} name="polar" answers="02-arc"
+# %% slideshow={"slide_type": "fragment"} name="polar" answers="02-arc" tags=["folded"]
 def ideal(beams):
     """A lidar that makes no errors."""
     return Scanner(beams=beams, range_error=0.0)
@@ -311,7 +311,7 @@ print("the wrong way round: ", transform(compose(mount, pose), in_sensor)[0].rou
 # middle, but the program believes that it sits *in* the middle:
 
 
-# %% slideshow={"slide_type": "fragment"} name="five-scans"
+# %% slideshow={"slide_type": "fragment"} name="five-scans" tags=["folded"]
 def five_scans(believed_ahead, believed_turn_in_degrees):
     """Five scans from five headings, placed with a mount that may be wrong."""
     true, rng = np.array([0.2, 0.0, 0.0]), np.random.default_rng(0)
@@ -370,7 +370,7 @@ ask(
 )
 
 
-# %% slideshow={"slide_type": "fragment"} name="minus" answers="02-minus"
+# %% slideshow={"slide_type": "fragment"} name="minus" answers="02-minus" tags=["folded"]
 def two_scans(turned_by_degrees, minus_forgotten):
     """Two scans before and after a turn on the spot, placed with the right or the wrong sign."""
     fig, ax = views.axes("Two scans of one room from one place", size=(8, 5.4))
@@ -482,7 +482,7 @@ ask(
 )
 
 
-# %% slideshow={"slide_type": "fragment"} name="slant" answers="02-slant"
+# %% slideshow={"slide_type": "fragment"} name="slant" answers="02-slant" tags=["folded"]
 hall = worlds.corridor()
 bearings = guess.angles
 straight = hall.cast((0, 0), bearings)
@@ -556,7 +556,7 @@ sp.Abs(sp.diff(kappa / U, U)).subs(U, kappa / r) * sigma_U
 # thesis' arena of cardboard boxes, from the same place. Before you look: which sees most, which
 # only what is near, and what becomes of corners in the third?
 
-# %% slideshow={"slide_type": "fragment"} name="three-sensors"
+# %% slideshow={"slide_type": "fragment"} name="three-sensors" tags=["folded"]
 arena, stands = worlds.arena(), np.array([-0.12, -0.2, np.radians(100)])
 devices = {"lidar": RPLIDAR_A2, "infrared": GP2D120, "ultrasonic": ULTRASONIC}
 layers, back = {}, {}
@@ -602,7 +602,7 @@ ask(
 )
 
 
-# %% slideshow={"slide_type": "fragment"} name="door" answers="02-door"
+# %% slideshow={"slide_type": "fragment"} name="door" answers="02-door" tags=["folded"]
 DOOR = World(
     [
         *[(-2, -1.5, 3, -1.5), (3, -1.5, 3, 2), (-2, 2, -2, -1.5), (-2, 3.5, 3, 3.5)],
@@ -653,7 +653,7 @@ views.explore(
 # and counts how often it gets light. One such count is a *tick*.
 
 
-# %% slideshow={"slide_type": "fragment"} name="encoder"
+# %% slideshow={"slide_type": "fragment"} name="encoder" tags=["folded"]
 views.explore(
     lambda slots, turned_by_degrees: views.encoder(slots, np.radians(turned_by_degrees)),
     lambda slots, turned_by_degrees: (
@@ -687,7 +687,7 @@ ask(
 )
 
 
-# %% slideshow={"slide_type": "fragment"} name="wheels" answers="02-wheels" tags=["nbval-check-output"]
+# %% slideshow={"slide_type": "fragment"} name="wheels" answers="02-wheels" tags=["folded", "nbval-check-output"]
 def odometry_errors(robot, way, rng):
     """How much longer a way is believed to be than it was, of 200 robots [mm]: mean, spread."""
     found = []
@@ -728,7 +728,7 @@ for name, errors in wheel_errors.items():
 # They are not ours to give away. You get statistics of them, in a table that comes with the course,
 # and every number below is computed from this table, in front of you.
 
-# %% slideshow={"slide_type": "fragment"} name="first-turn"
+# %% slideshow={"slide_type": "fragment"} name="first-turn" tags=["folded"]
 walk = np.array(real["first_turn"]) * a2_at_rest.CELL
 simulated = RPLIDAR_A2.scan(worlds.room(), np.zeros(3), np.random.default_rng(3))
 fig, _ = views.side_by_side(
@@ -855,7 +855,7 @@ for r, share in zip(r_class, share_class, strict=True):
 # Here is our first guess. Move the sliders until the curve runs through the marks.
 
 
-# %% slideshow={"slide_type": "fragment"} name="by-hand" answers="02-far"
+# %% slideshow={"slide_type": "fragment"} name="by-hand" answers="02-far" tags=["folded"]
 def law(r, c_1, c_2):
     return np.hypot(c_1, c_2 * r)
 
@@ -958,7 +958,7 @@ ask(
     right="in the same directions, turn after turn",
 )
 
-# %% slideshow={"slide_type": "fragment"} name="empties" answers="02-empty"
+# %% slideshow={"slide_type": "fragment"} name="empties" answers="02-empty" tags=["folded"]
 title = "Each empty reading of 22 turns; below them, one simulated turn"
 fig, ax = views.chart("bearing [degrees]", "turn", title, (10, 4))
 for number, bearings_empty in enumerate(real["empty"]["bearings"]):
@@ -1000,7 +1000,7 @@ benches = {
     for name, device in {"RPLIDAR_A2": RPLIDAR_A2, "first guess": guess}.items()
 }
 
-# %% slideshow={"slide_type": "-"} name="bench-picture"
+# %% slideshow={"slide_type": "-"} name="bench-picture" tags=["folded"]
 shown = {name: 100 * shares for name, shares in benches.items()}
 labels = "range r [m]", "σ / r [%]", "At rest, by the median"
 fig, ax = views.curves(r_class, shown, *labels, size=(8, 4))

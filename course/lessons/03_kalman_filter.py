@@ -17,7 +17,7 @@
 # bell curves come in" and "How much doubt a measurement removes". The sections called *Deeper* and
 # *In print* behind the last slide are for reading at home.
 
-# %% slideshow={"slide_type": "skip"}
+# %% slideshow={"slide_type": "skip"} tags=["folded"]
 import numpy as np
 import sympy as sp
 from scipy.stats import norm
@@ -119,7 +119,7 @@ print(f"{place:.2f} m, σ = {np.sqrt(variance):.2f} m")
 # wheels and the range finder are, each by its $\sigma$ in metres.
 
 
-# %% slideshow={"slide_type": "fragment"}
+# %% slideshow={"slide_type": "fragment"} tags=["folded"]
 def two_bells(wheels, range_finder):
     """Three bells: the wheels', the range finder's, and their mixture's; given are both σ."""
     mean, left = fuse(4.0, wheels**2, 5.0, range_finder**2)
@@ -217,7 +217,7 @@ ask(
 )
 
 
-# %% slideshow={"slide_type": "fragment"} answers="03-streak"
+# %% slideshow={"slide_type": "fragment"} answers="03-streak" tags=["folded"]
 def rolling(steps):
     """1000 carts after some steps, and what the filter believes of them."""
     rng, b = np.random.default_rng(3), linear_kalman.belief(cart.START_X, cart.START_P)
@@ -510,7 +510,7 @@ def mean_square(*gains):
     return np.trace(corrected @ together @ corrected.T)
 
 
-# %% slideshow={"slide_type": "fragment"}
+# %% slideshow={"slide_type": "fragment"} tags=["folded"]
 def bowl(position_gain, speed_gain):
     """Contours of the error that is left over both gains, the chosen pair and the best."""
     first, second = np.linspace(0, 1.5, 41), np.linspace(-0.3, 0.9, 41)
@@ -592,7 +592,7 @@ def by_bins(error, v, edges):
     return average, error - average[bins]
 
 
-# %% slideshow={"slide_type": "fragment"} answers="03-shape"
+# %% slideshow={"slide_type": "fragment"} answers="03-shape" tags=["folded"]
 def corrections(usual_sigma):
     """The best correction over the innovation: that of the carts, and the Kalman gain's line."""
     (error, v), edges = odd_readings(usual_sigma), np.linspace(-3, 3, 61)
@@ -693,7 +693,7 @@ ask(
 # correlations out. Take $s\,K$ with the share $s$ from 0 to 2, and compare what the short form
 # (03.17) claims with what happens to the carts.
 
-# %% slideshow={"slide_type": "fragment"} answers="03-double"
+# %% slideshow={"slide_type": "fragment"} answers="03-double" tags=["folded"]
 shares = np.linspace(0, 2, 21)
 happens = [mean_square(*(share * step.K[:, 0])) for share in shares]
 claims = np.trace(streak.P) - shares**2 * np.trace(streak.P - after.P)
@@ -755,7 +755,7 @@ def draw_errors(ax, errors, sigma):
     ax.axhline(0, color=views.COLOURS["truth"], linewidth=1, label="truth")
 
 
-# %% slideshow={"slide_type": "fragment"}
+# %% slideshow={"slide_type": "fragment"} tags=["folded"]
 def drive_chart(seconds_blocked, drive):
     """Errors, truth less estimate, of position and speed on one drive."""
     rng, blocked = np.random.default_rng(drive), slice(24, 24 + round(seconds_blocked / cart.T))
@@ -869,7 +869,7 @@ def whiteness(found):
     return np.mean(white**2), np.mean(white[:, 1:] * white[:, :-1]) / np.mean(white**2)
 
 
-# %% slideshow={"slide_type": "fragment"} answers="03-half-slip"
+# %% slideshow={"slide_type": "fragment"} answers="03-half-slip" tags=["folded"]
 def nees_chart(believed_slip, believed_noise):
     """Mean NEES over time of a filter that believes in other slip and noise, and of the right one."""
     wrong = filtered(zs, believed_slip, believed_noise)

@@ -16,7 +16,7 @@
 # you press. Good questions for a poll are the first two, the one on the carried hall, the one on
 # the new landmark and the last. What follows "What you can do now" is for reading at home.
 
-# %% slideshow={"slide_type": "skip"}
+# %% slideshow={"slide_type": "skip"} tags=["folded"]
 import numpy as np
 import sympy as sp
 
@@ -157,7 +157,7 @@ def drive(heading_sigma, distance):
     return ends, Belief(models.f_odometry(x_hat, u), A @ P @ A.T)
 
 
-# %% slideshow={"slide_type": "fragment"} answers="04-bias"
+# %% slideshow={"slide_type": "fragment"} answers="04-bias" tags=["folded"]
 def banana(heading_sigma, distance):
     ends, b = drive(heading_sigma, distance)
     way = Poses("the way, as believed", [x_hat, b.x])
@@ -667,7 +667,7 @@ ask(
 )
 
 
-# %% slideshow={"slide_type": "subslide"} answers="04-sign"
+# %% slideshow={"slide_type": "subslide"} answers="04-sign" tags=["folded"]
 def spoiled(factor, landmarks):
     """Errors of 100 robots whose ∂β/∂y is multiplied by a factor, and what they believe."""
     (right, _), (wrong, believed) = (small_errors.localised(k, landmarks) for k in (1, factor))
@@ -686,7 +686,7 @@ def spoiled(factor, landmarks):
     return fig
 
 
-# %% slideshow={"slide_type": "fragment"} answers="04-sign"
+# %% slideshow={"slide_type": "fragment"} answers="04-sign" tags=["folded"]
 def last(factor, landmarks):
     """Median error and believed σ after the last sight."""
     return [each[-1] for each in small_errors.localised(factor, landmarks)]
@@ -870,7 +870,7 @@ sigma_claimed = np.sqrt(0.05**2 + (3.0 * 0.1) ** 2)  # (12) with A of §4.1, 3 m
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### In print: noise
 
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+# %% slideshow={"slide_type": "fragment"} tags=["folded", "nbval-check-output"]
 c, k, dt = sp.symbols("c k Δt", positive=True)
 C_8 = sp.diag(c * dx**2, c * dy**2, c * dt**2)
 W_6 = sp.Matrix([dt * sp.cos(theta), dt * sp.sin(theta), dtheta])

@@ -15,7 +15,7 @@
 # "What an innovation depends on" and the finale, for lesson 06 stands on these; the exercise repeats
 # the rest. Good questions for a poll of the class: the first, the one on one landmark, and the last.
 
-# %% slideshow={"slide_type": "skip"}
+# %% slideshow={"slide_type": "skip"} tags=["folded"]
 from dataclasses import replace
 
 import numpy as np
@@ -229,7 +229,7 @@ def spread(P):
     return np.sqrt(P[..., 0, 0] + P[..., 1, 1])
 
 
-# %% slideshow={"slide_type": "subslide"} answers="05-largest"
+# %% slideshow={"slide_type": "subslide"} answers="05-largest" tags=["folded"]
 blind, P_blind = two_halves.locate(run, {}, START)
 laps = {
     "no map: drive only": lap(run, blind, P_blind, "predicted"),
@@ -254,7 +254,7 @@ views.show(
 # Predict where the ellipses swell before you move a slider.
 
 
-# %% slideshow={"slide_type": "fragment"}
+# %% slideshow={"slide_type": "fragment"} tags=["folded"]
 def in_part_of_a_map(landmarks_in_the_map, sight):
     run = drive(74, replace(LAP, range_max=sight))
     part = dict(list(whole_map.items())[:landmarks_in_the_map])
@@ -525,7 +525,7 @@ def crossed(ax):
     ax.lines[-1].set(marker="x", markersize=7, markeredgewidth=1.5, label="true landmark")
 
 
-# %% slideshow={"slide_type": "fragment"}
+# %% slideshow={"slide_type": "fragment"} tags=["folded"]
 maps = {"after its first sight": first, "after the whole lap": whole}
 layers = {title: drawn(found, run.truth.poses) for title, found in maps.items()}
 fig, both = views.side_by_side(layers, size=(11, 5.5))
@@ -567,7 +567,7 @@ for robot in squared:
         robot[k] = np.sum((found.landmarks[0].x - mark) ** 2)
 mean_squared = squared.mean(axis=0)[np.array(looks) - 1]
 
-# %% slideshow={"slide_type": "fragment"} answers="05-root"
+# %% slideshow={"slide_type": "fragment"} answers="05-root" tags=["folded"]
 J = jacobians.J_z(at, models.h(at, mark))
 one_look = np.trace(J @ R @ J.T)
 fig, ax = views.growth(
@@ -607,7 +607,7 @@ ask(
 )
 
 
-# %% slideshow={"slide_type": "subslide"}
+# %% slideshow={"slide_type": "subslide"} tags=["folded"]
 def from_wrong_poses(share_of_the_wheels_error):
     believed = run.truth.poses + share_of_the_wheels_error * two_halves.off(run, wheels)
     error = two_halves.landmark_nees(run, believed)

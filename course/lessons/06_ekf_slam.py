@@ -18,7 +18,7 @@
 # map-augmented Kalman filter; elsewhere it is called EKF-SLAM. For a poll: the questions on the second
 # look, on strangers, and on the ellipses at the closing.
 
-# %% slideshow={"slide_type": "skip"}
+# %% slideshow={"slide_type": "skip"} tags=["folded"]
 from dataclasses import replace
 
 import numpy as np
@@ -94,7 +94,7 @@ def expected(P_rr):
     return step.H @ apart @ step.H.T + R, step.S
 
 
-# %% slideshow={"slide_type": "subslide"} answers="06-second"
+# %% slideshow={"slide_type": "subslide"} answers="06-second" tags=["folded"]
 def second_look(place_sigma, heading_sigma):
     P_rr = np.diag([place_sigma, place_sigma, heading_sigma]) ** 2
     v, (apart, together) = innovations(P_rr), expected(P_rr)
@@ -299,7 +299,7 @@ for name, rows in {"P_nn": np.s_[5:, 5:], "P_nr": np.s_[5:, :3], "P_ni": np.s_[5
     print(f"{name}: robots and formula differ by at most {off[rows].max():.2f} of the two σ")
 rho_in = correlation(mak.P)[4, 6]
 
-# %% slideshow={"slide_type": "subslide"} answers="06-strangers"
+# %% slideshow={"slide_type": "subslide"} answers="06-strangers" tags=["folded"]
 pair = mak.P[np.ix_([4, 6], [4, 6])]
 claims = {"$P$ with $P_{ni}$": pair, "$P_{ni}$ forgotten": np.diag(np.diag(pair))}
 fig, ax = views.cloud(
@@ -417,7 +417,7 @@ for name, rows in parts.items():
     was, now = (100 * np.sqrt(np.trace(each[rows, rows])) for each in (P_was, story.P))
     print(f"{name:5} moves {far[name]:4.1f} cm, its σ goes from {was:4.1f} to {now:4.1f} cm")
 
-# %% slideshow={"slide_type": "subslide"} answers="06-unseen"
+# %% slideshow={"slide_type": "subslide"} answers="06-unseen" tags=["folded"]
 fig, ax = views.axes("Landmark a was seen again", size=(8, 6))
 for name, label, mean, cov in [
     ("predicted", "before", x, P_was),
@@ -512,7 +512,7 @@ print(f"20 runs, 70 steps: median error {np.median(by_filter):.2f} m, ", end="")
 print(f"wheels {np.median(by_wheels):.2f} m; smaller in {np.sum(by_filter < by_wheels)} runs")
 
 
-# %% slideshow={"slide_type": "subslide"} answers="06-drift"
+# %% slideshow={"slide_type": "subslide"} answers="06-drift" tags=["folded"]
 def distance(poses):
     return np.hypot(*(poses - source.truth.poses)[:, :2].T)
 
@@ -558,7 +558,7 @@ closing = next(k for k in range(40, 101) if set(source.seen(source.truth.poses[k
 before, after = kept[closing - 1], kept[closing + 5]
 
 
-# %% slideshow={"slide_type": "fragment"} answers="06-shrink"
+# %% slideshow={"slide_type": "fragment"} answers="06-shrink" tags=["folded"]
 def map_of(source, mak, way, naive, k):
     """The map after step k, beside the truth: layers by their labels."""
     return {
@@ -581,7 +581,7 @@ def at(k):
     return map_of(source, kept[k], result.trajectory.poses, result.naive.poses, k)
 
 
-# %% slideshow={"slide_type": "subslide"} answers="06-shrink"
+# %% slideshow={"slide_type": "subslide"} answers="06-shrink" tags=["folded"]
 titles = [f"step {closing - 1}: about to close", f"step {closing + 5}: closed"]
 fig, both = views.panels(titles, size=(11, 5.5))
 for ax, k in zip(both, (closing - 1, closing + 5), strict=True):
@@ -623,7 +623,7 @@ print(
 # landmark with a 2 × 2 covariance of its own could do the same.
 
 
-# %% slideshow={"slide_type": "subslide"}
+# %% slideshow={"slide_type": "subslide"} tags=["folded"]
 def at_step(step):
     mak = kept[step]
     fig, (left, right) = views.panels([f"step {step}", "correlations"], (11, 5.2), shared=False)
@@ -699,7 +699,7 @@ def mean_nees(drives):
     return two_halves.mean_nees([each[:3] for each in drives], SETTLED)
 
 
-# %% slideshow={"slide_type": "fragment"} answers="06-honest"
+# %% slideshow={"slide_type": "fragment"} answers="06-honest" tags=["folded"]
 by_sight = {sight: list(driven_with(sight, 1.8)) for sight in (1.5, 4.0)}
 short, far_sighted = map(mean_nees, by_sight.values())
 better = {
@@ -725,7 +725,7 @@ at_closing = {
     for sight, drives in by_sight.items()
 }
 
-# %% slideshow={"slide_type": "subslide"} answers="06-honest"
+# %% slideshow={"slide_type": "subslide"} answers="06-honest" tags=["folded"]
 as_before = mean_nees(driven_with(2.5, 0.7))
 
 
@@ -855,7 +855,7 @@ def told(k, lie):
     return mak, mak.update([seen.ids[j]], [seen.z[j] + [lie, 0]], NOISE)
 
 
-# %% slideshow={"slide_type": "subslide"}
+# %% slideshow={"slide_type": "subslide"} tags=["folded"]
 def one_lie(range_too_long_by):
     (mak, step), (honest, _) = told(closing - 1, range_too_long_by), told(closing - 1, 0.0)
     fig, ax = views.axes(f"NIS of this sight: {step.nis:.1f}", size=(8, 6))

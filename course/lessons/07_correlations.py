@@ -20,7 +20,7 @@
 #
 # Good for a poll: the first question, the one on the far landmark, and the one on dropping.
 
-# %% slideshow={"slide_type": "skip"}
+# %% slideshow={"slide_type": "skip"} tags=["folded"]
 import json
 from copy import deepcopy
 from dataclasses import replace
@@ -250,7 +250,7 @@ for robot_sigma, drive_sigma in ((0.02, 0.0), (0.3, 0.0), (0.3, 0.3)):
 # without correlations: that was lesson 05's second half.
 
 
-# %% slideshow={"slide_type": "subslide"} answers="07-blocks"
+# %% slideshow={"slide_type": "subslide"} answers="07-blocks" tags=["folded"]
 def blocks_fill(robot_sigma, drive_sigma):
     stages, _ = shared_errors.two_sightings(robot_sigma, drive_sigma, heading_sigma=0.02)
     strongest = abs(correlation(stages[2])[3:5, 5:]).max()
@@ -313,7 +313,7 @@ ask(
 )
 
 
-# %% slideshow={"slide_type": "subslide"} answers="07-closing"
+# %% slideshow={"slide_type": "subslide"} answers="07-closing" tags=["folded"]
 def frame(step, landmark):
     """Map and correlation matrix at a step, one landmark marked."""
     places, rho, drawn = film[step]
@@ -456,7 +456,7 @@ ask(
 )
 
 
-# %% slideshow={"slide_type": "subslide"} answers="07-drop"
+# %% slideshow={"slide_type": "subslide"} answers="07-drop" tags=["folded"]
 def forget(share_kept, wheel_noise):
     """Mean NEES of the pose: all kept, and a share kept at each step."""
     some = "nothing kept" if share_kept == 0 else f"{share_kept:.2f} kept at each step"
@@ -502,7 +502,7 @@ closer = sum(a.rms < b.rms for a, b in zip(kept, dropped, strict=True))
 # bad: on most laps it beats its wheels, and the full filter is nearer to the truth on no more than
 # {= closer =} of {= RUNS =}. What it has lost is any idea of **how wrong it is**.
 
-# %% slideshow={"slide_type": "subslide"} answers="07-drop"
+# %% slideshow={"slide_type": "subslide"} answers="07-drop" tags=["folded"]
 pictures = {}
 for name, some in (("all kept", kept), ("nothing kept", dropped)):
     layers = some[3].slam.layers()
@@ -554,7 +554,7 @@ ask(
 )
 
 
-# %% slideshow={"slide_type": "subslide"} answers="07-grow"
+# %% slideshow={"slide_type": "subslide"} answers="07-grow" tags=["folded"]
 def parts(P):
     """The blocks P_ij of a map, (N, N, 2, 2), and the ΔP_ij of (07.10) likewise."""
     n = len(P) // 2 - 1
@@ -603,7 +603,7 @@ views.show(
 # No variance grows by this, in no direction; nor does any determinant (the proof stands under
 # *Deeper*). We check at every step, for every landmark and up to 120 pairs:
 
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="07-grow"
+# %% slideshow={"slide_type": "fragment"} tags=["folded", "nbval-check-output"] answers="07-grow"
 largest, det = (
     {"robot": [], "landmarks": [], "pairs of landmarks": [], "vectors": []},
     np.linalg.det,
@@ -652,7 +652,7 @@ ask(
 )
 
 
-# %% slideshow={"slide_type": "subslide"} answers="07-limit"
+# %% slideshow={"slide_type": "subslide"} answers="07-limit" tags=["folded"]
 exact_turns = cache(lambda start_sigma: shared_errors.long_run(0.0, start_sigma))
 _, own, vector, compass_map = exact_turns(0.2)
 
@@ -740,7 +740,7 @@ ask(
 )
 
 
-# %% slideshow={"slide_type": "subslide"} answers="07-price"
+# %% slideshow={"slide_type": "subslide"} answers="07-price" tags=["folded"]
 def price(N, sightings=25):
     """Bytes of P, and seconds of one step with four landmarks in sight (the best of some)."""
     rng, R = np.random.default_rng(N), np.diag([0.1, 0.03]) ** 2
@@ -900,7 +900,7 @@ ask(
 )
 
 
-# %% slideshow={"slide_type": "subslide"} answers="07-rank"
+# %% slideshow={"slide_type": "subslide"} answers="07-rank" tags=["folded"]
 def what_is_learnt(noise, first_estimates):
     """Singular values of (07.16): how much is learnt of each of nine directions."""
     stack, _ = observability.stacked_sightings(first_estimates, noise)
@@ -1063,7 +1063,7 @@ for name in ("ideal", "first estimates", "standard"):
 # The gains (4.18) and (4.29) are right, and so are eleven of the twelve second lines. The machine
 # finds all of this:
 
-# %% slideshow={"slide_type": "subslide"}
+# %% slideshow={"slide_type": "subslide"} tags=["folded"]
 P_1r = P_r1.T
 SECOND_LINES = [  # as printed, by block; P_r2, with which (4.34) begins, is zero before update 2
     {
@@ -1106,7 +1106,7 @@ def first_line(k, a, b):
     return stages[k][ROWS[a], ROWS[b]] - W[ROWS[a]] @ np.linalg.inv(S) @ W[ROWS[b]]
 
 
-# %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
+# %% slideshow={"slide_type": "subslide"} tags=["folded", "nbval-check-output"]
 def off(value, k, a, b):
     """How far a block after update k is off, in units of the right correction."""
     before, after = (stages[k + j][ROWS[a], ROWS[b]] for j in (0, 1))
@@ -1133,7 +1133,7 @@ Markdown("\n".join(lines))
 # $S^{-1}$ stands where $S$ belongs.) Of the second lines only that of $P_{\mathrm r1}$ in the second
 # update, (4.34), is wrong.
 
-# %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
+# %% slideshow={"slide_type": "subslide"} tags=["folded", "nbval-check-output"]
 gains = {
     "(4.18)": (P * H_1.T * S.I, [P_rr * H_r.T, P_11 * H_p.T, Z(2, 2)]),
     "(4.29)": (P_then * H_2.T * S.I, [P_rr * H_r.T, P_1r * H_r.T, P_22 * H_p.T]),
@@ -1148,7 +1148,7 @@ for k, equations in enumerate(({"r": 19, "1": 20}, {"r": 30, "1": 31, "2": 32}))
         moved = np.linalg.norm(W @ steps[k].S @ v) / np.linalg.norm(W @ v)
         print(f"(4.{number}) moves x {moved:.3f} times as far as it should")
 
-# %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
+# %% slideshow={"slide_type": "subslide"} tags=["folded", "nbval-check-output"]
 H = np.zeros((2, 7))
 H[:, steps[1].columns] = steps[1].H
 from_21, from_22 = (H @ stages[k] @ H.T + shared_errors.R for k in (1, 2))

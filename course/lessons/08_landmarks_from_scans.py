@@ -16,7 +16,7 @@
 # RANSAC, the foot of the perpendicular, and the two walls between which Pythagoras chooses. For a
 # poll: the questions on the vertical wall, on the far wall, on the foot, and on walls A and B.
 
-# %% slideshow={"slide_type": "skip"}
+# %% slideshow={"slide_type": "skip"} tags=["folded"]
 from dataclasses import replace
 
 import numpy as np
@@ -56,7 +56,7 @@ ROBOT = Poses("robot", [HOME])
 # landmark is seen *again* from other places, can be *told apart* from others, and *stands still*. And
 # there should be *many* of them.
 
-# %% slideshow={"slide_type": "subslide"}
+# %% slideshow={"slide_type": "subslide"} tags=["folded"]
 rng = np.random.default_rng(8)
 legs, rooms = worlds.table_legs(), worlds.situation_1()
 turns = {world.name: LIDAR.scan(world, HOME, rng) for world in (legs, rooms)}
@@ -84,7 +84,7 @@ views.show(fig, "Left, readings that stand alone before the walls; right, nothin
 # of beams in a turn: can you find all 20, and none where there is no leg?
 
 
-# %% slideshow={"slide_type": "subslide"}
+# %% slideshow={"slide_type": "subslide"} tags=["folded"]
 def spikes_in(world, jump=0.5, beams=400):
     scan = replace(LIDAR, beams=beams).scan(world, HOME, np.random.default_rng(8))
     return scan, spikes(scan, jump=jump).z
@@ -163,7 +163,7 @@ def wall_points(normal, rng, noise=0.02, rho=2.0, n=60):
     return np.column_stack([across * c - way * s, across * s + way * c])
 
 
-# %% slideshow={"slide_type": "subslide"} answers="08-school"
+# %% slideshow={"slide_type": "subslide"} answers="08-school" tags=["folded"]
 def draw_all(ax, layers, **styles):
     """Draw layers by their labels; a style's name is the label's first word."""
     for label, layer in layers.items():
@@ -176,7 +176,7 @@ def along(rho, alpha, low=-1.3, high=1.3):
     return [[rho * c - low * s, rho * s + low * c, rho * c - high * s, rho * s + high * c]]
 
 
-# %% slideshow={"slide_type": "fragment"} answers="08-school"
+# %% slideshow={"slide_type": "fragment"} answers="08-school" tags=["folded"]
 def turned_wall(normal, noise):
     points = wall_points(np.radians(normal), np.random.default_rng(1), noise)
     least, school = (along(*find(points)) for find in FITS.values())
@@ -211,7 +211,7 @@ views.explore(
 # The solid line is what we are going to derive. Here is how far both are off on average, for walls of
 # every direction:
 
-# %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"] answers="08-school"
+# %% slideshow={"slide_type": "subslide"} tags=["folded", "nbval-check-output"] answers="08-school"
 directions, off = np.radians(np.arange(0, 181, 3)), {}
 for name, find in FITS.items():
     rng = np.random.default_rng(2)
@@ -256,7 +256,7 @@ views.show(
 # We look for the line for which the mean of $e^2$ over all readings is least. Try it by hand first.
 
 
-# %% slideshow={"slide_type": "subslide"}
+# %% slideshow={"slide_type": "subslide"} tags=["folded"]
 SOME = wall_points(np.radians(40), np.random.default_rng(3), noise=0.12, n=25)
 
 
@@ -337,7 +337,7 @@ derive("e^2", left_over, "(08.4) with (08.5)").step("the double angle", wave)
 # is taken for the trough, so the line runs across the wall; $\rho$ comes out negative. The exercise has a hint for
 # each. Who knows principal components will see them here.
 
-# %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
+# %% slideshow={"slide_type": "subslide"} tags=["folded", "nbval-check-output"]
 every = np.arange(0, 180.01, 0.05)
 along_normal = SOME @ [np.cos(np.radians(every)), np.sin(np.radians(every))]
 cost = along_normal.var(axis=0)  # about its mean: of the lines through the centroid
@@ -421,7 +421,7 @@ def fits_of(first, last, count=400, truth=(3.0, 0.4), n=90):
     return np.array(z) - truth, np.array(R), clouds
 
 
-# %% slideshow={"slide_type": "subslide"} answers="08-streak"
+# %% slideshow={"slide_type": "subslide"} answers="08-streak" tags=["folded"]
 def streak(from_angle, to_angle):
     errors, R, _ = fits_of(from_angle, max(to_angle, from_angle + 5))
     R = 1e6 * R.mean(axis=0)
@@ -496,7 +496,7 @@ def across(points, line):
     return points @ [np.cos(line[1]), np.sin(line[1])] - line[0]
 
 
-# %% slideshow={"slide_type": "subslide"} answers="08-far"
+# %% slideshow={"slide_type": "subslide"} answers="08-far" tags=["folded"]
 def try_guess(reading, band_mm, window):
     points = turns[rooms.name].points()
     rows, line = guess(points, reading, window)
@@ -545,7 +545,7 @@ views.explore(
 # window), a far wall. The first two are right, the third is the subject of the next slide.
 
 
-# %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"] answers="08-far"
+# %% slideshow={"slide_type": "subslide"} tags=["folded", "nbval-check-output"] answers="08-far"
 def pass_share(distance, window, needed, band=None, tries=600):
     """Share of windows that pass, all readings of one wall straight ahead; no band: 2.8 σ."""
     rng, passed = np.random.default_rng(5), 0
@@ -615,7 +615,7 @@ for n in (9, 18, 36, 72):
 # information about $\alpha$ is a sum of $t_i^2$, and both the number of its terms and their size grow. The scan
 # of the rooms, taken apart with and without growing:
 
-# %% slideshow={"slide_type": "fragment"} answers="08-length"
+# %% slideshow={"slide_type": "fragment"} answers="08-length" tags=["folded"]
 scan, found = turns[rooms.name], {}
 for name, grow in {"windows of 9 readings": False, "grown": True}.items():
     found[name] = lines(scan, LIDAR.model, np.random.default_rng(1), Ransac(grow=grow))
@@ -671,7 +671,7 @@ def found_by(method, band_mm=15, window=25, beams=400):
     return scan, found, found_walls.judge(rooms, BY_THE_WALL, scan, found)
 
 
-# %% slideshow={"slide_type": "subslide"}
+# %% slideshow={"slide_type": "subslide"} tags=["folded"]
 def taken_apart(**chosen):
     scan, found, metres = found_by(**chosen)
     fig, ax = views.axes(f"recall {metres.recall:.0%}, false {metres.false:.0%}", (9, 5.6))
@@ -780,7 +780,7 @@ ten_times = Ellipses(
 )
 sigmas = 100 * np.sqrt(np.linalg.eigvalsh(P)[:, 1])
 
-# %% slideshow={"slide_type": "fragment"}
+# %% slideshow={"slide_type": "fragment"} tags=["folded"]
 fig, ax = views.axes("Walls and corners of one scan", size=(9, 5.6))
 layers = {
     "readings": Points("scan", scan.points()),
@@ -916,7 +916,7 @@ TRUE_POSE, P_START = np.array([1.0, 0.0, 0.0]), np.diag([0.3, 0.1, 0.05]) ** 2
 R_wall, R_foot = np.diag([0.01, 0.01]) ** 2, np.diag([0.02, 0.01]) ** 2
 
 
-# %% slideshow={"slide_type": "fragment"} answers="08-foot"
+# %% slideshow={"slide_type": "fragment"} answers="08-foot" tags=["code"]
 def look(pose, P, z, as_foot):
     """One update of a pose by a sight z of the known wall, (06.9)."""
     if as_foot:
@@ -932,7 +932,7 @@ def look(pose, P, z, as_foot):
     return pose + K @ v, P - K @ S @ K.T
 
 
-# %% slideshow={"slide_type": "fragment"} answers="08-foot"
+# %% slideshow={"slide_type": "fragment"} answers="08-foot" tags=["folded"]
 def after_looks(looks, believed_x, as_foot):
     pose, P = np.array([believed_x, 0.0, 0.0]), P_START
     rng = np.random.default_rng(11)
@@ -1031,7 +1031,7 @@ def innovation_covariance(place_sigma, heading_sigma):
     return H_r @ P_rr @ H_r.transpose(0, 2, 1) + H_p @ R @ H_p.transpose(0, 2, 1) + R
 
 
-# %% slideshow={"slide_type": "subslide"} answers="08-which"
+# %% slideshow={"slide_type": "subslide"} answers="08-which" tags=["folded"]
 def two_walls(place_sigma, heading_sigma):
     S = innovation_covariance(place_sigma, heading_sigma)
     far = np.sqrt(nees(SEEN - EXPECTED, S))
@@ -1145,7 +1145,7 @@ def entered(sightings, lives):
     return walls, false, f"{np.sum(~false)} true walls in the map, {false.sum()} false"
 
 
-# %% slideshow={"slide_type": "fragment"} answers="08-trial"
+# %% slideshow={"slide_type": "fragment"} answers="08-trial" tags=["folded"]
 def on_trial(sightings, lives):
     walls, false, told = entered(sightings, lives)
     rows = np.array([walls_on_trial.ends(wall).ravel() for wall in walls]).reshape(-1, 4)

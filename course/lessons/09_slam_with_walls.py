@@ -17,7 +17,7 @@
 # the end. For a poll: the pivot, the merging, the foot, the harm. The system is that of Smolec's
 # master's thesis; what it prints otherwise is found by machine in the optional last section.
 
-# %% slideshow={"slide_type": "skip"}
+# %% slideshow={"slide_type": "skip"} tags=["folded"]
 from dataclasses import replace
 from functools import cache, partial
 
@@ -86,7 +86,7 @@ ask(
     right="more than a metre",
 )
 
-# %% slideshow={"slide_type": "subslide"} answers="09-odometry"
+# %% slideshow={"slide_type": "subslide"} answers="09-odometry" tags=["folded"]
 shown = {
     f"{name}, {driven_m[name]:.0f} m": [
         Segments("walls", source.world.outline()),
@@ -170,7 +170,7 @@ ask(
 )
 
 
-# %% slideshow={"slide_type": "fragment"} answers="09-pivot"
+# %% slideshow={"slide_type": "fragment"} answers="09-pivot" tags=["folded"]
 def placed(metres_aside, heading_sigma_in_degrees):
     """Twenty robots that err in their heading alone place the same wall, 2 m ahead."""
     theta = np.radians(heading_sigma_in_degrees) * np.random.default_rng(9).normal(size=20)
@@ -295,7 +295,7 @@ def off(name, way):
 scans = {name: [reading.scan.points() for reading in source] for name, source in sources.items()}
 
 
-# %% slideshow={"slide_type": "fragment"}
+# %% slideshow={"slide_type": "fragment"} tags=["folded"]
 def watched(situation, step):
     """Both maps up to a step: every tenth scan's points, and the loop's walls."""
     step = min(step, len(scans[situation]) - 1)
@@ -329,7 +329,7 @@ views.explore(
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### How far off?
 
-# %% slideshow={"slide_type": "fragment"}
+# %% slideshow={"slide_type": "fragment"} tags=["folded"]
 ways = {"odometry": ("naive", naive), "SLAM": ("corrected", poses)}
 errors = {what: [off(name, way[name]) for name in sources] for what, (_, way) in ways.items()}
 fig, ax = views.chart("step", "error of the place [cm]", None, (10, 4.6))
@@ -414,7 +414,7 @@ seen_live = views.live(
 # perpendicular from the world's origin? Every wall has one, and everyone who sees the wall can compute
 # it. Its range and bearing go into the filter of lesson 06 as they are.
 
-# %% slideshow={"slide_type": "subslide"}
+# %% slideshow={"slide_type": "subslide"} tags=["folded"]
 fig, (ax,) = views.panels([None], (9, 4.4))
 layers = {
     "wall": Segments("walls", [[2.4, 2, 6, 2]]),
@@ -501,7 +501,7 @@ ask(
 )
 
 
-# %% slideshow={"slide_type": "fragment"} answers="09-corridor"
+# %% slideshow={"slide_type": "fragment"} answers="09-corridor" tags=["folded"]
 drives = cache(corridor.drives)  # each of 15 drives, lines or feet
 
 
@@ -640,7 +640,7 @@ Markdown("\n".join(rows))
 # map itself.
 
 
-# %% slideshow={"slide_type": "fragment"}
+# %% slideshow={"slide_type": "fragment"} tags=["folded"]
 def spoil(part, situation, sightings, gate):
     """The map and the way of a loop with one part spoilt, on the lines found before."""
     source = sources[situation]
@@ -665,7 +665,7 @@ PARTS = [name for name in reversed(spoilt_walls.VARIANTS) if name not in own_lin
 # Choose a part, and turn the number of sightings and the gate. Does a wider gate help against any of
 # these mistakes? Does patience?
 
-# %% slideshow={"slide_type": "fragment"}
+# %% slideshow={"slide_type": "fragment"} tags=["folded"]
 views.explore(
     spoil,
     lambda part, situation, sightings, gate: (
@@ -710,7 +710,7 @@ ask(
     right="most lines fit no wall, so odometry is alone",
 )
 
-# %% slideshow={"slide_type": "subslide"} answers="09-order"
+# %% slideshow={"slide_type": "subslide"} answers="09-order" tags=["folded"]
 room, seen_lines = sources["situation-2"], found["situation-2"]
 turning = np.array([abs(reading.odometry[2]) > 0.1 for reading in room])
 
@@ -857,7 +857,7 @@ for name in sources:
 # A round tower of 1.5 m radius stands beside the way. Move the robot, and watch what is found.
 
 
-# %% slideshow={"slide_type": "fragment"}
+# %% slideshow={"slide_type": "fragment"} tags=["folded"]
 def tower(robot_x):
     world, pose = World(circles=[(3.0, 2.0, 1.5)]), np.array([robot_x, -0.5, 0.0])
     rng = np.random.default_rng(2)
@@ -908,7 +908,7 @@ heard = ULTRASONIC.scan(one_wall, np.zeros(3), np.random.default_rng(1))
 fine = np.radians(np.linspace(-45, 75, 400))
 by_cone = rho_1 / np.cos(np.maximum(np.abs(fine - alpha_1) - half_cone, 0))
 
-# %% slideshow={"slide_type": "fragment"}
+# %% slideshow={"slide_type": "fragment"} tags=["folded"]
 shapes = {"a ray would measure": rho_1 / np.cos(fine - alpha_1), "a cone, (09.7)": by_cone}
 fig, ax = views.curves(
     np.degrees(fine), shapes, "direction β of the beam [°]", "range [m]", size=(9, 4.6)
@@ -947,7 +947,7 @@ for name, width in (("flat piece alone", half_cone), ("10° more, either side", 
 # ### A room, heard
 
 
-# %% slideshow={"slide_type": "fragment"}
+# %% slideshow={"slide_type": "fragment"} tags=["folded"]
 echo = simulation("room-ultrasonic", np.random.default_rng(4))
 echoes = [reading.scan for reading in echo]
 
@@ -1095,7 +1095,7 @@ for what, how in {"windows": replace(THESIS, band=None), "grown": None}.items():
 # The package has the whole listing as far as it can run, `FootSlam` (`slamlab run sim:situation-2
 # --estimator walls-foot`), with a switch for each mend.
 
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+# %% slideshow={"slide_type": "fragment"} tags=["folded", "nbval-check-output"]
 verdict = stored("feet")
 
 
@@ -1128,7 +1128,7 @@ mends(list(estimators.MENDS)[8:])
 #
 # His pictures come out, too: situation 2 with a sparse and a dense lidar, and the door of situation 1.
 
-# %% slideshow={"slide_type": "fragment"}
+# %% slideshow={"slide_type": "fragment"} tags=["folded"]
 LABELS = {"landmark": "foot", "corrected": "way", "scan": "lidar"}
 
 
@@ -1213,7 +1213,7 @@ Markdown("\n".join(rows))
 # Turn them, with all mends or as printed. (60 scans of situation 2.)
 
 
-# %% slideshow={"slide_type": "fragment"}
+# %% slideshow={"slide_type": "fragment"} tags=["folded"]
 def constants(sightings, lives, offset_in_m, tolerance_in_mm, beams, as_printed):
     slam, rms, rms_odometry = feet.listing(
         *("situation-2", 60, beams),

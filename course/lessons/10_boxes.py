@@ -17,7 +17,7 @@
 # seen?". Keep ten minutes for "Box beside ellipse"; the class should go home with its three numbers.
 # For a poll: the questions on the overlap, on the bent hook, on the drive, and on who is nearest.
 
-# %% slideshow={"slide_type": "skip"}
+# %% slideshow={"slide_type": "skip"} tags=["folded"]
 import json
 import textwrap
 from dataclasses import replace
@@ -118,7 +118,7 @@ ask(
 )
 
 
-# %% slideshow={"slide_type": "subslide"} answers="10-bent"
+# %% slideshow={"slide_type": "subslide"} answers="10-bent" tags=["folded"]
 def bent_tape(too_long_by, scatter):
     z = WALL + too_long_by + scatter * np.random.default_rng(7).uniform(-1, 1, 12)
     rows = {f"reading {k + 1}": around(each, BOUND) for k, each in enumerate(z)}
@@ -266,7 +266,7 @@ print([xi * kappa for xi in (-1, 2) for kappa in (-3, 1)], "→", product((-1, 2
 # matters.)
 
 
-# %% slideshow={"slide_type": "subslide"}
+# %% slideshow={"slide_type": "subslide"} tags=["folded"]
 def after_a_drive(heading_within, distance_within):
     heading, distance = around(0.0, heading_within), around(1.0, distance_within)
     box, _ = predict_box((0, 0, 0, 0), heading, distance, (0, 0), (0, 0))
@@ -438,7 +438,7 @@ def cut(edges_used, robot_within, heading_within):
     return robot, lines, box
 
 
-# %% slideshow={"slide_type": "subslide"}
+# %% slideshow={"slide_type": "subslide"} tags=["folded"]
 def cut_step_by_step(**how):
     robot, lines, box = cut(**how)
     area = width(box[:2]) * width(box[2:])
@@ -510,7 +510,7 @@ bearings = bearing_interval(robot, target)
 after = contract_heading((-0.4, 0.25), robot, target, SEEN, WITHIN)
 print("bearings", np.round(bearings, 2), " heading before [-0.4, 0.25], after", np.round(after, 2))
 
-# %% slideshow={"slide_type": "fragment"}
+# %% slideshow={"slide_type": "fragment"} tags=["folded"]
 fig, ax = views.boxes.scene(None, (-1, 4, -1.2, 1.6), size=(8, 4.6))
 views.boxes.directions(ax, (0, 0), bearings, 3.0, "possible bearings, from the middle")
 views.draw(ax, Boxes("robot", [robot]), linewidth=2)
@@ -706,7 +706,7 @@ bor = BOR(before, (-0.1, 0.1), {"post": (2.0, 2.0, 0.0, 0.0)})
 print("taken for:", bor.take(h(true_pose, chair), (0.05, 0.02)))
 print("the robot's box holds the robot:", inside(bor.robot, true_pose))
 
-# %% slideshow={"slide_type": "fragment"} answers="10-chair"
+# %% slideshow={"slide_type": "fragment"} answers="10-chair" tags=["folded"]
 fig, ax = views.boxes.scene(None, (-0.8, 3.2, -0.7, 0.7), size=(8, 3.6))
 for name, row in (("before", before), ("corrected", bor.robot)):
     views.draw(
@@ -765,7 +765,7 @@ broken = sum(each.outside.any() for each in races)
 worse = np.sum(off["box"] > off["wheels"])
 print(f"half a side of the box: {half_side:.0f} cm; runs in which any truth was outside: {broken}")
 
-# %% slideshow={"slide_type": "subslide"} answers="10-nearest"
+# %% slideshow={"slide_type": "subslide"} answers="10-nearest" tags=["folded"]
 first = races[0]
 fig, _ = views.side_by_side(
     {"boxes, 3σ": first.box.layers(), "ellipses, 95 %": first.ellipse.layers()}, size=(9, 4.4)
@@ -784,7 +784,7 @@ views.show(
 #
 # So do not take the middle of a box for an estimate. A box says where the robot *cannot* be.
 
-# %% slideshow={"slide_type": "subslide"} answers="10-nearest"
+# %% slideshow={"slide_type": "subslide"} answers="10-nearest" tags=["folded"]
 names = {"ellipse": "ellipse", "wheels": "wheels", "box": "box's middle"}
 curves = {label: first.errors[name] for name, label in names.items()}
 curves["half a side of the box"] = first.half_side
@@ -865,7 +865,7 @@ def biased(sigmas, bias):
     return race(STEADY, sigmas, BETTER.robot, bias * BETTER.omega_sigma)
 
 
-# %% slideshow={"slide_type": "subslide"}
+# %% slideshow={"slide_type": "subslide"} tags=["folded"]
 def shares_of_claims(bias_in_sigmas, bound_in_sigmas):
     each = biased(bound_in_sigmas, bias_in_sigmas)
     shares = {"95 % ellipse": each.ellipse_share, "box": each.box_share}

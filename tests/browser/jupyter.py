@@ -85,7 +85,8 @@ class Visit:
 
     def save(self):
         """Save the notebook and wait until it is."""
-        self.page.keyboard.press("Control+s")
+        with self.page.expect_response(_is_saved):  # the file is whole from then on
+            self.page.keyboard.press("Control+s")
         self.page.wait_for_selector(".jp-mod-current.jp-mod-dirty", state="detached")
 
     @property
@@ -145,3 +146,7 @@ class Visit:
         local = ("http://127.0.0.1:", "http://localhost:", "data:", "blob:")
         if not request.url.startswith(local):
             self.abroad.append(request.url)
+
+
+def _is_saved(response):
+    return response.request.method == "PUT" and "/api/contents/" in response.url

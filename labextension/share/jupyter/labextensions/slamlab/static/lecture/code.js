@@ -16,6 +16,19 @@ function tellingLine(source) {
   return telling;
 }
 
+// Code that a notebook folds away is folded by the deck in its own way, as long as it is shown.
+export function takeFolding(cell) {
+  if (cell.model.type !== "code" || !cell.inputHidden) return;
+  cell.inputHidden = false;
+  cell.node.dataset.slamlabFolded = "";
+}
+
+export function giveFoldingBack(cell) {
+  if (!("slamlabFolded" in cell.node.dataset)) return;
+  delete cell.node.dataset.slamlabFolded;
+  cell.inputHidden = true;
+}
+
 export function foldCode(cell) {
   if (cell.model.type !== "code") return;
   const source = cell.model.sharedModel.getSource();

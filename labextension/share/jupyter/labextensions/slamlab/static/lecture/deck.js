@@ -5,7 +5,7 @@ import { guard } from "./guard.js";
 import { Bar } from "./bar.js";
 import { keysOf } from "./keys.js";
 import { layOut, pagesOf, zoomOf } from "./fit.js";
-import { foldCode, lockCode } from "./code.js";
+import { foldCode, giveFoldingBack, lockCode, takeFolding } from "./code.js";
 import { Signal } from "./signal.js";
 import { refold, reveal, slidesOf, stopsOf, unfold } from "./stops.js";
 
@@ -21,6 +21,7 @@ function draw(notebook, indices) {
     }
     cell.placeholder = false;
     if (cell.node.querySelector(".slamlab-telling")) continue;
+    takeFolding(cell);
     foldCode(cell);
     lockCode(cell);
     unfold(cell);
@@ -145,6 +146,7 @@ export class Deck {
     this.observer.disconnect();
     notebook.node.removeEventListener("scroll", this.unscroll, true);
     this.release();
+    notebook.widgets.forEach(giveFoldingBack);
     this.ended.emit(this);
     panel.node.hidePopover();
     panel.node.removeAttribute("popover");

@@ -3,7 +3,11 @@
 import { button } from "../element.js";
 import { strip } from "./strip.js";
 
-const plain = (model) => JSON.stringify(model.toJSON());
+// folding and unfolding moves a cell's keys about
+const inOrder = (key, value) =>
+  value && value.constructor === Object ? Object.fromEntries(Object.entries(value).sort()) : value;
+
+const plain = (model) => JSON.stringify(model.toJSON(), inOrder);
 
 // Keep a notebook's file as it is from now on; the result ends that with a question, if need be.
 export function keepFile(panel, Widget) {

@@ -1,0 +1,52 @@
+"""Code that nobody needs to read is folded: a click opens it, a lecture folds it in its own way."""
+
+import nbformat
+import pytest
+from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_output
+
+from tests.browser.lecture import Lecture
+
+LESSON = "folded.ipynb"
+LINES = "\n".join(f"line_{k} = {k}" for k in range(9))
+
+
+@pytest.fixture
+def lesson(visit, lab_folder):
+    """A page with a slide of folded code."""
+    shown = new_output("stream", text="what it shows\n")
+    folded = {"jupyter": {"source_hidden": True}, "tags": ["folded"]}
+    slide = {"slideshow": {"slide_type": "slide"}}
+    cells = [
+        new_markdown_cell("# A slide", metadata=slide),
+        new_code_cell(LINES, metadata=folded, outputs=[shown], execution_count=1),
+    ]
+    kernel = {"kernelspec": {"name": "python3", "display_name": "Python 3 (ipykernel)"}}
+    nbformat.write(new_notebook(cells=cells, metadata=kernel), lab_folder / LESSON)
+    visit.page.set_viewport_size({"width": 1280, "height": 720})
+    visit.open(LESSON)
+    visit.page.get_by_text("what it shows").wait_for()
+    return visit.page
+
+
+def test_a_click_opens_it(lesson):
+    assert lesson.locator(".jp-CodeCell .cm-content").count() == 0
+    folded = lesson.locator(".jp-CodeCell .jp-InputPlaceholder")
+    assert "line_0 = 0" in folded.text_content()
+    folded.click()
+    lesson.locator(".jp-CodeCell .cm-content", has_text="line_8 = 8").wait_for()
+
+
+def test_a_lecture_opens_it_at_wish_and_leaves_it_as_it_was(visit, lesson, lab_folder):
+    before = (lab_folder / LESSON).read_bytes()
+    lecture = Lecture(visit)
+    lecture.start()
+    lesson.locator(".slamlab-telling:visible", has_text="line_8 = 8").wait_for()
+    assert lesson.locator(".jp-InputPlaceholder").count() == 0
+    lecture.press("c")
+    lesson.locator(".jp-CodeCell .cm-content:visible", has_text="line_4 = 4").wait_for()
+    lecture.press("Escape")
+    lesson.locator(".jp-CodeCell .jp-InputPlaceholder").wait_for()
+    assert lesson.get_by_role("button", name="Restore it").count() == 0
+    visit.save()
+    saved = nbformat.reads((lab_folder / LESSON).read_text(), 4)
+    assert saved.cells == nbformat.reads(before.decode(), 4).cells
