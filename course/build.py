@@ -7,7 +7,7 @@ from pathlib import Path
 
 import nbformat
 
-from course import asking, values
+from course import appendix, asking, values
 from course.derive import FOLDERS, derive
 from course.execute import ExecutionError, carry_outputs, execute, executed, same_code
 from course.source import ROOT, CourseError, file_name, sources
@@ -97,7 +97,7 @@ def orphans(root=ROOT):
         path.relative_to(root).as_posix()
         for folder in kinds
         for path in sorted((root / folder).glob("*.ipynb"))
-        if (kinds[folder], path.name) not in sourced
+        if (kinds[folder], path.name) not in sourced and path != root / appendix.FILE
     ]
 
 
@@ -123,6 +123,10 @@ def main(argv=None):
             problems += error.problems
     if not options.names:
         problems += [f"{name}: has no source" for name in orphans()]
+    if not options.check:
+        print(appendix.store())
+    elif not appendix.is_stored():
+        problems.append(f"{appendix.FILE}: says something else than the lessons: build it again")
     print(*problems, sep="\n", end="\n" if problems else "", file=sys.stderr)
     return 1 if problems else 0
 

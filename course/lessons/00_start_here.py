@@ -327,6 +327,14 @@ coursework.show_progress()
 # | $\sigma$ | standard deviation |
 # | $w$ | weight, of a sample for instance |
 # | $e$ | error: of a step, or of an edge between two poses |
+# | $k$ | number of a step; $i$, $j$ number landmarks or poses |
+# | $n$, $m$, $N$ | how many there are; $N$ of landmarks or samples; in lesson 02 $n$ is also the direction of a beam |
+# | $d$ | distance that the odometry reports; with a subscript, such as $d_{\mathrm{abs}}$, a bound on an error |
+# | $c$, $\kappa$ | constants, named where they are used |
+# | $\tau$ | share of a way between two points |
+# | $\iota$ | angle under which a beam meets a wall |
+# | $U$ | voltage of an infrared sensor |
+# | $\Phi$ | how much contradiction a robust weight allows an edge |
 
 # %% [markdown] slideshow={"slide_type": "skip"} name="notation"
 # ### In the code
@@ -393,6 +401,12 @@ coursework.show_progress()
 # | $e$ | `edges.error(x_i, x_j, z)` | (3,) | how far pose $j$ is from where pose $i$ and $z$ say it is |
 # | $J_i$ | `jacobians.J_i(x_i, x_j, z)` | (3, 3) | $\partial e/\partial x_i$ |
 # | $J_j$ | `jacobians.J_j(x_i, x_j, z)` | (3, 3) | $\partial e/\partial x_j$ |
+
+# %% [markdown] slideshow={"slide_type": "skip"}
+# ## Appendix: what the sources print wrong
+#
+# The theses that this course rests on hold slips that would spoil a program. Each lesson closes with
+# its own; [In print](in_print.ipynb) has them all in one place.
 
 # %% [markdown] slideshow={"slide_type": "skip"}
 # ## Appendix: the field's words

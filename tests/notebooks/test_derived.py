@@ -10,6 +10,7 @@ import pytest
 from nbgrader.nbgraderformat import MetadataValidator
 from nbgrader.preprocessors import CheckCellMetadata
 
+from course import appendix
 from course.asking import asks
 from course.build import differences, orphans
 from course.derive import derive
@@ -42,6 +43,13 @@ def test_a_stored_notebook_is_what_its_source_derives(path):
 
 def test_every_notebook_has_a_source():
     assert orphans() == []
+
+
+def test_the_appendix_has_all_that_the_lessons_say_of_print():
+    assert appendix.is_stored()
+    told = " ".join(cell.source for cell in appendix.notebook().cells)
+    closing = [path for path in LESSONS if "\n# ## In print" in path.read_text(encoding="utf-8")]
+    assert closing and all(f"({file_name(path)})" in told for path in closing)
 
 
 def test_every_exercise_of_the_catalogue_has_a_source():

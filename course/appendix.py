@@ -1,0 +1,62 @@
+"""Appendix of the course, a notebook without code: what the sources print wrong, lesson by lesson."""
+
+import re
+
+import nbformat
+
+from course.site import gathered
+from course.source import ROOT
+
+FILE = "notebooks/in_print.ipynb"
+_CLOSING = "\n\nThe way through the course: [Start here](00_start_here.ipynb)."
+
+
+def notebook(root=ROOT):
+    """The appendix as the stored lessons have it, which hold the computed numbers.
+
+    Parameters
+    ----------
+    root : Path, the project's folder
+
+    Returns
+    -------
+    NotebookNode
+    """
+    lessons = []
+    for path in sorted((root / "notebooks").glob("[0-9][0-9]_*.ipynb")):
+        lesson = nbformat.read(path, as_version=4)
+        title = re.search(r"^# +(.+)$", lesson.cells[0].source, re.MULTILINE)[1]
+        lessons.append((title, path.name, lesson))
+    parts = re.split(r"(?m)^(?=## )", gathered.page("errata", lessons))
+    parts[0] = parts[0].strip() + _CLOSING
+    made = nbformat.v4.new_notebook()
+    made.metadata["slamlab"] = {"appendix": "in print"}
+    made.metadata["kernelspec"] = {"name": "python3", "display_name": "Python 3 (ipykernel)"}
+    made.cells = [
+        nbformat.v4.new_markdown_cell(part.strip(), id=f"in-print-{k}")
+        for k, part in enumerate(parts)
+    ]
+    return made
+
+
+def is_stored(root=ROOT):
+    """bool, whether the stored appendix says what the stored lessons do."""
+    file = root / FILE
+    return file.exists() and file.read_text(encoding="utf-8") == nbformat.writes(notebook(root))
+
+
+def store(root=ROOT):
+    """Store the appendix.
+
+    Parameters
+    ----------
+    root : Path, the project's folder
+
+    Returns
+    -------
+    str, what was done
+    """
+    if is_stored(root):
+        return f"{FILE} unchanged"
+    (root / FILE).write_text(nbformat.writes(notebook(root)), encoding="utf-8", newline="\n")
+    return f"{FILE} written"
