@@ -1,4 +1,4 @@
-"""Appendix of the course, a notebook without code: what the sources print wrong, lesson by lesson."""
+"""Appendix of the course, without code: what the sources print wrong, lesson by lesson."""
 
 import re
 

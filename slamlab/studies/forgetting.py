@@ -32,7 +32,7 @@ class Forgetful(MAK):
     def _drop_cross_covariances(self):
         L, own = self._P.lower, np.repeat(np.arange((self._P.n - 3) // 2), 2)
         L[3:, :3] *= self.share
-        L[3:, 3:][own[:, None] != own] *= self.share
+        L[3:, 3:][own[:, None] > own] *= self.share  # what lies above is unused memory
 
 
 @dataclass(frozen=True)
