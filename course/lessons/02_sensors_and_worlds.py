@@ -131,9 +131,12 @@ views.explore(
     sensor_x=(-1.0, 3.0, 0.0),
 )
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="02-meet"
 # The wall behind has $r < 0$, and the one beside the beam has $\tau > 1$. The parallel one has no
-# crossing: its determinant is zero. The beam meets a wall where
+# crossing: its determinant is zero.
+
+# %% [markdown] slideshow={"slide_type": "fragment"} name="beam-meets-wall"
+# The beam meets a wall where
 #
 # $$ r \ge 0 \quad\text{and}\quad 0 \le \tau \le 1. \tag{02.2} $$
 #
@@ -970,7 +973,7 @@ rows = {-3: "simulated", 0: "0", 5: "5", 10: "10", 15: "15", 20: "20"}
 ax.set(xlim=(0, 360), yticks=list(rows), yticklabels=list(rows.values()))
 views.show(fig, "Empty readings stand above each other in a few directions, turn after turn.")
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="02-empty"
 # They stand in columns. The slanted line is the edge of a person who walks by. So most empties are
 # no failures; they say "nothing here that I can see", and that is knowledge. A **dropout** is an
 # empty reading where there *is* a surface. Where the turns before and after both saw one,

@@ -453,7 +453,7 @@ views.show(
     f"a and b reaches {weakest:.2f}.",
 )
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="06-unseen"
 # After one update no block is white. From now on everyone is related to everyone, which is why $P$ cannot be kept as
 # $N$ little matrices. Lesson 07 asks what happens to those who try.
 

@@ -217,7 +217,7 @@ for when, blocks in (("first", first), ("second", second)):
     zero = [f"P_{block}" for block, value in blocks.items() if value.is_ZeroMatrix]
     print(f"zero after the {when} sighting:", ", ".join(zero) or "none")
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="07-blocks"
 # Every further sighting and every further landmark repeats this. In EKF-SLAM **all errors become
 # correlated with all others**, and stay so.
 
@@ -273,7 +273,7 @@ views.explore(
     drive_sigma=(0.0, 1.0, 0.0),
 )
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="07-blocks"
 # White is zero, red and blue are strong. The corner of the two landmarks fills last. Make the robot
 # surer, and it pales; let the robot drive badly in between, and it pales as well, for landmark 2
 # then errs mostly by what happened on the way.
@@ -361,7 +361,7 @@ for second_of_run in (again - 1, again, again + 4, 96):
         )
     )
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="07-closing"
 # At {= again =} s the robot sees landmark 0 again. In that one second landmark 9, unseen, goes from
 # ±{= spreads[again - 1][1]:.0f =} cm to ±{= spreads[again][1]:.0f =} cm. This is the second sighting of our
 # example on a large scale: the robot's block with landmark 9 brings it the news. Without that block
@@ -497,7 +497,7 @@ for name, some in (("all kept", kept), ("nothing kept", dropped)):
 wheels_rms = np.median([lap.wheels_rms for lap in kept])
 closer = sum(a.rms < b.rms for a, b in zip(kept, dropped, strict=True))
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="07-drop"
 # The wheels alone err by {= wheels_rms:.2f =} m. So the forgetful filter's *estimates* are not that
 # bad: on most laps it beats its wheels, and the full filter is nearer to the truth on no more than
 # {= closer =} of {= RUNS =}. What it has lost is any idea of **how wrong it is**.
@@ -519,7 +519,7 @@ views.show(
     f"are tiny, and {dropped[3].inside:.0%} do.",
 )
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="07-drop"
 # This is the far half of one of these laps. On the left, ellipses hold the black points; on the right,
 # tiny ellipses stand beside them. The robot sees a landmark again where it expects it, and concludes that both were
 # right. But the landmark was placed *by this robot*, and repeats the robot's own error. **One witness
@@ -621,7 +621,7 @@ for before, after in pairwise(P_at[9:]):
 for name, ratios in largest.items():
     print(f"{name}: largest det after / det before = {max(ratios):.6f}")
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="07-grow"
 # None is above 1 but the robot's. This is a law of the filter, whatever its Jacobians are. The filter
 # that forgot its cross blocks obeys it as well, landmark by landmark, and was wrong all the time:
 # **certainty that never falls is no proof of being right.**
@@ -704,7 +704,7 @@ for name, mak in (("compass", compass_map), ("no compass", turned_map)):
     print(f"{name}: correlation of two neighbours {rho:.3f}; of the map's variance")
     print(f"  {shifts:.1%} displacement, {turn:.1%} turn, {1 - shifts - turn:.1%} left")
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="07-limit"
 # Without a compass one more thing stays unknown: **how the map is turned against the start**. The
 # heading at the start is exact here, by decree; but the robot had turned, with noise, before it
 # placed most of its landmarks, and no later sighting tells that turn from one of the whole map. The
