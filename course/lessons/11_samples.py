@@ -32,7 +32,7 @@ from slamlab.filters.montecarlo import likelihood
 from slamlab.filters.montecarlo.motion_sampling import sample_motion
 from slamlab.filters.montecarlo.particles import ParticleSet, uniform
 from slamlab.filters.montecarlo.resampling import multinomial, systematic, systematic_at
-from slamlab.filters.montecarlo.weights import effective_sample_size, normalise
+from slamlab.filters.montecarlo.weights import normalise
 from slamlab.geometry import compose
 from slamlab.layers import Ellipses, Points, Poses, Samples
 from slamlab.models import RobotModel
@@ -42,9 +42,10 @@ from slamlab.studies.sampled_room import CORNERS, HIGH, LOW, MAP, START, STEP, W
 from slamlab.studies.sampled_room import film, near
 from slamlab.studies.study_command import stored
 
-many = stored("samples")  # what 100 seeds gave
+many = stored("samples")  # the table of a long study
+runs = many["runs"]
 
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=8
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=7
 # ## Which corner is that?
 #
 # A robot stands in a room of 6 m by 4 m and does not know where. It has a map with four corners and a post. It sees the
@@ -126,16 +127,16 @@ views.explore(
 #
 # (All $n$ weights together are one. Here they are nearly equal.)
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Ask what the EKF of lesson 05 would do here. It would have to start somewhere. From the right half of
+# the room it finds the robot, and from the other one the opposite place, with an ellipse just as small.
+
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="11-where"
 print("step   near the robot   near the opposite place   near the mean")
 for step in (0, 3, 9, 36):
     cloud, truth = drive(10_000)[step]
     places = truth, -truth, cloud.moments.x
     print(f"{step:3}", *(f"{near(cloud, place):18.0%}" for place in places))
-
-# %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* Ask what the EKF of lesson 05 would do here. It would have to start somewhere. From the right half of
-# the room it finds the robot, and from the other one the opposite place, with an ellipse just as small.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=6
 # ## A cloud that is too small
@@ -162,7 +163,9 @@ few = [film(200, seed, steps=10)[-1] for seed in range(100)]
 at_robot = np.array([near(cloud, truth) for cloud, truth in few])
 opposite = np.array([near(cloud, -truth) for cloud, truth in few])
 print(f"100 drives with 200 samples, after 10 steps: {sum(at_robot > 0.98)} at the robot only,")
-print(f"{sum(opposite > 0.98)} at the opposite place only, {sum(np.minimum(at_robot, opposite) > 0.02)} at both")
+print(
+    f"{sum(opposite > 0.98)} at the opposite place only, {sum(np.minimum(at_robot, opposite) > 0.02)} at both"
+)
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="11-few"
 # After ten steps, few clouds are still undecided. The others have made up their minds, about one way or the other equally
@@ -171,16 +174,13 @@ print(f"{sum(opposite > 0.98)} at the opposite place only, {sum(np.minimum(at_ro
 
 # %% slideshow={"slide_type": "subslide"} answers="11-few"
 found = many["found"]
-rows = {f"{int(n):,} samples": row for n, row in found.items()}
-fig, _ = views.shares({"found": rows}, "share of 100 drives found [1]", size=(8, 4.2))
-views.show(
-    fig,
-    f"The robot is found in {found['50'][0]:.0%} of the drives with 50 samples, in {found['500'][0]:.0%} with 500, in "
-    f"{found['5000'][0]:.0%} with 5000, in {found['20000'][0]:.0%} with 20 000.",
-)
+rows = {f"{int(n):,} samples": share for n, share in found.items()}
+fig, _ = views.shares({"found": rows}, f"share of {runs} drives found [1]", size=(8, 4.2))
+shown = ", ".join(f"{name} in {share[0]:.0%}" for name, share in rows.items())
+views.show(fig, f"The robot is found by {shown} of the drives; the intervals are wide.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="11-few"
-# These are 100 drives for each number of samples, with 95 % intervals, twelve steps after the post came into sight. With a few hundred
+# These are {= runs =} drives for each number of samples, with 95 % intervals, twelve steps after the post came into sight. With a few hundred
 # samples the outcome is that of a coin. Go back to the slider of the first section and choose fewer samples: the
 # cloud looks just as sure of itself.
 #
@@ -241,7 +241,7 @@ def banana(heading_sigma, samples):
 views.explore(
     banana,
     lambda heading_sigma, samples: (
-        f"{samples} samples on an arc of 3 m, a heading sigma of {heading_sigma:.2f} rad; the EKF's ellipse, upright at "
+        f"{samples} samples on an arc, for a heading sigma of {heading_sigma:.2f} rad; the EKF's ellipse, upright at "
         f"the end of the straight way, holds {driven(heading_sigma, samples)[2]:.0%} of them."
     ),
     heading_sigma=(0.02, 1.5, 0.5),
@@ -293,7 +293,7 @@ sp.factor(story["ab"] + story["bb"]) / total
 # ($\mathrm{Bel}$ is what is believed after step $k$, and $\Pr$ of a continuous quantity is its density. The factor that is left
 # out, the sum of all stories, makes the whole sum up to one.)
 
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=9
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=8
 # ## The weight
 #
 # We *have* samples of the integral in (11.3): take samples of the old belief, and let each drive with noise. We *want* samples of
@@ -323,8 +323,8 @@ def on_a_line(drawn_mean, drawn_sigma):
 views.explore(
     on_a_line,
     lambda drawn_mean, drawn_sigma: (
-        f"60 samples from a Gaussian of mean {drawn_mean:.1f} and sigma {drawn_sigma:.1f} as bars as high as their "
-        "weights; where the wanted Gaussian, of mean 0 and sigma 1, is the higher of the two, the bars are long."
+        f"Samples from a Gaussian of mean {drawn_mean:.1f} and sigma {drawn_sigma:.1f} as bars as high as their "
+        "weights; where the wanted Gaussian is the higher of the two, the bars are long."
     ),
     drawn_mean=(-3.0, 3.0, 1.5),
     drawn_sigma=(0.3, 3.0, 1.5),
@@ -597,7 +597,7 @@ def carried_off(strangers, drive):
 views.explore(
     carried_off,
     lambda strangers, drive: (
-        f"The error of 500 samples: {errors_of(0, drive)[-1]:.1f} m at the end without strangers, "
+        f"The error of the mean: {errors_of(0, drive)[-1]:.1f} m at the end without strangers, "
         f"{errors_of(strangers, drive)[-1]:.1f} m with {strangers} of them in every step."
     ),
     strangers=(1, 250, 50),
@@ -610,13 +610,10 @@ views.explore(
 # than the others, it has many children.
 
 # %% slideshow={"slide_type": "subslide"} answers="11-carried"
-again = {f"{k} strangers": row["found"] for k, row in many["strangers"].items()}
-fig, _ = views.shares({"found": again}, "share of 100 drives found again [1]", size=(8, 3.8))
-views.show(
-    fig,
-    f"Found again in {again['0 strangers'][0]:.0%} of the drives without strangers, in {again['25 strangers'][0]:.0%} "
-    f"with 25, in {again['100 strangers'][0]:.0%} with 100.",
-)
+again = {f"{k} strangers": share["found"] for k, share in many["strangers"].items()}
+fig, _ = views.shares({"found": again}, f"share of {runs} drives found again [1]", size=(8, 3.8))
+shown = ", ".join(f"with {name} in {share[0]:.0%}" for name, share in again.items())
+views.show(fig, f"The robot is found again {shown} of the drives.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="11-carried"
 # PLACEHOLDER price
@@ -642,3 +639,336 @@ print("different samples after", {look: left[look] for look in (1, 5, 20, 60)})
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* A good place to end the first lecture. Homework: would you add strangers if you knew that nobody carries robots?
 # (They also mend a wrong start.)
+
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=7
+# ## Part two: and the map?
+#
+# SLAM asks for the landmarks as well. (This part calls them objects.) Why not take samples of everything at once: of the pose, three
+# numbers, and of $N$ objects, two numbers each?
+
+# %% slideshow={"slide_type": "fragment"}
+ask(
+    "11-dimensions",
+    "Say that ten samples in a row are enough for one number. **How many samples cover a pose and ten objects?**",
+    {
+        "230: ten for each of 23 numbers": "that would be enough if the numbers could be covered one by one. But a sample is a value "
+        "for all of them at once.",
+        "a thousand, as for the pose alone": "for the pose alone it takes 10 · 10 · 10. Each further number asks for ten times as "
+        "many.",
+        "10²³": "ten values for each number, each with ten of every other: ten to the power of 23.",
+    },
+    right="10²³",
+)
+
+# %% [markdown] slideshow={"slide_type": "subslide"} answers="11-dimensions"
+# ### One set for each
+#
+# The MAK thesis has a way out, its algorithm 2: *one set of samples for the robot, and one for each object.* A thousand for the pose and
+# 300 for every object, however many there are.
+#
+# But the robot is weighed by where it sees an object, and nobody knows where that is. The object is weighed by where the robot is, and
+# nobody knows that either. So whenever another place is needed, the algorithm takes **random samples of its set**.
+
+# %% [markdown] slideshow={"slide_type": "subslide"} answers="11-dimensions"
+# With $m$ such partners $p_1, \ldots, p_m$, drawn anew for every sample $x_i$ of the robot, its weight is the mean
+#
+# $$w_i \;\propto\; \frac{1}{m} \sum_{j=1}^{m} \Pr(z \mid x_i, p_j), \tag{11.9}$$
+#
+# and the other way round for the object's samples. The thesis takes one partner; the package takes ten, for less noise. A new object's
+# samples stand where random poses would have seen it. We drive a simulated lap among ten objects.
+
+# %% slideshow={"slide_type": "subslide"} answers="11-dimensions"
+lap = sets_apart.lap(12)
+slam, pictures = montecarlo(lap), {}
+for k, reading in enumerate(lap):
+    slam.step(reading)
+    pictures[k] = slam.layers()
+
+
+def sets_after(readings):
+    sets, frozen, way, robot = pictures[readings]
+    fig, ax = views.axes(f"After {readings} readings", size=(9, 6))
+    views.draw(ax, Poses("truth", lap.truth.poses[: readings + 1]), label="true way")
+    views.draw(
+        ax, Points("truth", lap.landmarks), marker="+", markersize=12, mew=1.5, label="objects"
+    )
+    views.draw(ax, sets, label="sets of objects")
+    views.draw(ax, frozen, label="frozen objects")
+    views.draw(ax, way, label="believed way")
+    views.draw(ax, robot, color=views.COLOURS["sample"], label="set of the robot")
+    ax.set(xlim=(-7.5, 7.5), ylim=(-2.5, 10.5), adjustable="box")
+    views.legend_below(fig)
+    return fig
+
+
+# %% slideshow={"slide_type": "fragment"} answers="11-dimensions"
+views.explore(
+    sets_after,
+    lambda readings: (
+        f"After {readings} readings the robot has gone part of its loop; small clouds of samples stand near the crosses of the true "
+        f"objects, and the believed way ends {np.hypot(*(pictures[readings][2].rows[-1] - lap.truth.poses[readings])[:2]):.2f} m from "
+        "the true one."
+    ),
+    play="readings",
+    readings=(0, len(lap) - 1, 52),
+)
+
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="11-dimensions"
+# Every object is a cloud: born as wide as the robot's doubt and the sensor's together, and shrinking while it is seen. Press ▶ and look
+# where the crosses are. Late on the way, the clouds have shrunk *beside* their crosses, and the believed way leaves the true one.
+
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=9
+# ## What do the sets forget?
+#
+# The robot's place is in doubt by 30 cm along its way. It measures, with 5 cm, how far ahead an object is, and so the object's set is born.
+# Then both sets are kept apart.
+
+# %% slideshow={"slide_type": "fragment"}
+ask(
+    "11-forget",
+    "**How well do the two sets, kept apart, still know the range between robot and object?**",
+    {
+        "to 5 cm: it has just been measured": "each pair did know it, but nobody keeps the pairs. A random partner is a "
+        "wrong partner.",
+        "to some 30 cm, the robot's doubt": "the object's set has inherited the same 30 cm, and the two no longer go together.",
+        "to more than 40 cm": "two doubts of 30 cm that nothing ties together make 30 cm times the root of two.",
+    },
+    right="to more than 40 cm",
+)
+
+# %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"] answers="11-forget"
+rng = np.random.default_rng(13)
+poses = rng.normal(0, [0.3, 0.3, 0.0], (5000, 3))
+seen = models.g(poses, np.array([2.0, 0.0]) + rng.normal(0, [0.05, 0.02], (5000, 2)))
+known = {}
+for name, places in {"as they were made": seen, "random partners": rng.permutation(seen)}.items():
+    known[name] = 100 * models.h(poses, places)[:, 0].std()
+    together = np.corrcoef(poses[:, 0], places[:, 0])[0, 1]
+    print(f"{name:18} range known to {known[name]:2.0f} cm, correlation {together:5.2f}")
+
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="11-forget"
+# A robot that may stand 30 cm farther left is asked about the object that a robot 30 cm farther right has seen. So the range, known to
+# {= known["as they were made"]:.0f =} cm, is now known to {= known["random partners"]:.0f =}. Each set by itself is as good as before.
+# What they knew *together* is gone. It is the block $P_{\mathrm{r}i}$ of lesson 07, once more.
+#
+# And with every reading the two sets learn from each other, as if they had never met. Lesson 07 has shown what comes of that: a belief
+# that is too sure.
+
+# %% [markdown] slideshow={"slide_type": "subslide"} answers="11-forget"
+# Is it? We drive {= runs =} laps, with the wheels alone, with the EKF of lesson 06, and with sets. How far off are they, and how often is the true
+# pose outside of the region that should hold it 95 times in 100?
+
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="11-forget"
+maps = many["maps"]
+
+
+def row(name):
+    """A line of the table: the error, how much more than odometry's, how often outside."""
+    error, more = (maps[name].get(key, [0.0])[0] for key in ("rms", "against odometry"))
+    outside = f"{maps[name]['outside'][0]:8.0%}" if "outside" in maps[name] else ""
+    print(f"{name:22} {100 * error:5.0f} cm {100 * more:+10.0f} cm {outside}")
+
+
+HEAD = f"median of {runs} laps        error   than odometry  outside"
+print(HEAD)
+for name in (sets_apart.WHEELS, sets_apart.EKF, sets_apart.SETS, sets_apart.ONE):
+    row(name)
+
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="11-forget"
+# PLACEHOLDER maps
+
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=6
+# ## Objects that nobody looks at
+#
+# Algorithm 2 as it stands draws *every* set anew in *every* step, whether the object has been seen or not. Take an object that is out of sight
+# for long: all its samples keep the same weight.
+
+# %% slideshow={"slide_type": "fragment"}
+ask(
+    "11-unseen",
+    "Nothing is learned about the object, and its set is drawn anew, by tickets, 300 times. **What becomes of the set?**",
+    {
+        "nothing: the draws are fair": "they are fair on average. A walk by the toss of a coin is fair on average, too, and leads away.",
+        "it gets wider, since nothing is learned": "copies stand where their parents stand. Drawing never widens a set.",
+        "its mean walks away, and it gets narrower": "every draw loses some samples by chance. The mean of those that are left is another one, "
+        "and they are spread less.",
+    },
+    right="its mean walks away, and it gets narrower",
+)
+
+
+# %% slideshow={"slide_type": "subslide"} answers="11-unseen"
+@cache
+def unseen(samples):
+    return sets_apart.drawn_anew(samples, 300, 0.1, np.random.default_rng(14))
+
+
+def drift(samples):
+    walked, believed = (100 * each for each in unseen(samples))
+    lines = {"what the set claims": believed, "how far its mean has walked": walked}
+    told = f"{samples} samples, drawn anew 300 times"
+    fig, ax = views.curves(np.arange(1, 301), lines, "draws", "rms [cm]", told, size=(8, 4.2))
+    lost = 1 - (1 - 1 / samples) ** np.arange(1, 301)
+    ax.plot(
+        np.arange(1, 301),
+        100 * np.sqrt(2 * lost) * 0.1,
+        color=views.COLOURS["limit"],
+        label="(11.10)",
+    )
+    views.legend_below(fig)
+    return fig
+
+
+# %% slideshow={"slide_type": "fragment"} answers="11-unseen"
+views.explore(
+    drift,
+    lambda samples: (
+        f"Sets of {samples} samples, drawn anew: at the end the mean has walked {100 * unseen(samples)[0][-1]:.1f} cm "
+        f"and the set claims {100 * unseen(samples)[1][-1]:.1f} cm."
+    ),
+    samples=(50, 600, 300),
+)
+
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="11-unseen"
+# The mean walks, and the set gets surer of itself. Each draw takes the share $1/n$ of the variance and turns it into error. After $k$ draws
+# the mean has gone, on average,
+#
+# $$\mathrm{E}\, |\bar x_k - \bar x_0|^2 = \left(1 - \left(1 - \tfrac1n\right)^k\right) \cdot \text{(the variance at first)}, \tag{11.10}$$
+#
+# which is drawn as well. (The second *Deeper* section derives it.) Biologists know it as the drift of small populations.
+
+# %% [markdown] slideshow={"slide_type": "subslide"} answers="11-unseen"
+# You have seen it before: the two clusters of the first section were such a population, and nothing was known that could tell them apart. When
+# the cloud was small, one of them drifted to zero.
+#
+# There are two cures, and the package uses both: leave sets alone of which nothing was seen, and draw by a comb, which gives each of
+# $n$ equal samples back exactly once.
+
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=4
+# ## Freezing
+#
+# The thesis has a third cure: if *all* samples of an object lie close together, take their mean for the truth from then on. The object becomes
+# a point. There is nothing left to draw, nothing can drift, and there is less to compute. But how close is close?
+
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+print(HEAD)
+for name in (sets_apart.SETS, *sets_apart.FROZEN.values()):
+    row(name)
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# PLACEHOLDER freezing
+
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=6
+# ## Samples where they are needed
+#
+# Lesson 05: if the robot's poses are *known*, the objects are independent of one another, and each needs a little Kalman filter of its own. Now
+# look at one sample of the robot. With its ancestors it is a whole **way**, a guess of all poses. Given the way $x_{1:k}$, the
+# objects $p_1, \ldots, p_N$ are independent, so no cross terms are missing:
+#
+# $$\mathrm{Bel}(x_{1:k}, p_1, \ldots, p_N) = \mathrm{Bel}(x_{1:k}) \prod_{j=1}^{N} \mathrm{Bel}(p_j \mid x_{1:k}). \tag{11.11}$$
+#
+# So take samples of the way, and give **each sample a map of its own**, made of little Kalman filters. What the samples have in common, and where they
+# differ, *is* the correlation. The filter is called FastSLAM.
+
+# %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
+print(HEAD)
+for name in (sets_apart.EKF, sets_apart.SETS, *sets_apart.FAST.values()):
+    row(name)
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# PLACEHOLDER fast
+
+# %% [markdown] slideshow={"slide_type": "slide"}
+# ## Literature
+#
+# N. J. Gordon, D. J. Salmond and A. F. M. Smith, "Novel approach to nonlinear/non-Gaussian Bayesian state estimation", *IEE Proceedings F* 140(2),
+# 1993: the filter of samples that are moved, weighed and drawn anew.
+#
+# F. Dellaert, D. Fox, W. Burgard and S. Thrun, "Monte Carlo localization for mobile robots", *IEEE International Conference on Robotics and
+# Automation*, 1999: a robot that finds itself in a known map.
+#
+# J. S. Liu and R. Chen, "Sequential Monte Carlo methods for dynamic systems", *Journal of the American Statistical Association* 93(443), 1998: when to
+# draw anew.
+#
+# M. Montemerlo, S. Thrun, D. Koller and B. Wegbreit, "FastSLAM: a factored solution to the simultaneous localization and mapping problem", *AAAI*,
+# 2002: samples of ways, each with a map of its own.
+#
+# **Read next:** S. Thrun, W. Burgard and D. Fox, *Probabilistic Robotics*, MIT Press, 2005, chapters 4 and 8.
+
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=2
+# ## What you can do now
+#
+# | | |
+# | --- | --- |
+# | move | every sample, each with noise of its own |
+# | weigh | by the likelihood alone, in logarithms, the largest taken out |
+# | draw | by weight, with a comb, when $n_{\mathrm{eff}} < n/2$ |
+# | clouds are good at | bent beliefs, several hills, names that nobody tells |
+# | and bad at | sharp sensors, many dimensions, changing their mind |
+# | sets with random partners | cheap, and far too sure of themselves |
+#
+# **What comes next:** in [lesson 12](12_three_filters.ipynb) boxes, ellipses and samples drive the same robot.
+#
+# The sections below this one are optional.
+#
+# **Exercise:** [11 · Samples](../exercises/ex11_samples.ipynb). You weigh, draw and localise, make samples count that were drawn otherwise than
+# they should have been, and find a robot again that somebody carried off.
+
+# %% [markdown] slideshow={"slide_type": "slide"}
+# ## Deeper: why half the noise?
+#
+# In "The weight", a cloud that multiplied the density of the drive into its weights behaved like a Kalman filter with half of $Q$. Samples are
+# drawn by that density, and then weighed by it once more, so it counts squared. What is the square of a Gaussian?
+
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+q, Q = sp.symbols("q Q", positive=True)
+hill = sp.exp(-(q**2) / (2 * Q))
+sp.simplify(hill**2 / hill.subs(Q, Q / 2))
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# The quotient is 1: the square of a Gaussian of variance $Q$ is, but for its height, a Gaussian of variance $Q/2$. So the mistake is not a small one: it
+# believes that the wheels are better than they are by the root of two.
+
+# %% [markdown] slideshow={"slide_type": "slide"}
+# ## Deeper: what a draw does to a set
+#
+# Draw $n$ times, independently, from $n$ equal samples with the variance $\sigma_k^2$ (divided by $n$, not by $n - 1$). The mean of the draws has the variance
+# $\sigma_k^2/n$ round the mean of the samples. That is the step of the walk. The draws spread round *their own* mean by as much less,
+#
+# $$\mathrm{E}\,\sigma_{k+1}^2 = \left(1 - \tfrac1n\right) \sigma_k^2, \tag{11.12}$$
+#
+# so that step and spread together are what the spread was. The walk's steps are uncorrelated, their variances add up to a geometric series, and that is (11.10).
+# Two samples show it exactly, for there are only four ways to draw:
+
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+one, other = sp.symbols("x_1 x_2", real=True)
+ways = [(one, one), (one, other), (other, one), (other, other)]
+spread = [sum((x - sum(way) / 2) ** 2 for x in way) / 2 for way in ways]
+sp.simplify(sum(spread) / 4 / spread[1])
+
+# %% [markdown] slideshow={"slide_type": "slide"}
+# ## In print
+#
+# Optional: what the MAK thesis prints of its algorithms, in its section 5.3, and what comes of it.
+#
+# | place | printed | right | harm |
+# | --- | --- | --- | --- |
+# | 5.3.2, algorithm 1 | "the sample with the largest weight" | draw by weight | the cloud is no belief |
+# | algorithm 1, steps 2 and 4 | $\Pr(x_k \mid x_{k-1}, u_k)$ in the weight | (11.5) | half the motion noise |
+# | 5.3.2, Bayes | left side given observations to $k - 1$ | to $k + 1$, the one just made | none |
+#
+# The text of the thesis says "by its weight", and the index of the last row may have been lost in printing.
+
+# %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
+for rule in (rail.RIGHT, rail.TWICE, rail.LARGEST):
+    mean, sigma = rail.by_samples(zs, np.random.default_rng(2), 20_000, rule)
+    print(f"{rule:20} {mean:6.2f} m ± {100 * sigma:4.1f} cm")
+largest, right = (mean, sigma), rail.by_kalman(zs)
+print(f"{'Kalman':20} {right[0]:6.2f} m ± {100 * right[1]:4.1f} cm")
+bel_b = (story["ab"] + story["bb"]) / sum(story.values())
+print("the belief depends on what was just seen:", sp.simplify(bel_b.diff(sees["b"])) != 0)
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# If all samples go on from the one of the largest weight, the belief of all steps before is thrown away but for one point. On this drive its mean is
+# {= 100 * abs(largest[0] - right[0]):.0f =} cm off that of the Kalman filter, whose $\sigma$ is {= 100 * right[1]:.0f =} cm, and
+# it claims {= 100 * largest[1]:.0f =}. The wrong index harms nobody who derives (11.3): without the observation just made nothing is learned.

@@ -1,4 +1,4 @@
-"""Maps by samples, for lesson 11: what sets forget that are kept apart; sets that are drawn anew."""
+"""Maps by samples, for lesson 11: what sets kept apart forget, and how a set drifts unseen."""
 
 from functools import partial
 
