@@ -6,16 +6,16 @@
 # build maps from samples, knowing what they forget.
 #
 # **90 minutes**, in two parts: where is the robot (56), and what is the map (34). **Before:** lesson
-# [03](03_kalman_filter.ipynb) for the Kalman filter, lesson [05](05_two_easy_halves.ipynb) for the known map; for part two,
-# lesson [07](07_correlations.ipynb).
+# [03](03_kalman_filter.ipynb) for the Kalman filter, lesson [05](05_two_easy_halves.ipynb) for the known map; for
+# part two, lesson [07](07_correlations.ipynb).
 #
 # *Key:* a Gaussian has one hill. A cloud of samples can have as many as it has samples for.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* Two lectures. The heart of the first is the cloud that decides without a reason; come back to it
-# when objects drift in part two, for it is the same thing. If time is short, leave out "Weights that are all zero" and
-# "A room of two places". For a poll: the questions on the corners, on fewer samples, on the unlikely drive, on the better
-# sensor, and on the object that nobody sees.
+# when objects drift in part two, for it is the same thing. If time is short, leave out "Weights that are all zero"
+# and "A room of two places". For a poll: the questions on the corners, on fewer samples, on the unlikely drive, on
+# the better sensor, and on the object that nobody sees.
 
 # %% slideshow={"slide_type": "skip"}
 from functools import cache
@@ -38,8 +38,8 @@ from slamlab.layers import Ellipses, Points, Poses, Samples
 from slamlab.models import RobotModel
 from slamlab.studies import sampled_rail as rail
 from slamlab.studies import sets_apart
-from slamlab.studies.sampled_room import CORNERS, HIGH, LOW, MAP, START, STEP, WALLS, WHEELS, R
-from slamlab.studies.sampled_room import film, near
+from slamlab.studies.sampled_room import CORNERS, HIGH, LOW, MAP, POST, START, STEP, WALLS
+from slamlab.studies.sampled_room import WHEELS, R, film, near
 from slamlab.studies.study_command import stored
 
 many = stored("samples")  # the table of a long study
@@ -48,8 +48,8 @@ runs = many["runs"]
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=7
 # ## Which corner is that?
 #
-# A robot stands in a room of 6 m by 4 m and does not know where. It has a map with four corners and a post. It sees the
-# four corners, and they all look alike. The post looks no different, and it is seen from near by only.
+# A robot stands in a room of 6 m by 4 m and does not know where. It has a map with four corners and a post. It sees
+# the four corners, and they all look alike. The post looks no different, and it is seen from near by only.
 #
 # The robot drives a little and looks, again and again.
 
@@ -69,12 +69,12 @@ ask(
 )
 
 # %% [markdown] slideshow={"slide_type": "subslide"} answers="11-where"
-# So the belief has two hills, and no Gaussian has two. We keep it as a **cloud of samples**: guesses, each of which is a
-# full pose. (The literature calls them particles, and the filter a particle filter.)
+# So the belief has two hills, and no Gaussian has two. We keep it as a **cloud of samples**: guesses, each of which
+# is a full pose. (The literature calls them particles, and the filter a particle filter.)
 #
-# We begin with 10 000 samples all over the room, in all directions. Each sample drives as the robot drives. A sample that
-# explains what is seen multiplies; one that does not dies out. How that is done is the subject of this part. First we
-# watch it.
+# We begin with 10 000 samples all over the room, in all directions. Each sample drives as the robot drives. A sample
+# that explains what is seen multiplies; one that does not dies out. How that is done is the subject of this part.
+# First we watch it.
 
 
 # %% slideshow={"slide_type": "subslide"} answers="11-where"
@@ -93,6 +93,8 @@ def scene(cloud, truth, title):
 
 # %% slideshow={"slide_type": "fragment"} answers="11-where"
 drive = cache(lambda samples: film(samples, seed=2))
+from_the_post = [np.hypot(*(truth[:2] - POST[0])) for _, truth in drive(10_000)]
+post_seen = np.argmax(np.array(from_the_post) < 1.2)  # the first step from which it is seen
 
 
 def at_step(samples, step):
@@ -109,31 +111,32 @@ views.explore(
     ),
     play="step",
     samples=[10_000, 1000, 200, 50],
-    step=(0, 36, 9),
+    step=(0, 36, 4),
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="11-where"
-# There are two clusters, one round the robot and one at the opposite place. The ellipse has the same mean and the same
-# covariance as the cloud. All that it can say is "in the middle, give or take the room", and there is nobody in the middle.
+# There are two clusters, one round the robot and one at the opposite place. The ellipse has the same mean and the
+# same covariance as the cloud. All that it can say is "in the middle, give or take the room", and there is nobody in
+# the middle.
 
 # %% [markdown] slideshow={"slide_type": "subslide"} answers="11-where"
-# Press ▶. Near step 24 the robot comes within sight of the post. There is a post on one side of the room only, so one of
-# the clusters dies.
+# Press ▶. In step {= post_seen =} the robot comes within sight of the post. There is a post on one side of the room
+# only, so one of the clusters dies.
 #
-# A question to such a belief is a sum. How likely is the robot in some area? Add the weights $w_i$ of the samples $x_i$ that are
-# there:
+# A question to such a belief is a sum. How likely is the robot in some area? Add the weights $w_i$ of the samples
+# $x_i$ that are there:
 #
 # $$\Pr(x \in \text{area}) \;\approx \sum_{i:\; x_i \in \text{area}} w_i. \tag{11.1}$$
 #
-# (All $n$ weights together are one. Here they are nearly equal.)
+# (All $n$ weights together are one.)
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* Ask what the EKF of lesson 05 would do here. It would have to start somewhere. From the right half of
-# the room it finds the robot, and from the other one the opposite place, with an ellipse just as small.
+# *For the lecturer:* Ask what the EKF of lesson 05 would do here. It would have to start somewhere. From the right
+# half of the room it finds the robot, and from the other one the opposite place, with an ellipse just as small.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="11-where"
 print("step   near the robot   near the opposite place   near the mean")
-for step in (0, 3, 9, 36):
+for step in (0, 4, 12, 36):
     cloud, truth = drive(10_000)[step]
     places = truth, -truth, cloud.moments.x
     print(f"{step:3}", *(f"{near(cloud, place):18.0%}" for place in places))
@@ -141,8 +144,8 @@ for step in (0, 3, 9, 36):
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=6
 # ## A cloud that is too small
 #
-# Until step 24 the robot sees nothing that could tell the two places apart. With 10 000 samples, both clusters lived that
-# long. Now we take 200, on the same drive.
+# Until step {= post_seen =} the robot sees nothing that could tell the two places apart. With 10 000 samples, both
+# clusters lived that long. Now we take 200, on the same drive.
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
@@ -168,9 +171,9 @@ print(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="11-few"
-# After ten steps, few clouds are still undecided. The others have made up their minds, about one way or the other equally
-# often, and *no sighting has told them anything*. When the post comes, a cloud that sits at the wrong place cannot
-# follow: it has no sample at the right one.
+# After ten steps, few clouds are still undecided. The others have made up their minds, about one way or the other
+# equally often, and *no sighting has told them anything*. When the post comes, a cloud that sits at the wrong place
+# cannot follow: it has no sample at the right one.
 
 # %% slideshow={"slide_type": "subslide"} answers="11-few"
 found = many["found"]
@@ -180,22 +183,22 @@ shown = ", ".join(f"{name} in {share[0]:.0%}" for name, share in rows.items())
 views.show(fig, f"The robot is found by {shown} of the drives; the intervals are wide.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="11-few"
-# These are {= runs =} drives for each number of samples, with 95 % intervals, twelve steps after the post came into sight. With a few hundred
-# samples the outcome is that of a coin. Go back to the slider of the first section and choose fewer samples: the
-# cloud looks just as sure of itself.
+# These are {= runs =} drives for each number of samples, with 95 % intervals, some ten steps after the post came into
+# sight. With a few hundred samples the outcome is that of a coin. Go back to the slider of the first section and
+# choose fewer samples: the cloud looks just as sure of itself.
 #
 # **How many samples are enough?** Enough for every place that must not be forgotten.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=6
 # ## To predict, drive
 #
-# What does a step do to the samples? Lesson 04 has carried a belief through the motion $f$ by its Jacobian. The EKF believes
-# afterwards in an ellipse, with the centre and the covariance
+# What does a step do to the samples? Lesson 04 has carried a belief through the motion $f$ by its Jacobian. The EKF
+# believes afterwards in an ellipse, with the centre and the covariance
 #
 # $$\hat x' = f(\hat x, u), \qquad P' = A P A^{\mathsf T} + Q. \tag{11.2}$$
 #
-# Samples need no Jacobian. Every sample drives by itself, each with *its own* draw of the wheels' noise. Say that a robot knows its heading to
-# $\sigma = 0.5$ rad only, and drives 3 m. We send 1500 samples along.
+# Samples need no Jacobian. Every sample drives by itself, each with *its own* draw of the wheels' noise. Say that a
+# robot knows its heading to $\sigma = 0.5$ rad only, and drives 3 m. We send 1500 samples along.
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
@@ -232,8 +235,8 @@ def banana(heading_sigma, samples):
     ellipses = {"the samples' own covariance": np.cov(ends[:, :2].T)}
     fig, ax = views.cloud(ends, ellipses, title, size=(8, 5.6))
     views.draw(ax, Ellipses("naive", [[3, 0]], [P]), label="EKF, (11.2)", linewidth=2)
-    ax.set(xlim=(-3.5, 5), ylim=(-4.2, 4.2))
-    views.legend_below(fig)
+    ax.set(xlim=(-4, 6), ylim=(-4.2, 4.2), adjustable="box")
+    views.legend(ax, loc="upper left")
     return fig
 
 
@@ -250,13 +253,13 @@ views.explore(
 share = driven(0.5, 1500)[2]
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="11-banana"
-# The samples form a banana. The EKF's ellipse touches it where the heading is right, and holds {= 100 * share:.0f =} % of
-# the samples where it claims 95. Its centre, at $x = 3$ m, is where the robot gets if it looks straight ahead; on average it gets
-# {= driven(0.5, 1500)[0][:, 0].mean():.2f =} m far, for every wrong heading shortens the way.
+# The samples form a banana. The EKF's ellipse touches it where the heading is right, and holds {= 100 * share:.0f =}
+# % of the samples where it claims 95. Its centre, at $x = 3$ m, is where the robot gets if it looks straight ahead;
+# on average it gets {= driven(0.5, 1500)[0][:, 0].mean():.2f =} m far, for every wrong heading shortens the way.
 
 # %% [markdown] slideshow={"slide_type": "subslide"} answers="11-banana"
-# Now make the heading sharper: at $\sigma = 0.1$ the two agree. Make it rougher, and take fewer samples: the banana is still
-# a banana with a hundred of them, and a few scattered dots with ten.
+# Now make the heading sharper: at $\sigma = 0.1$ the two agree. Make it rougher, and take fewer samples: the banana
+# is still a banana with a hundred of them, and a few scattered dots with ten.
 #
 # So the cloud is right about the shape *if it has enough samples*, and the ellipse *if the heading is known well
 # enough*.
@@ -264,9 +267,9 @@ share = driven(0.5, 1500)[2]
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## A room of two places
 #
-# What must happen to the samples when something is seen? We derive it where everything can be written down. A robot is in
-# one of two rooms, $a$ or $b$. We are given what was believed, how it moves, and how likely each room lets it see what
-# it saw.
+# What must happen to the samples when something is seen? We derive it where everything can be written down. A robot
+# is in one of two rooms, $a$ or $b$. We are given what was believed, how it moves, and how likely each room lets it
+# see what it saw.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 believed = dict(zip("ab", sp.symbols("Bel_a Bel_b", positive=True), strict=True))
@@ -276,29 +279,29 @@ story = {(i + k): believed[i] * goes[i + k] * sees[k] for i, k in goes}
 story["ab"]
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# This is the probability of one story: the robot *was* in $a$, *went* to $b$, and *saw* there what it saw. There are four such
-# stories. It did see what it saw, so we divide by the sum of all four; and we add up those that end in $b$.
+# This is the probability of one story: the robot *was* in $a$, *went* to $b$, and *saw* there what it saw. There are
+# four such stories. It did see what it saw, so we divide by the sum of all four; and we add up those that end in $b$.
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
 total = sp.Symbol("total", positive=True)  # the sum of all four stories
 sp.factor(story["ab"] + story["bb"]) / total
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# Read it from the bracket outwards: move what was believed, then multiply by the likelihood of what was seen. If there are places
-# everywhere in between, the sum becomes an integral:
+# Read it from the bracket outwards: move what was believed, then multiply by the likelihood of what was seen. If
+# there are places everywhere in between, the sum becomes an integral:
 #
 # $$\mathrm{Bel}(x_k) \;\propto\; \Pr(z_k \mid x_k) \int \Pr(x_k \mid x_{k-1}, u_k)\,
 # \mathrm{Bel}(x_{k-1})\, dx_{k-1}. \tag{11.3}$$
 #
-# ($\mathrm{Bel}$ is what is believed after step $k$, and $\Pr$ of a continuous quantity is its density. The factor that is left
-# out, the sum of all stories, makes the whole sum up to one.)
+# ($\mathrm{Bel}$ is what is believed after step $k$, and $\Pr$ of a continuous quantity is its density. The factor
+# that is left out, the sum of all stories, makes the whole sum up to one.)
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=8
 # ## The weight
 #
-# We *have* samples of the integral in (11.3): take samples of the old belief, and let each drive with noise. We *want* samples of
-# the left side. So we must make samples count for another density than that they were drawn from. A sample that was drawn twice as
-# often as it should have been must count half:
+# We *have* samples of the integral in (11.3): take samples of the old belief, and let each drive with noise. We
+# *want* samples of the left side. So we must make samples count for another density than that they were drawn from. A
+# sample that was drawn twice as often as it should have been must count half:
 #
 # $$w_i \;\propto\; \frac{\text{density that is wanted, at } x_i}{\text{density that } x_i \text{ was drawn from, at }
 # x_i}. \tag{11.4}$$
@@ -331,9 +334,10 @@ views.explore(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# The samples were drawn too far to the right, and their weights put that right: long bars where the wanted hill is higher than the hill they
-# came from. Make the drawing narrow, and move it to the side: then one or two samples carry all, and the weighted mean is worth
-# little. A sample counts for what it should have been drawn for, but somebody must have drawn it.
+# The samples were drawn too far to the right, and their weights put that right: long bars where the wanted hill is
+# higher than the hill they came from. Make the drawing narrow, and move it to the side: then one or two samples carry
+# all, and the weighted mean is worth little. A sample counts for what it should have been drawn for, but somebody
+# must have drawn it.
 
 # %% slideshow={"slide_type": "subslide"}
 ask(
@@ -354,7 +358,8 @@ wanted, drawn_from = sees_z * predicted, predicted
 wanted / drawn_from
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="11-weight"
-# By (11.3) the wanted density is the predicted one times the likelihood, and we drew from the predicted one. It cancels:
+# By (11.3) the wanted density is the predicted one times the likelihood, and we drew from the predicted one. It
+# cancels:
 #
 # $$w_i \;\propto\; \Pr(z \mid x_i). \tag{11.5}$$
 #
@@ -363,9 +368,9 @@ wanted / drawn_from
 # %% [markdown] slideshow={"slide_type": "subslide"} answers="11-weight"
 # ### Is that so?
 #
-# On a rail, with Gaussian noise, the Kalman filter is exact, so it can be the judge. A robot makes twelve steps of a metre, and
-# measures its place after each. One cloud of 20 000 samples weighs by (11.5); the other one multiplies the density of
-# the drive into the weight as well.
+# On a rail, with Gaussian noise, the Kalman filter is exact, so it can be the judge. A robot makes twelve steps of a
+# metre, and measures its place after each. One cloud of 20 000 samples weighs by (11.5); the other one multiplies the
+# density of the drive into the weight as well.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="11-weight"
 zs = rail.measured(seed=1)
@@ -378,14 +383,14 @@ for name, (mean, sigma) in told.items():
     print(f"{name:20} {mean:6.2f} m ± {100 * sigma:.1f} cm")
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="11-weight"
-# The cloud with the right weight agrees with the Kalman filter. The other one agrees with a Kalman filter that believes in *half the motion
-# noise*: it is too sure, and it lags behind. (Why half? See the first *Deeper* section.)
+# The cloud with the right weight agrees with the Kalman filter. The other one agrees with a Kalman filter that
+# believes in *half the motion noise*: it is too sure, and it lags behind. (Why half? See the first *Deeper* section.)
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## What is a cloud worth?
 #
-# After weighing, some samples carry much and others hardly anything. The **effective sample size** says how many equal samples the cloud
-# would be worth:
+# After weighing, some samples carry much and others hardly anything. The **effective sample size** says how many
+# equal samples the cloud would be worth:
 #
 # $$n_{\mathrm{eff}} = \frac{1}{\sum_i w_i^2}. \tag{11.6}$$
 #
@@ -438,16 +443,16 @@ views.explore(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="11-worth"
-# With a range good to 3 cm only a thin arc of samples is left, worth
-# {= weighed(0.03, 500)[0].effective_sample_size:.0f =} of the 500. With 30 cm it is worth
-# {= weighed(0.3, 500)[0].effective_sample_size:.0f =}. Either take more samples, or draw them where the sighting wants
-# them, and pay for it by (11.4). The exercise does the latter.
+# With a range good to 3 cm only a thin arc of samples is left, worth {= weighed(0.03,
+# 500)[0].effective_sample_size:.0f =} of the 500. With 30 cm it is worth {= weighed(0.3,
+# 500)[0].effective_sample_size:.0f =}. Either take more samples, or draw them where the sighting wants them, and pay
+# for it by (11.4). The exercise does the latter.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=4
 # ## Weights that are all zero
 #
-# One landmark was seen. A lidar sees hundreds of things, and the likelihoods of independent sightings multiply. Let a good sensor (5 cm,
-# 1°) see twenty landmarks, and let three samples be half a metre off. What is their likelihood?
+# One landmark was seen. A lidar sees hundreds of things, and the likelihoods of independent sightings multiply. Let a
+# good sensor (5 cm, 1°) see twenty landmarks, and let three samples be half a metre off. What is their likelihood?
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 rng = np.random.default_rng(4)
@@ -458,12 +463,12 @@ logs = likelihood.of_scan(off, places, z, np.tile(R_fine, (20, 1, 1)))
 print("logarithms of the likelihoods:", logs.round(1), "  likelihoods:", np.exp(logs))
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# Below about $e^{-745}$ a float is zero. All three likelihoods are, and 0/0 is no weight. Every sample of a cloud that is a little off
-# would meet this fate, and the cloud would not be wrong: it would be gone.
+# Below about $e^{-745}$ a float is zero. All three likelihoods are, and 0/0 is no weight. Every sample of a cloud
+# that is a little off would meet this fate, and the cloud would not be wrong: it would be gone.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
-# But only ratios matter. So we keep the logarithms $\ell_i$ of the likelihoods, and take the largest one out before we compute any
-# exponential:
+# But only ratios matter. So we keep the logarithms $\ell_i$ of the likelihoods, and take the largest one out before
+# we compute any exponential:
 #
 # $$w_i = \frac{e^{\ell_i}}{\sum_j e^{\ell_j}} = \frac{e^{\ell_i - \max \ell}}{\sum_j e^{\ell_j - \max \ell}}. \tag{11.7}$$
 #
@@ -474,13 +479,15 @@ print("weights             ", normalise(logs)[0].round(4))
 print("all lower by 100 000", normalise(logs - 1e5)[0].round(4))
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# Three samples are wrong, but one of them is a little less wrong, and has its weight. From there the cloud can crawl on towards the truth.
+# Three samples are wrong, but one of them is a little less wrong, and has its weight. From there the cloud can crawl
+# on towards the truth.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## Drawing anew: tickets or a comb
 #
-# Samples that weigh nothing are ballast. So we draw $n$ new samples from the old ones, sample $i$ with the probability $w_i$: the good
-# ones are copied, the bad ones vanish, and all weights are equal again. Lay the weights end to end on a rod. There are two ways to draw:
+# Samples that weigh nothing are ballast. So we draw $n$ new samples from the old ones, sample $i$ with the
+# probability $w_i$: the good ones are copied, the bad ones vanish, and all weights are equal again. Lay the weights
+# end to end on a rod. There are two ways to draw:
 #
 # - **tickets** (multinomial): $n$ random numbers, and each picks the piece on which it falls;
 # - **a comb** (systematic): $n$ teeth in equal distances, and *one* random number that shifts them all.
@@ -510,8 +517,8 @@ views.explore(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# Shift the comb from one end to the other. Sample 0 asks for $8 \cdot 0.28 = 2.24$ copies, and gets 2 or 3, never less and never
-# more. Tickets give it anything, and may leave out a sample that they should not.
+# Shift the comb from one end to the other. Sample 0 asks for $8 \cdot 0.28 = 2.24$ copies, and gets 2 or 3, never
+# less and never more. Tickets give it anything, and may leave out a sample that they should not.
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
 variance = {}
@@ -525,17 +532,20 @@ for name, each in variance.items():
 ratio = variance["comb"] / variance["tickets"]
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# Both are fair on average. The comb's variance is smaller for each of these eight samples: from {= ratio.min():.2f =} to
-# {= ratio.max():.2f =} of that of the tickets, and {= variance["comb"].sum() / variance["tickets"].sum():.2f =} for all
-# together. It gains little where a sample asks for much less than one copy, for then neither can do better than one or none.
+# Both are fair on average. The comb's variance is smaller for each of these eight samples: from {= ratio.min():.2f =}
+# to {= ratio.max():.2f =} of that of the tickets, and {= variance["comb"].sum() / variance["tickets"].sum():.2f =}
+# for all together. It gains little where a sample asks for much less than one copy, for then neither can do better
+# than one or none.
 #
-# Every drawing also loses samples for good. So the filter draws only when it pays: if $n_{\mathrm{eff}}$ falls below $n/2$.
+# Every drawing also loses samples for good. So the filter draws only when it pays: if $n_{\mathrm{eff}}$ falls below
+# $n/2$.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=3
 # ## All of it
 #
-# This is **Monte Carlo localisation**: move every sample with noise of its own, weigh it by the likelihood, and draw anew when
-# few samples carry the belief. The package has it as `MCL`. If somebody tells the corners' names, it finds the robot soon:
+# This is **Monte Carlo localisation**: move every sample with noise of its own, weigh it by the likelihood, and draw
+# anew when few samples carry the belief. The package has it as `MCL`. If somebody tells the corners' names, it finds
+# the robot soon:
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 rng, truth = np.random.default_rng(8), START
@@ -548,19 +558,19 @@ error = np.hypot(*(mcl.cloud.moments.x - truth)[:2])
 print(f"10 steps with names: off by {100 * error:.0f} cm")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# In the first section nobody told the names. Then a sample takes each sighting for any of the $N$ things of the map, as likely as
-# any other one, and its likelihood is the mean over all of them:
+# In the first section nobody told the names. Then a sample takes each sighting for any of the $N$ things of the map,
+# as likely as any other one, and its likelihood is the mean over all of them:
 #
 # $$\Pr(z \mid x_i) = \frac{1}{N} \sum_{j=1}^{N} \Pr(z \mid x_i, p_j). \tag{11.8}$$
 #
-# Every sample has its own opinion of which corner it sees, and wrong opinions die with their samples. No association is ever
-# decided for all.
+# Every sample has its own opinion of which corner it sees, and wrong opinions die with their samples. No association
+# is ever decided for all.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=6
 # ## Carried off
 #
-# After 25 steps somebody lifts the robot and sets it down elsewhere in the room, at least 2.5 m away. (The post is now seen from everywhere.) A
-# cloud of 500 samples has followed it until then.
+# After 25 steps somebody lifts the robot and sets it down elsewhere in the room, at least 2.5 m away. (The post is
+# now seen from everywhere.) A cloud of 500 samples has followed it until then.
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
@@ -589,7 +599,7 @@ def carried_off(strangers, drive):
     curves |= {"no strangers": errors_of(0, drive)}
     fig, ax = views.curves(np.arange(61), curves, "step", "error [m]", size=(8, 4.2))
     ax.axvline(25.5, color=views.COLOURS["limit"], linestyle="dashdot", label="carried off")
-    views.legend_below(fig)
+    views.legend(ax)
     return fig
 
 
@@ -606,8 +616,8 @@ views.explore(
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="11-carried"
 # Without strangers there is no sample where the robot is, and no way to get one. The cure: in every step, some
-# samples are replaced by **strangers**, poses thrown anywhere into the room. If one of them explains what is seen much better
-# than the others, it has many children.
+# samples are replaced by **strangers**, poses thrown anywhere into the room. If one of them explains what is seen
+# much better than the others, it has many children.
 
 # %% slideshow={"slide_type": "subslide"} answers="11-carried"
 again = {f"{k} strangers": share["found"] for k, share in many["strangers"].items()}
@@ -621,8 +631,8 @@ views.show(fig, f"The robot is found again {shown} of the drives.")
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Standing still
 #
-# The same loss happens slowly to a robot that does not move. Each drawing loses samples, and without motion there is no noise that makes
-# new ones. We count how many different samples are left of 1000:
+# The same loss happens slowly to a robot that does not move. Each drawing loses samples, and without motion there is
+# no noise that makes new ones. We count how many different samples are left of 1000:
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 rng = np.random.default_rng(9)
@@ -634,17 +644,18 @@ for look in range(1, 61):
 print("different samples after", {look: left[look] for look in (1, 5, 20, 60)})
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# This is called **impoverishment**. A cloud that has made up its mind cannot change it. Real filters shake samples that do not move.
+# This is called **impoverishment**. A cloud that has made up its mind cannot change it. Real filters shake samples
+# that do not move.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* A good place to end the first lecture. Homework: would you add strangers if you knew that nobody carries robots?
-# (They also mend a wrong start.)
+# *For the lecturer:* A good place to end the first lecture. Homework: would you add strangers if you knew that nobody
+# carries robots? (They also mend a wrong start.)
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=7
 # ## Part two: and the map?
 #
-# SLAM asks for the landmarks as well. (This part calls them objects.) Why not take samples of everything at once: of the pose, three
-# numbers, and of $N$ objects, two numbers each?
+# SLAM asks for the landmarks as well. (This part calls them objects.) Why not take samples of everything at once: of
+# the pose, three numbers, and of $N$ objects, two numbers each?
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
@@ -663,19 +674,21 @@ ask(
 # %% [markdown] slideshow={"slide_type": "subslide"} answers="11-dimensions"
 # ### One set for each
 #
-# The MAK thesis has a way out, its algorithm 2: *one set of samples for the robot, and one for each object.* A thousand for the pose and
-# 300 for every object, however many there are.
+# The MAK thesis has a way out, its algorithm 2: *one set of samples for the robot, and one for each object.* A
+# thousand for the pose and 300 for every object, however many there are.
 #
-# But the robot is weighed by where it sees an object, and nobody knows where that is. The object is weighed by where the robot is, and
-# nobody knows that either. So whenever another place is needed, the algorithm takes **random samples of its set**.
+# But the robot is weighed by where it sees an object, and nobody knows where that is. The object is weighed by where
+# the robot is, and nobody knows that either. So whenever another place is needed, the algorithm takes **random
+# samples of its set**.
 
 # %% [markdown] slideshow={"slide_type": "subslide"} answers="11-dimensions"
 # With $m$ such partners $p_1, \ldots, p_m$, drawn anew for every sample $x_i$ of the robot, its weight is the mean
 #
 # $$w_i \;\propto\; \frac{1}{m} \sum_{j=1}^{m} \Pr(z \mid x_i, p_j), \tag{11.9}$$
 #
-# and the other way round for the object's samples. The thesis takes one partner; the package takes ten, for less noise. A new object's
-# samples stand where random poses would have seen it. We drive a simulated lap among ten objects.
+# and the other way round for the object's samples. The thesis takes one partner; the package takes ten, for less
+# noise. A new object's samples stand where random poses would have seen it. We drive a simulated lap among ten
+# objects.
 
 # %% slideshow={"slide_type": "subslide"} answers="11-dimensions"
 lap = sets_apart.lap(12)
@@ -714,14 +727,15 @@ views.explore(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="11-dimensions"
-# Every object is a cloud: born as wide as the robot's doubt and the sensor's together, and shrinking while it is seen. Press ▶ and look
-# where the crosses are. Late on the way, the clouds have shrunk *beside* their crosses, and the believed way leaves the true one.
+# Every object is a cloud: born as wide as the robot's doubt and the sensor's together, and shrinking while it is
+# seen. Press ▶ and look where the crosses are. Late on the way, the clouds have shrunk *beside* their crosses, and
+# the believed way leaves the true one.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=9
 # ## What do the sets forget?
 #
-# The robot's place is in doubt by 30 cm along its way. It measures, with 5 cm, how far ahead an object is, and so the object's set is born.
-# Then both sets are kept apart.
+# The robot's place is in doubt by 30 cm along its way. It measures, with 5 cm, how far ahead an object is, and so the
+# object's set is born. Then both sets are kept apart.
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
@@ -747,16 +761,17 @@ for name, places in {"as they were made": seen, "random partners": rng.permutati
     print(f"{name:18} range known to {known[name]:2.0f} cm, correlation {together:5.2f}")
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="11-forget"
-# A robot that may stand 30 cm farther left is asked about the object that a robot 30 cm farther right has seen. So the range, known to
-# {= known["as they were made"]:.0f =} cm, is now known to {= known["random partners"]:.0f =}. Each set by itself is as good as before.
-# What they knew *together* is gone. It is the block $P_{\mathrm{r}i}$ of lesson 07, once more.
+# A robot that may stand 30 cm farther left is asked about the object that a robot 30 cm farther right has seen. So
+# the range, known to {= known["as they were made"]:.0f =} cm, is now known to {= known["random partners"]:.0f =}.
+# Each set by itself is as good as before. What they knew *together* is gone. It is the block $P_{\mathrm{r}i}$ of
+# lesson 07, once more.
 #
-# And with every reading the two sets learn from each other, as if they had never met. Lesson 07 has shown what comes of that: a belief
-# that is too sure.
+# And with every reading the two sets learn from each other, as if they had never met. Lesson 07 has shown what comes
+# of that: a belief that is too sure.
 
 # %% [markdown] slideshow={"slide_type": "subslide"} answers="11-forget"
-# Is it? We drive {= runs =} laps, with the wheels alone, with the EKF of lesson 06, and with sets. How far off are they, and how often is the true
-# pose outside of the region that should hold it 95 times in 100?
+# Is it? We drive {= runs =} laps, with the wheels alone, with the EKF of lesson 06, and with sets. How far off are
+# they, and how often is the true pose outside of the region that should hold it 95 times in 100?
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="11-forget"
 maps = many["maps"]
@@ -780,8 +795,8 @@ for name in (sets_apart.WHEELS, sets_apart.EKF, sets_apart.SETS, sets_apart.ONE)
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=6
 # ## Objects that nobody looks at
 #
-# Algorithm 2 as it stands draws *every* set anew in *every* step, whether the object has been seen or not. Take an object that is out of sight
-# for long: all its samples keep the same weight.
+# Algorithm 2 as it stands draws *every* set anew in *every* step, whether the object has been seen or not. Take an
+# object that is out of sight for long: all its samples keep the same weight.
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
@@ -804,18 +819,12 @@ def unseen(samples):
 
 
 def drift(samples):
-    walked, believed = (100 * each for each in unseen(samples))
-    lines = {"what the set claims": believed, "how far its mean has walked": walked}
+    draws, (walked, claimed) = np.arange(1, 301), unseen(samples)
+    lines = {"what the set claims": claimed, "how far its mean has walked": walked}
+    lines["(11.10)"] = np.sqrt(2 * 0.1**2 * (1 - (1 - 1 / samples) ** draws))
     told = f"{samples} samples, drawn anew 300 times"
-    fig, ax = views.curves(np.arange(1, 301), lines, "draws", "rms [cm]", told, size=(8, 4.2))
-    lost = 1 - (1 - 1 / samples) ** np.arange(1, 301)
-    ax.plot(
-        np.arange(1, 301),
-        100 * np.sqrt(2 * lost) * 0.1,
-        color=views.COLOURS["limit"],
-        label="(11.10)",
-    )
-    views.legend_below(fig)
+    fig, ax = views.curves(draws, lines, "draws", "root mean square [m]", told, size=(8, 4.2))
+    views.legend(ax, loc="lower right")
     return fig
 
 
@@ -823,32 +832,34 @@ def drift(samples):
 views.explore(
     drift,
     lambda samples: (
-        f"Sets of {samples} samples, drawn anew: at the end the mean has walked {100 * unseen(samples)[0][-1]:.1f} cm "
-        f"and the set claims {100 * unseen(samples)[1][-1]:.1f} cm."
+        f"Sets of {samples} samples, drawn anew: at the end the mean has walked {unseen(samples)[0][-1]:.3f} m "
+        f"and the set claims {unseen(samples)[1][-1]:.3f} m."
     ),
     samples=(50, 600, 300),
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="11-unseen"
-# The mean walks, and the set gets surer of itself. Each draw takes the share $1/n$ of the variance and turns it into error. After $k$ draws
-# the mean has gone, on average,
+# The mean walks, and the set gets surer of itself. Each draw takes the share $1/n$ of the variance and turns it into
+# error. After $k$ draws the mean square of the mean's way is
 #
 # $$\mathrm{E}\, |\bar x_k - \bar x_0|^2 = \left(1 - \left(1 - \tfrac1n\right)^k\right) \cdot \text{(the variance at first)}, \tag{11.10}$$
 #
-# which is drawn as well. (The second *Deeper* section derives it.) Biologists know it as the drift of small populations.
+# which is drawn as well. (The second *Deeper* section derives it.) Biologists know it as the drift of small
+# populations.
 
 # %% [markdown] slideshow={"slide_type": "subslide"} answers="11-unseen"
-# You have seen it before: the two clusters of the first section were such a population, and nothing was known that could tell them apart. When
-# the cloud was small, one of them drifted to zero.
+# You have seen it before: the two clusters of the first section were such a population, and nothing was known that
+# could tell them apart. When the cloud was small, one of them drifted to zero.
 #
-# There are two cures, and the package uses both: leave sets alone of which nothing was seen, and draw by a comb, which gives each of
-# $n$ equal samples back exactly once.
+# There are two cures, and the package uses both: leave sets alone of which nothing was seen, and draw by a comb,
+# which gives each of $n$ equal samples back exactly once.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=4
 # ## Freezing
 #
-# The thesis has a third cure: if *all* samples of an object lie close together, take their mean for the truth from then on. The object becomes
-# a point. There is nothing left to draw, nothing can drift, and there is less to compute. But how close is close?
+# The thesis has a third cure: if *all* samples of an object lie close together, take their mean for the truth from
+# then on. The object becomes a point. There is nothing left to draw, nothing can drift, and there is less to compute.
+# But how close is close?
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 print(HEAD)
@@ -861,14 +872,14 @@ for name in (sets_apart.SETS, *sets_apart.FROZEN.values()):
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=6
 # ## Samples where they are needed
 #
-# Lesson 05: if the robot's poses are *known*, the objects are independent of one another, and each needs a little Kalman filter of its own. Now
-# look at one sample of the robot. With its ancestors it is a whole **way**, a guess of all poses. Given the way $x_{1:k}$, the
-# objects $p_1, \ldots, p_N$ are independent, so no cross terms are missing:
+# Lesson 05: if the robot's poses are *known*, the objects are independent of one another, and each needs a little
+# Kalman filter of its own. Now look at one sample of the robot. With its ancestors it is a whole **way**, a guess of
+# all poses. Given the way $x_{1:k}$, the objects $p_1, \ldots, p_N$ are independent, so no cross terms are missing:
 #
 # $$\mathrm{Bel}(x_{1:k}, p_1, \ldots, p_N) = \mathrm{Bel}(x_{1:k}) \prod_{j=1}^{N} \mathrm{Bel}(p_j \mid x_{1:k}). \tag{11.11}$$
 #
-# So take samples of the way, and give **each sample a map of its own**, made of little Kalman filters. What the samples have in common, and where they
-# differ, *is* the correlation. The filter is called FastSLAM.
+# So take samples of the way, and give **each sample a map of its own**, made of little Kalman filters. What the
+# samples have in common, and where they differ, *is* the correlation. The filter is called FastSLAM.
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
 print(HEAD)
@@ -881,17 +892,17 @@ for name in (sets_apart.EKF, sets_apart.SETS, *sets_apart.FAST.values()):
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Literature
 #
-# N. J. Gordon, D. J. Salmond and A. F. M. Smith, "Novel approach to nonlinear/non-Gaussian Bayesian state estimation", *IEE Proceedings F* 140(2),
-# 1993: the filter of samples that are moved, weighed and drawn anew.
+# N. J. Gordon, D. J. Salmond and A. F. M. Smith, "Novel approach to nonlinear/non-Gaussian Bayesian state
+# estimation", *IEE Proceedings F* 140(2), 1993: the filter of samples that are moved, weighed and drawn anew.
 #
-# F. Dellaert, D. Fox, W. Burgard and S. Thrun, "Monte Carlo localization for mobile robots", *IEEE International Conference on Robotics and
-# Automation*, 1999: a robot that finds itself in a known map.
+# F. Dellaert, D. Fox, W. Burgard and S. Thrun, "Monte Carlo localization for mobile robots", *IEEE International
+# Conference on Robotics and Automation*, 1999: a robot that finds itself in a known map.
 #
-# J. S. Liu and R. Chen, "Sequential Monte Carlo methods for dynamic systems", *Journal of the American Statistical Association* 93(443), 1998: when to
-# draw anew.
+# J. S. Liu and R. Chen, "Sequential Monte Carlo methods for dynamic systems", *Journal of the American Statistical
+# Association* 93(443), 1998: when to draw anew.
 #
-# M. Montemerlo, S. Thrun, D. Koller and B. Wegbreit, "FastSLAM: a factored solution to the simultaneous localization and mapping problem", *AAAI*,
-# 2002: samples of ways, each with a map of its own.
+# M. Montemerlo, S. Thrun, D. Koller and B. Wegbreit, "FastSLAM: a factored solution to the simultaneous localization
+# and mapping problem", *AAAI*, 2002: samples of ways, each with a map of its own.
 #
 # **Read next:** S. Thrun, W. Burgard and D. Fox, *Probabilistic Robotics*, MIT Press, 2005, chapters 4 and 8.
 
@@ -911,14 +922,15 @@ for name in (sets_apart.EKF, sets_apart.SETS, *sets_apart.FAST.values()):
 #
 # The sections below this one are optional.
 #
-# **Exercise:** [11 · Samples](../exercises/ex11_samples.ipynb). You weigh, draw and localise, make samples count that were drawn otherwise than
-# they should have been, and find a robot again that somebody carried off.
+# **Exercise:** [11 · Samples](../exercises/ex11_samples.ipynb). You weigh, draw and localise, make samples count that
+# were drawn otherwise than they should have been, and find a robot again that somebody carried off.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Deeper: why half the noise?
 #
-# In "The weight", a cloud that multiplied the density of the drive into its weights behaved like a Kalman filter with half of $Q$. Samples are
-# drawn by that density, and then weighed by it once more, so it counts squared. What is the square of a Gaussian?
+# In "The weight", a cloud that multiplied the density of the drive into its weights behaved like a Kalman filter with
+# half of $Q$. Samples are drawn by that density, and then weighed by it once more, so it counts squared. What is the
+# square of a Gaussian?
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 q, Q = sp.symbols("q Q", positive=True)
@@ -926,19 +938,20 @@ hill = sp.exp(-(q**2) / (2 * Q))
 sp.simplify(hill**2 / hill.subs(Q, Q / 2))
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# The quotient is 1: the square of a Gaussian of variance $Q$ is, but for its height, a Gaussian of variance $Q/2$. So the mistake is not a small one: it
-# believes that the wheels are better than they are by the root of two.
+# The quotient is 1: the square of a Gaussian of variance $Q$ is, but for its height, a Gaussian of variance $Q/2$. So
+# the mistake is not a small one: it believes that the wheels are better than they are by the root of two.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Deeper: what a draw does to a set
 #
-# Draw $n$ times, independently, from $n$ equal samples with the variance $\sigma_k^2$ (divided by $n$, not by $n - 1$). The mean of the draws has the variance
-# $\sigma_k^2/n$ round the mean of the samples. That is the step of the walk. The draws spread round *their own* mean by as much less,
+# Draw $n$ times, independently, from $n$ equal samples with the variance $\sigma_k^2$ (divided by $n$, not by $n -
+# 1$). The mean of the draws has the variance $\sigma_k^2/n$ round the mean of the samples. That is the step of the
+# walk. The draws spread round *their own* mean by as much less,
 #
 # $$\mathrm{E}\,\sigma_{k+1}^2 = \left(1 - \tfrac1n\right) \sigma_k^2, \tag{11.12}$$
 #
-# so that step and spread together are what the spread was. The walk's steps are uncorrelated, their variances add up to a geometric series, and that is (11.10).
-# Two samples show it exactly, for there are only four ways to draw:
+# so that step and spread together are what the spread was. The walk's steps are uncorrelated, their variances add up
+# to a geometric series, and that is (11.10). Two samples show it exactly, for there are only four ways to draw:
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 one, other = sp.symbols("x_1 x_2", real=True)
@@ -969,6 +982,7 @@ bel_b = (story["ab"] + story["bb"]) / sum(story.values())
 print("the belief depends on what was just seen:", sp.simplify(bel_b.diff(sees["b"])) != 0)
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# If all samples go on from the one of the largest weight, the belief of all steps before is thrown away but for one point. On this drive its mean is
-# {= 100 * abs(largest[0] - right[0]):.0f =} cm off that of the Kalman filter, whose $\sigma$ is {= 100 * right[1]:.0f =} cm, and
-# it claims {= 100 * largest[1]:.0f =}. The wrong index harms nobody who derives (11.3): without the observation just made nothing is learned.
+# If all samples go on from the one of the largest weight, the belief of all steps before is thrown away but for one
+# point. On this drive its mean is {= 100 * abs(largest[0] - right[0]):.0f =} cm off that of the Kalman filter, whose
+# $\sigma$ is {= 100 * right[1]:.0f =} cm, and it claims {= 100 * largest[1]:.0f =}. The wrong index harms nobody who
+# derives (11.3): without the observation just made nothing is learned.

@@ -74,7 +74,7 @@ def _covariance(filter):
 
 
 def drawn_anew(n, steps, sigma, rng, sets=100):
-    """An object that nobody looks at: its set is drawn anew in each step.
+    """An object that nobody looks at: its set is drawn anew in each step. Equation (11.10).
 
     Parameters
     ----------
