@@ -39,7 +39,7 @@ from slamlab.models import RobotModel
 from slamlab.studies import sampled_rail as rail
 from slamlab.studies import sets_apart
 from slamlab.studies.sampled_room import CORNERS, HIGH, LOW, MAP, POST, START, STEP, WALLS
-from slamlab.studies.sampled_room import WHEELS, R, film, near
+from slamlab.studies.sampled_room import WHEELS, R, evidence, film, near
 from slamlab.studies.study_command import stored
 
 many = stored("samples")  # the table of a long study
@@ -144,8 +144,8 @@ for step in (0, 4, 12, 36):
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=6
 # ## A cloud that is too small
 #
-# Until step {= post_seen =} the robot sees nothing that could tell the two places apart. With 10 000 samples, both
-# clusters lived that long. Now we take 200, on the same drive.
+# Until step {= post_seen =} the robot sees hardly anything that could tell the two places apart. With 10 000
+# samples, both clusters lived that long. Now we take 200, on the same drive.
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
@@ -165,15 +165,16 @@ ask(
 few = [film(200, seed, steps=10)[-1] for seed in range(100)]
 at_robot = np.array([near(cloud, truth) for cloud, truth in few])
 opposite = np.array([near(cloud, -truth) for cloud, truth in few])
-print(f"100 drives with 200 samples, after 10 steps: {sum(at_robot > 0.98)} at the robot only,")
-print(
-    f"{sum(opposite > 0.98)} at the opposite place only, {sum(np.minimum(at_robot, opposite) > 0.02)} at both"
-)
+counts = sum(at_robot > 0.98), sum(opposite > 0.98), sum(np.minimum(at_robot, opposite) > 0.02)
+print(f"{len(few)} clouds of 200 samples, after 10 steps:")
+print("at the robot only {}, at the opposite place only {}, at both {}".format(*counts))
+reason = np.median([evidence(seed, steps=10) for seed in range(100)])
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="11-few"
 # After ten steps, few clouds are still undecided. The others have made up their minds, about one way or the other
-# equally often, and *no sighting has told them anything*. When the post comes, a cloud that sits at the wrong place
-# cannot follow: it has no sample at the right one.
+# equally often, and *what they have seen gives no reason to*: all ten looks together are only {= reason:.1f =} times as
+# likely from where the robot is as from the opposite place (median of the drives). When the post comes, a cloud at
+# the wrong place cannot follow: it has no sample at the right one.
 
 # %% slideshow={"slide_type": "subslide"} answers="11-few"
 found = many["found"]
@@ -258,8 +259,9 @@ share = driven(0.5, 1500)[2]
 # on average it gets {= driven(0.5, 1500)[0][:, 0].mean():.2f =} m far, for every wrong heading shortens the way.
 
 # %% [markdown] slideshow={"slide_type": "subslide"} answers="11-banana"
-# Now make the heading sharper: at $\sigma = 0.1$ the two agree. Make it rougher, and take fewer samples: the banana
-# is still a banana with a hundred of them, and a few scattered dots with ten.
+# Now make the heading sharper: with $\sigma = 0.1$ the ellipse holds {= 100 * driven(0.1, 1500)[2]:.0f =} %, with 0.05
+# it holds {= 100 * driven(0.05, 1500)[2]:.0f =}. Then take fewer samples: a hundred still make a banana, and ten make a
+# few scattered dots.
 #
 # So the cloud is right about the shape *if it has enough samples*, and the ellipse *if the heading is known well
 # enough*.
@@ -268,23 +270,23 @@ share = driven(0.5, 1500)[2]
 # ## A room of two places
 #
 # What must happen to the samples when something is seen? We derive it where everything can be written down. A robot
-# is in one of two rooms, $a$ or $b$. We are given what was believed, how it moves, and how likely each room lets it
+# is in one of two rooms, 1 or 2. We are given what was believed, how it moves, and how likely each room lets it
 # see what it saw.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-believed = dict(zip("ab", sp.symbols("Bel_a Bel_b", positive=True), strict=True))
-goes = {way: sp.Symbol(f"go_{way}", positive=True) for way in ("aa", "ab", "ba", "bb")}
-sees = dict(zip("ab", sp.symbols("see_a see_b", positive=True), strict=True))
-story = {(i + k): believed[i] * goes[i + k] * sees[k] for i, k in goes}
-story["ab"]
+believed = dict(zip("12", sp.symbols("Bel_1 Bel_2", positive=True), strict=True))
+sees = dict(zip("12", sp.symbols("see_1 see_2", positive=True), strict=True))
+goes = {way: sp.Symbol(f"go_{way}", positive=True) for way in ("11", "12", "21", "22")}
+story = {old + new: believed[old] * goes[old + new] * sees[new] for old, new in goes}
+story["12"]
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # This is the probability of one story: the robot *was* in $a$, *went* to $b$, and *saw* there what it saw. There are
-# four such stories. It did see what it saw, so we divide by the sum of all four; and we add up those that end in $b$.
+# four such stories. It did see what it saw, so we divide by the sum of all four; and we add up those that end in room 2.
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
 total = sp.Symbol("total", positive=True)  # the sum of all four stories
-sp.factor(story["ab"] + story["bb"]) / total
+sp.factor(story["12"] + story["22"]) / total
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # Read it from the bracket outwards: move what was believed, then multiply by the likelihood of what was seen. If
@@ -384,7 +386,7 @@ for name, (mean, sigma) in told.items():
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="11-weight"
 # The cloud with the right weight agrees with the Kalman filter. The other one agrees with a Kalman filter that
-# believes in *half the motion noise*: it is too sure, and it lags behind. (Why half? See the first *Deeper* section.)
+# believes in *half the motion noise*: it is too sure of itself. (Why half? See the first *Deeper* section.)
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## What is a cloud worth?
@@ -443,10 +445,10 @@ views.explore(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="11-worth"
-# With a range good to 3 cm only a thin arc of samples is left, worth {= weighed(0.03,
-# 500)[0].effective_sample_size:.0f =} of the 500. With 30 cm it is worth {= weighed(0.3,
-# 500)[0].effective_sample_size:.0f =}. Either take more samples, or draw them where the sighting wants them, and pay
-# for it by (11.4). The exercise does the latter.
+# With a range good to 3 cm only a thin arc of samples is left, worth
+# {= weighed(0.03, 500)[0].effective_sample_size:.0f =} of the 500. With 30 cm the cloud is worth
+# {= weighed(0.3, 500)[0].effective_sample_size:.0f =}. So we either take more samples, or draw them where the sighting
+# wants them, and pay for it by (11.4). The exercise does the latter.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=4
 # ## Weights that are all zero
@@ -615,18 +617,23 @@ views.explore(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="11-carried"
-# Without strangers there is no sample where the robot is, and no way to get one. The cure: in every step, some
+# Without strangers there is usually no sample where the robot is, and no way to get one. The cure: in every step, some
 # samples are replaced by **strangers**, poses thrown anywhere into the room. If one of them explains what is seen
 # much better than the others, it has many children.
 
 # %% slideshow={"slide_type": "subslide"} answers="11-carried"
 again = {f"{k} strangers": share["found"] for k, share in many["strangers"].items()}
 fig, _ = views.shares({"found": again}, f"share of {runs} drives found again [1]", size=(8, 3.8))
+price = {k: row["error before"] for k, row in many["strangers"].items()}  # [m]
 shown = ", ".join(f"with {name} in {share[0]:.0%}" for name, share in again.items())
 views.show(fig, f"The robot is found again {shown} of the drives.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="11-carried"
-# PLACEHOLDER price
+# Without strangers {= 100 * again["0 strangers"][0]:.0f =} % of the robots were found again, with 5 of 500 samples in
+# every step {= 100 * again["5 strangers"][0]:.0f =} %, and with 50 {= 100 * again["50 strangers"][0]:.0f =} %.
+# Strangers are paid for with samples that no longer follow the robot. In this room the price is small: before the
+# robot was carried off, the mean was off by {= 100 * price["0"][0]:.0f =} cm in the median drive without strangers, by
+# {= 100 * price["50"][0]:.0f =} cm with 50, and by {= 100 * price["250"][0]:.0f =} cm with 250.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Standing still
@@ -696,8 +703,10 @@ slam, pictures = montecarlo(lap), {}
 for k, reading in enumerate(lap):
     slam.step(reading)
     pictures[k] = slam.layers()
+way_off = np.hypot(*(slam.pose - lap.truth.poses[-1])[:2])
 
 
+# %% slideshow={"slide_type": "fragment"} answers="11-dimensions"
 def sets_after(readings):
     sets, frozen, way, robot = pictures[readings]
     fig, ax = views.axes(f"After {readings} readings", size=(9, 6))
@@ -714,13 +723,12 @@ def sets_after(readings):
     return fig
 
 
-# %% slideshow={"slide_type": "fragment"} answers="11-dimensions"
+# %% slideshow={"slide_type": "subslide"} answers="11-dimensions"
 views.explore(
     sets_after,
     lambda readings: (
-        f"After {readings} readings the robot has gone part of its loop; small clouds of samples stand near the crosses of the true "
-        f"objects, and the believed way ends {np.hypot(*(pictures[readings][2].rows[-1] - lap.truth.poses[readings])[:2]):.2f} m from "
-        "the true one."
+        f"After {readings} readings the robot has gone part of its loop; small clouds of samples stand near the "
+        f"crosses of the true objects; {len(pictures[readings][1].xy)} objects are frozen to points."
     ),
     play="readings",
     readings=(0, len(lap) - 1, 52),
@@ -728,8 +736,7 @@ views.explore(
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="11-dimensions"
 # Every object is a cloud: born as wide as the robot's doubt and the sensor's together, and shrinking while it is
-# seen. Press ▶ and look where the crosses are. Late on the way, the clouds have shrunk *beside* their crosses, and
-# the believed way leaves the true one.
+# seen. Press ▶ and look where the crosses are. Late on the way, the clouds have shrunk *beside* their crosses, and the believed way ends {= way_off:.1f =} m from the true one.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=9
 # ## What do the sets forget?
@@ -840,16 +847,16 @@ views.explore(
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="11-unseen"
 # The mean walks, and the set gets surer of itself. Each draw takes the share $1/n$ of the variance and turns it into
-# error. After $k$ draws the mean square of the mean's way is
+# error. If a set has the variance $\sigma^2$ at first, in x and in y together, the mean square of the mean's way after
+# $k$ draws is
 #
-# $$\mathrm{E}\, |\bar x_k - \bar x_0|^2 = \left(1 - \left(1 - \tfrac1n\right)^k\right) \cdot \text{(the variance at first)}, \tag{11.10}$$
+# $$\mathrm{E}\, |\bar x_k - \bar x_0|^2 = \left(1 - \left(1 - \tfrac1n\right)^k\right) \sigma^2, \tag{11.10}$$
 #
-# which is drawn as well. (The second *Deeper* section derives it.) Biologists know it as the drift of small
-# populations.
+# which is drawn as well. (The second *Deeper* section derives it.) Biologists call it genetic drift.
 
 # %% [markdown] slideshow={"slide_type": "subslide"} answers="11-unseen"
-# You have seen it before: the two clusters of the first section were such a population, and nothing was known that
-# could tell them apart. When the cloud was small, one of them drifted to zero.
+# You have seen it before: the two clusters of the first section were such a population, and hardly anything was known
+# that could tell them apart. When the cloud was small, one of them drifted to zero.
 #
 # There are two cures, and the package uses both: leave sets alone of which nothing was seen, and draw by a comb,
 # which gives each of $n$ equal samples back exactly once.
@@ -968,9 +975,10 @@ sp.simplify(sum(spread) / 4 / spread[1])
 # | --- | --- | --- | --- |
 # | 5.3.2, algorithm 1 | "the sample with the largest weight" | draw by weight | the cloud is no belief |
 # | algorithm 1, steps 2 and 4 | $\Pr(x_k \mid x_{k-1}, u_k)$ in the weight | (11.5) | half the motion noise |
-# | 5.3.2, Bayes | left side given observations to $k - 1$ | to $k + 1$, the one just made | none |
+# | 5.3.2, Bayes | the last observation is missing on the left side | (11.3) | none |
 #
-# The text of the thesis says "by its weight", and the index of the last row may have been lost in printing.
+# The thesis' own text says "by its weight", and in the last row an index may have been lost in printing.
+
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
 for rule in (rail.RIGHT, rail.TWICE, rail.LARGEST):
@@ -978,11 +986,11 @@ for rule in (rail.RIGHT, rail.TWICE, rail.LARGEST):
     print(f"{rule:20} {mean:6.2f} m ± {100 * sigma:4.1f} cm")
 largest, right = (mean, sigma), rail.by_kalman(zs)
 print(f"{'Kalman':20} {right[0]:6.2f} m ± {100 * right[1]:4.1f} cm")
-bel_b = (story["ab"] + story["bb"]) / sum(story.values())
-print("the belief depends on what was just seen:", sp.simplify(bel_b.diff(sees["b"])) != 0)
+bel_2 = (story["12"] + story["22"]) / sum(story.values())
+print("the belief depends on what was just seen:", sp.simplify(bel_2.diff(sees["2"])) != 0)
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # If all samples go on from the one of the largest weight, the belief of all steps before is thrown away but for one
 # point. On this drive its mean is {= 100 * abs(largest[0] - right[0]):.0f =} cm off that of the Kalman filter, whose
-# $\sigma$ is {= 100 * right[1]:.0f =} cm, and it claims {= 100 * largest[1]:.0f =}. The wrong index harms nobody who
-# derives (11.3): without the observation just made nothing is learned.
+# $\sigma$ is {= 100 * right[1]:.0f =} cm, and it claims {= 100 * largest[1]:.0f =} cm. The last row harms nobody who
+# derives (11.3), for the belief must depend on what was just seen.

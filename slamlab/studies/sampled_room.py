@@ -2,10 +2,11 @@
 
 import numpy as np
 
+from slamlab.filters.montecarlo.likelihood import of_unassociated_scan
 from slamlab.filters.montecarlo.mcl import MCL
 from slamlab.filters.montecarlo.motion_sampling import sample_motion
 from slamlab.filters.montecarlo.particles import uniform
-from slamlab.geometry import wrap
+from slamlab.geometry import compose, wrap
 from slamlab.layers import Segments
 from slamlab.models.observation import h
 from slamlab.models.parameters import RobotModel
@@ -89,6 +90,29 @@ def near(cloud, place):
     """
     off = cloud.rows[:, :2] - np.asarray(place)[:2]
     return float(cloud.weights[np.hypot(*off.T) < NEAR].sum())
+
+
+def evidence(seed, steps):
+    """By what the likelihood of all that a film's robot sees is larger where it is than opposite.
+
+    Opposite is where it would be if the room were turned by half a turn.
+
+    Parameters
+    ----------
+    seed, steps : int, of the film
+
+    Returns
+    -------
+    float, ratio of two likelihoods [1]
+    """
+    world, truth, log_ratio = np.random.default_rng([seed, 0]), START, 0.0
+    for _ in range(steps):
+        truth = sample_motion(truth[None], STEP, WHEELS, world)[0]
+        z = look(truth, world, reach=0.0)
+        both = np.array([truth, compose([0, 0, np.pi], truth)])
+        here, opposite = of_unassociated_scan(both, MAP, z, np.tile(R, (len(z), 1, 1)))
+        log_ratio += here - opposite
+    return float(np.exp(log_ratio))
 
 
 def _elsewhere(truth, rng):
