@@ -712,8 +712,8 @@ way_off = np.hypot(*(slam.pose - lap.truth.poses[-1])[:2])
 
 # %% slideshow={"slide_type": "fragment"} answers="11-dimensions"
 def sets_after(readings):
-    layers = dict(zip(("sets of objects", "frozen objects", "believed way"), pictures[readings]))
-    layers["set of the robot"] = pictures[readings][3]
+    names = "sets of objects", "frozen objects", "believed way", "set of the robot"
+    layers = dict(zip(names, pictures[readings], strict=True))
     layers["true way"] = Poses("truth", lap.truth.poses[: readings + 1])
     fig, ax = views.axes(f"After {readings} readings", size=(9, 6))
     for label, layer in layers.items():
