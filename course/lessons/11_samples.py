@@ -172,8 +172,8 @@ print("at the robot only {}, at the opposite place only {}, at both {}".format(*
 reason = np.median([evidence(seed, steps=10) for seed in range(100)])
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="11-few"
-# After ten steps, few clouds are still undecided. The others have made up their minds, about one way or the other
-# equally often, and *what they have seen gives no reason to*: all ten looks together are only {= reason:.1f =} times as
+# After ten steps, few clouds are still undecided. The others have made up their minds, {= counts[0] =} for the
+# robot's place and {= counts[1] =} for the opposite one, and *what they have seen gives no reason to*: all ten looks together are only {= reason:.1f =} times as
 # likely from where the robot is as from the opposite place (median of the drives). When the post comes, a cloud at
 # the wrong place cannot follow: it has no sample at the right one.
 
@@ -713,8 +713,8 @@ way_off = np.hypot(*(slam.pose - lap.truth.poses[-1])[:2])
 # %% slideshow={"slide_type": "fragment"} answers="11-dimensions"
 def sets_after(readings):
     names = "sets of objects", "frozen objects", "believed way", "set of the robot"
-    layers = dict(zip(names, pictures[readings], strict=True))
-    layers["true way"] = Poses("truth", lap.truth.poses[: readings + 1])
+    layers = {"true way": Poses("truth", lap.truth.poses[: readings + 1])}
+    layers |= dict(zip(names, pictures[readings], strict=True))
     fig, ax = views.axes(f"After {readings} readings", size=(9, 6))
     for label, layer in layers.items():
         views.draw(ax, layer, label=label)
@@ -787,14 +787,17 @@ maps = many["maps"]
 
 
 def row(name):
-    """A line of the table: the error, how much more than odometry's, how often outside."""
-    error, more = (maps[name].get(key, [0.0])[0] for key in ("rms", "against odometry"))
-    outside = f"{maps[name]['outside'][0]:8.0%}" if "outside" in maps[name] else ""
-    print(f"{name:22} {100 * error:5.0f} cm {100 * more:+10.0f} cm {outside}")
+    """A line of the table: the error, that minus odometry's on the same lap, how often outside."""
+    found = maps[name]
+    line = f"{name:22} {100 * found['rms'][0]:3.0f} cm"
+    if "outside" in found:
+        more, outside = found["against odometry"][0], found["outside"][0]
+        line += f" {100 * more:+14.0f} cm {outside:9.0%}"
+    print(line)
 
 
 worse = maps[sets_apart.SETS]["against EKF"]  # [m]
-HEAD = f"median of {runs} laps        error   than odometry  outside"
+HEAD = f"{f'median of {runs} laps':22}  error  minus odometry's  outside"
 print(HEAD)
 for name in (sets_apart.WHEELS, sets_apart.EKF, sets_apart.SETS, sets_apart.ONE):
     row(name)
