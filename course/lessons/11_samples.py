@@ -153,8 +153,8 @@ ask(
     "11-few",
     "**What becomes of the two clusters of 200 samples before the post is seen?**",
     {
-        "both stay, drawn more coarsely": "nothing that is seen prefers one of them. But who multiplies is drawn by lot, and "
-        "with few samples lots have weight.",
+        "both stay, drawn more coarsely": "nothing that is seen prefers one of them. But which samples multiply is decided "
+        "by lot, and with few samples luck decides much.",
         "one dies out: the wrong one": "nothing has been seen yet by which anybody could know the wrong one.",
         "one dies out, and chance decides which": "each drawing moves the balance a little, to either side. Once a cluster is "
         "empty, nothing brings it back.",
@@ -189,7 +189,7 @@ views.show(fig, f"The robot is found by {shown} of the drives; the intervals are
 # sight. With a few hundred samples the outcome is that of a coin. Go back to the slider of the first section and
 # choose fewer samples: the cloud looks just as sure of itself.
 #
-# **How many samples are enough?** Enough for every place that must not be forgotten.
+# **How many samples are enough?** Enough to have many of them at every place that must not be forgotten.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=6
 # ## To predict, drive
@@ -303,13 +303,13 @@ sp.factor(story["12"] + story["22"]) / total
 # ## The weight
 #
 # We *have* samples of the integral in (11.3): take samples of the old belief, and let each drive with noise. We
-# *want* samples of the left side. So we must make samples count for another density than that they were drawn from. A
-# sample that was drawn twice as often as it should have been must count half:
+# *want* samples of the left side. So samples that were drawn from one density must count for another. A sample that was drawn twice as often as it should have been must count half:
 #
 # $$w_i \;\propto\; \frac{\text{density that is wanted, at } x_i}{\text{density that } x_i \text{ was drawn from, at }
 # x_i}. \tag{11.4}$$
 #
-# This is **importance sampling**. Let us see it on a line, before we use it.
+# This is **importance sampling**, and the density that we draw from is called the proposal. Let us see it on a line,
+# before we use it.
 
 
 # %% slideshow={"slide_type": "subslide"}
@@ -339,8 +339,8 @@ views.explore(
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # The samples were drawn too far to the right, and their weights put that right: long bars where the wanted hill is
 # higher than the hill they came from. Make the drawing narrow, and move it to the side: then one or two samples carry
-# all, and the weighted mean is worth little. A sample counts for what it should have been drawn for, but somebody
-# must have drawn it.
+# all, and the weighted mean is worth little. Weights correct samples that exist; where none was
+# drawn, there is none to weigh.
 
 # %% slideshow={"slide_type": "subslide"}
 ask(
@@ -367,6 +367,10 @@ wanted / drawn_from
 # $$w_i \;\propto\; \Pr(z \mid x_i). \tag{11.5}$$
 #
 # **The weight is the likelihood and nothing else**, provided that the samples were moved by the noise of the wheels.
+
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Many programs get this wrong, and run. Ask how one would notice: only a filter that is known to be
+# exact tells.
 
 # %% [markdown] slideshow={"slide_type": "subslide"} answers="11-weight"
 # ### Is that so?
@@ -490,7 +494,8 @@ print("all lower by 100 000", normalise(logs - 1e5)[0].round(4))
 # ## Drawing anew: tickets or a comb
 #
 # Samples that weigh nothing are ballast. So we draw $n$ new samples from the old ones, sample $i$ with the
-# probability $w_i$: the good ones are copied, the bad ones vanish, and all weights are equal again. Lay the weights
+# probability $w_i$: the good ones are copied, the bad ones vanish, and all weights are equal again. This is
+# **resampling**. Lay the weights
 # end to end on a rod. There are two ways to draw:
 #
 # - **tickets** (multinomial): $n$ random numbers, and each picks the piece on which it falls;
@@ -573,7 +578,8 @@ print(f"10 steps with names: off by {100 * error:.0f} cm")
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=6
 # ## Carried off
 #
-# After 25 steps somebody lifts the robot and sets it down elsewhere in the room, at least 2.5 m away. (The post is
+# This is the problem of the **kidnapped robot**, and to find it again is called relocalisation. After 25 steps somebody
+# lifts the robot and sets it down elsewhere in the room, at least 2.5 m away. (The post is
 # now seen from everywhere.) A cloud of 500 samples has followed it until then.
 
 # %% slideshow={"slide_type": "fragment"}
@@ -746,6 +752,10 @@ views.explore(
 # The robot's place is in doubt by 30 cm along its way. It measures, with 5 cm, how far ahead an object is, and so the
 # object's set is born. Then both sets are kept apart.
 
+# %% [markdown] slideshow={"slide_type": "notes"}
+# *For the lecturer:* Let the class recall lesson 07 first: what did the block of $P$ between robot and landmark do? Then ask
+# where in two sets of samples such a thing could be written down.
+
 # %% slideshow={"slide_type": "fragment"}
 ask(
     "11-forget",
@@ -779,8 +789,8 @@ for name, places in {"as they were made": seen, "random partners": rng.permutati
 # of that: a belief that is too sure.
 
 # %% [markdown] slideshow={"slide_type": "subslide"} answers="11-forget"
-# Is it? We drive {= runs =} laps, with the wheels alone, with the EKF of lesson 06, and with sets. How far off are
-# they, and how often is the true pose outside of the region that should hold it 95 times in 100?
+# Is it? We drive {= runs =} laps, with the wheels alone, with the EKF of lesson 06, and with sets. How far off are they (the root mean square of the position's error along the way, the
+# absolute trajectory error), and how often is the true pose outside of the region that should hold it 95 times in 100?
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="11-forget"
 maps = many["maps"]
@@ -809,7 +819,7 @@ for name in (sets_apart.WHEELS, sets_apart.EKF, sets_apart.SETS, sets_apart.ONE)
 # is {= 100 * maps["EKF"]["outside"][0]:.0f =} %, with sets {= 100 * maps["sets"]["outside"][0]:.0f =} %, and more partners
 # change little.
 #
-# It is no fault of samples. It is the price of keeping sets apart.
+# Samples as such are not to blame for that. It is the price of keeping the sets apart.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=6
 # ## Objects that nobody looks at
