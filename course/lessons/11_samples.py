@@ -145,8 +145,8 @@ for step in (0, 4, 8, 36):
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=6
 # ## A cloud that is too small
 #
-# Until step {= post_seen =} the robot sees hardly anything that could tell the two places apart. With 10 000
-# samples, both clusters lived that long. Now we take 200, on the same drive.
+# Until step {= post_seen =} the robot sees hardly anything that could tell the two places apart. With 10 000 samples,
+# both clusters lived that long. Now we take 200, on the same drive.
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
@@ -173,9 +173,9 @@ reason = np.median([evidence(seed, steps=10) for seed in range(100)])
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="11-few"
 # After ten steps, few clouds are still undecided. The others have made up their minds, {= counts[0] =} for the
-# robot's place and {= counts[1] =} for the opposite one, and *what they have seen gives no reason to*: all ten looks together are only {= reason:.1f =} times as
-# likely from where the robot is as from the opposite place (median of the drives). When the post comes, a cloud at
-# the wrong place cannot follow: it has no sample at the right one.
+# robot's place and {= counts[1] =} for the opposite one, and *what they have seen gives no reason to*: all ten looks
+# together are only {= reason:.1f =} times as likely from where the robot is as from the opposite place (median of the
+# drives). When the post comes, a cloud at the wrong place cannot follow: it has no sample at the right one.
 
 # %% slideshow={"slide_type": "subslide"} answers="11-few"
 found = many["found"]
@@ -260,9 +260,9 @@ share = driven(0.5, 1500)[2]
 # on average it gets {= driven(0.5, 1500)[0][:, 0].mean():.2f =} m far, for every wrong heading shortens the way.
 
 # %% [markdown] slideshow={"slide_type": "subslide"} answers="11-banana"
-# Now make the heading sharper: with $\sigma = 0.1$ the ellipse holds {= 100 * driven(0.1, 1500)[2]:.0f =} %, with 0.05
-# it holds {= 100 * driven(0.05, 1500)[2]:.0f =}. Then take fewer samples: a hundred still make a banana, and ten make a
-# few scattered dots.
+# Now make the heading sharper: with $\sigma = 0.1$ the ellipse holds {= 100 * driven(0.1, 1500)[2]:.0f =} %, with
+# 0.05 it holds {= 100 * driven(0.05, 1500)[2]:.0f =}. Then take fewer samples: a hundred still make a banana, and ten
+# make a few scattered dots.
 #
 # So the cloud is right about the shape *if it has enough samples*, and the ellipse *if the heading is known well
 # enough*.
@@ -271,8 +271,8 @@ share = driven(0.5, 1500)[2]
 # ## A room of two places
 #
 # What must happen to the samples when something is seen? We derive it where everything can be written down. A robot
-# is in one of two rooms, 1 or 2. We are given what was believed, how it moves, and how likely each room lets it
-# see what it saw.
+# is in one of two rooms, 1 or 2. We are given what was believed, how it moves, and how likely each room lets it see
+# what it saw.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 believed = dict(zip("12", sp.symbols("Bel_1 Bel_2", positive=True), strict=True))
@@ -282,8 +282,9 @@ story = {old + new: believed[old] * goes[old + new] * sees[new] for old, new in 
 story["12"]
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# This is the probability of one story: the robot *was* in room 1, *went* to room 2, and *saw* there what it saw. There are
-# four such stories. It did see what it saw, so we divide by the sum of all four; and we add up those that end in room 2.
+# This is the probability of one story: the robot *was* in room 1, *went* to room 2, and *saw* there what it saw.
+# There are four such stories. It did see what it saw, so we divide by the sum of all four; and we add up those that
+# end in room 2.
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
 total = sp.Symbol("total", positive=True)  # the sum of all four stories
@@ -297,13 +298,14 @@ sp.factor(story["12"] + story["22"]) / total
 # \mathrm{Bel}(x_{k-1})\, dx_{k-1}. \tag{11.3}$$
 #
 # ($\mathrm{Bel}$ is what is believed after step $k$, and $\Pr$ of a continuous quantity is its density. The factor
-# that is left out, the sum of all stories, makes the whole sum up to one.)
+# that is left out is one over the sum of all stories. It makes the belief sum up to one.)
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=8
 # ## The weight
 #
 # We *have* samples of the integral in (11.3): take samples of the old belief, and let each drive with noise. We
-# *want* samples of the left side. So samples that were drawn from one density must count for another. A sample that was drawn twice as often as it should have been must count half:
+# *want* samples of the left side. So samples that were drawn from one density must count for another. A sample that
+# was drawn twice as often as it should have been must count half:
 #
 # $$w_i \;\propto\; \frac{\text{density that is wanted, at } x_i}{\text{density that } x_i \text{ was drawn from, at }
 # x_i}. \tag{11.4}$$
@@ -339,8 +341,8 @@ views.explore(
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # The samples were drawn too far to the right, and their weights put that right: long bars where the wanted hill is
 # higher than the hill they came from. Make the drawing narrow, and move it to the side: then one or two samples carry
-# all, and the weighted mean is worth little. Weights correct samples that exist; where none was
-# drawn, there is none to weigh.
+# all, and the weighted mean is worth little. Weights correct samples that exist; where none was drawn, there is none
+# to weigh.
 
 # %% slideshow={"slide_type": "subslide"}
 ask(
@@ -369,8 +371,8 @@ wanted / drawn_from
 # **The weight is the likelihood and nothing else**, provided that the samples were moved by the noise of the wheels.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* Many programs get this wrong, and run. Ask how one would notice: only a filter that is known to be
-# exact tells.
+# *For the lecturer:* Many programs get this wrong, and run. Ask how one would notice: only a filter that is known to
+# be exact tells.
 
 # %% [markdown] slideshow={"slide_type": "subslide"} answers="11-weight"
 # ### Is that so?
@@ -453,8 +455,8 @@ views.explore(
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="11-worth"
 # With a range good to 3 cm only a thin arc of samples is left, worth
 # {= weighed(0.03, 500)[0].effective_sample_size:.0f =} of the 500. With 30 cm the cloud is worth
-# {= weighed(0.3, 500)[0].effective_sample_size:.0f =}. So we either take more samples, or draw them where the sighting
-# wants them, and pay for it by (11.4). The exercise does the latter.
+# {= weighed(0.3, 500)[0].effective_sample_size:.0f =}. So we either take more samples, or draw them where the
+# sighting wants them, and pay for it by (11.4). The exercise does the latter.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=4
 # ## Weights that are all zero
@@ -495,8 +497,7 @@ print("all lower by 100 000", normalise(logs - 1e5)[0].round(4))
 #
 # Samples that weigh nothing are ballast. So we draw $n$ new samples from the old ones, sample $i$ with the
 # probability $w_i$: the good ones are copied, the bad ones vanish, and all weights are equal again. This is
-# **resampling**. Lay the weights
-# end to end on a rod. There are two ways to draw:
+# **resampling**. Lay the weights end to end on a rod. There are two ways to draw:
 #
 # - **tickets** (multinomial): $n$ random numbers, and each picks the piece on which it falls;
 # - **a comb** (systematic): $n$ teeth in equal distances, and *one* random number that shifts them all.
@@ -578,9 +579,9 @@ print(f"10 steps with names: off by {100 * error:.0f} cm")
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=6
 # ## Carried off
 #
-# This is the problem of the **kidnapped robot**, and to find it again is called relocalisation. After 25 steps somebody
-# lifts the robot and sets it down elsewhere in the room, at least 2.5 m away. (The post is
-# now seen from everywhere.) A cloud of 500 samples has followed it until then.
+# After 25 steps somebody lifts the robot and sets it down elsewhere in the room, at least 2.5 m away. (The post is
+# now seen from everywhere.) A cloud of 500 samples has followed it until then. This is the problem of the **kidnapped
+# robot**, and to find it again is called relocalisation.
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
@@ -625,9 +626,9 @@ views.explore(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="11-carried"
-# Without strangers there is usually no sample where the robot is, and no way to get one. The cure: in every step, some
-# samples are replaced by **strangers**, poses thrown anywhere into the room. If one of them explains what is seen
-# much better than the others, it has many children.
+# Without strangers there is usually no sample where the robot is, and no way to get one. The cure: in every step,
+# some samples are replaced by **strangers**, poses thrown anywhere into the room. If one of them explains what is
+# seen much better than the others, it has many children.
 
 # %% slideshow={"slide_type": "subslide"} answers="11-carried"
 again = {f"{k} strangers": share["found"] for k, share in many["strangers"].items()}
@@ -637,13 +638,14 @@ shown = ", ".join(f"with {name} in {share[0]:.0%}" for name, share in again.item
 views.show(fig, f"The robot is found again {shown} of the drives.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="11-carried"
-# Without strangers {= 100 * again["0 strangers"][0]:.0f =} % of the robots were found again, with 5 of 500 samples in
-# every step {= 100 * again["5 strangers"][0]:.0f =} %, and with 50 {= 100 * again["50 strangers"][0]:.0f =} %.
+# Without strangers {= 100 * again["0 strangers"][0]:.0f =} % of the robots were found again. With 5 strangers in
+# every step it was {= 100 * again["5 strangers"][0]:.0f =} %, with 25 it was {= 100 * again["25 strangers"][0]:.0f =}
+# %, and with 50, a tenth of the samples, it was {= 100 * again["50 strangers"][0]:.0f =} %.
 #
 # Strangers take the places of samples that follow the robot, so one expects a price. In this room none is to be seen:
 # before the robot was carried off, the mean was off by {= 100 * price["0"][0]:.0f =} cm without strangers (median of
-# the drives), by {= 100 * price["50"][0]:.0f =} cm with 50, and by {= 100 * price["250"][0]:.0f =} cm with 250. In the
-# exercise, a stranger hits the right pose more seldom.
+# the drives), by {= 100 * price["50"][0]:.0f =} cm with 50, and by {= 100 * price["250"][0]:.0f =} cm with 250. The
+# room of the exercise is larger, and there a stranger hits the right pose more seldom.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Standing still
@@ -661,8 +663,8 @@ for look in range(1, 61):
 print("different samples after", {look: left[look] for look in (1, 5, 20, 60)})
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# This is called **impoverishment**. A cloud that has made up its mind cannot change it. Real filters shake samples
-# that do not move.
+# This is called **impoverishment**. A cloud that has made up its mind cannot change it. A filter can shake samples
+# that do not move, which is called roughening. In part two the package does so.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* A good place to end the first lecture. Homework: would you add strangers if you knew that nobody
@@ -714,6 +716,9 @@ for k, reading in enumerate(lap):
     slam.step(reading)
     pictures[k] = slam.layers()
 way_off = np.hypot(*(slam.pose - lap.truth.poses[-1])[:2])
+rows = [slam.filter.ids.index(i) for i in slam.filter.frozen]
+misses = slam.filter.landmarks()[rows] - lap.landmarks[list(slam.filter.frozen)]
+beside = np.hypot(*misses.T).mean()
 
 
 # %% slideshow={"slide_type": "fragment"} answers="11-dimensions"
@@ -744,7 +749,9 @@ views.explore(
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="11-dimensions"
 # Every object is a cloud: born as wide as the robot's doubt and the sensor's together, and shrinking while it is
-# seen. Press ▶ and look where the crosses are. Late on the way, the clouds have shrunk *beside* their crosses, and the believed way ends {= way_off:.1f =} m from the true one.
+# seen. Press ▶ and look where the crosses are. The clouds shrink *beside* them: when the last sample of an object
+# lies within 5 cm of the mean, the object is frozen to a point, and the frozen ones are {= 100 * beside:.0f =} cm off
+# on average. The robot believes them, and its way ends {= 100 * way_off:.0f =} cm from the true one.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=9
 # ## What do the sets forget?
@@ -753,8 +760,8 @@ views.explore(
 # object's set is born. Then both sets are kept apart.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* Let the class recall lesson 07 first: what did the block of $P$ between robot and landmark do? Then ask
-# where in two sets of samples such a thing could be written down.
+# *For the lecturer:* Let the class recall lesson 07 first: what did the block of $P$ between robot and landmark do?
+# Then ask where in two sets of samples such a thing could be written down.
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
@@ -780,17 +787,18 @@ for name, places in {"as they were made": seen, "random partners": rng.permutati
     print(f"{name:18} range known to {known[name]:2.0f} cm, correlation {together:5.2f}")
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="11-forget"
-# A robot that may stand 30 cm farther left is asked about the object that a robot 30 cm farther right has seen. So
-# the range, known to {= known["as they were made"]:.0f =} cm, is now known to {= known["random partners"]:.0f =}.
-# Each set by itself is as good as before. What they knew *together* is gone. It is the block $P_{\mathrm{r}i}$ of
-# lesson 07, once more.
+# A robot that stands 30 cm too far back is asked about the object that a robot 30 cm too far ahead has seen. So the
+# range, known to {= known["as they were made"]:.0f =} cm, is now known to {= known["random partners"]:.0f =}. Each
+# set by itself is as good as before. What they knew *together* is gone. It is the block $P_{\mathrm{r}i}$ of lesson
+# 07, once more.
 #
 # And with every reading the two sets learn from each other, as if they had never met. Lesson 07 has shown what comes
 # of that: a belief that is too sure.
 
 # %% [markdown] slideshow={"slide_type": "subslide"} answers="11-forget"
-# Is it? We drive {= runs =} laps, with the wheels alone, with the EKF of lesson 06, and with sets. How far off are they (the root mean square of the position's error along the way, the
-# absolute trajectory error), and how often is the true pose outside of the region that should hold it 95 times in 100?
+# Is it? We drive {= runs =} laps, with the wheels alone, with the EKF of lesson 06, and with sets. How far off are
+# they (the root mean square of the position's error along the way, the absolute trajectory error), and how often is
+# the true pose outside of the region that should hold it 95 times in 100?
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="11-forget"
 maps = many["maps"]
@@ -813,11 +821,11 @@ for name in (sets_apart.WHEELS, sets_apart.EKF, sets_apart.SETS, sets_apart.ONE)
     row(name)
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="11-forget"
-# Both filters beat the wheels. The sets err somewhat more than the EKF: on the same lap by {= 100 * worse[0]:.0f =} cm
-# in the median (95 % interval {= 100 * worse[1]:.0f =} to {= 100 * worse[2]:.0f =} cm). But what they *say* of their
-# error is worth nothing. An honest filter has the true pose outside of its region in 5 % of the readings. With the EKF it
-# is {= 100 * maps["EKF"]["outside"][0]:.0f =} %, with sets {= 100 * maps["sets"]["outside"][0]:.0f =} %, and more partners
-# change little.
+# Both filters beat the wheels. The sets err somewhat more than the EKF: on the same lap by {= 100 * worse[0]:.0f =}
+# cm in the median (95 % interval {= 100 * worse[1]:.0f =} to {= 100 * worse[2]:.0f =} cm). But what they *say* of
+# their error is worth nothing. An honest filter has the true pose outside of its region in 5 % of the readings. With
+# the EKF it is {= 100 * maps["EKF"]["outside"][0]:.0f =} %, with sets {= 100 * maps["sets"]["outside"][0]:.0f =} %,
+# and more partners change little.
 #
 # Samples as such are not to blame for that. It is the price of keeping the sets apart.
 
@@ -869,8 +877,8 @@ views.explore(
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="11-unseen"
 # The mean walks, and the set gets surer of itself. Each draw takes the share $1/n$ of the variance and turns it into
-# error. If a set has the variance $\sigma^2$ at first, in x and in y together, the mean square of the mean's way after
-# $k$ draws is
+# error. If a set has the variance $\sigma^2$ at first, in $x$ and in $y$ together, the mean square of the mean's way
+# after $k$ draws is
 #
 # $$\mathrm{E}\, |\bar x_k - \bar x_0|^2 = \left(1 - \left(1 - \tfrac1n\right)^k\right) \sigma^2, \tag{11.10}$$
 #
@@ -897,9 +905,9 @@ for name in (sets_apart.SETS, *sets_apart.FROZEN.values()):
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # Frozen at 10 cm, the sets do as well and as badly as before. Frozen at 80 cm, they err by
-# {= 100 * maps[sets_apart.FROZEN[0.8]]["rms"][0]:.0f =} cm instead of {= 100 * maps[sets_apart.SETS]["rms"][0]:.0f =}: an
-# object that is frozen early keeps the error that it has then, and from then on the robot believes it. The thesis gives no
-# number; the package waits for 5 cm.
+# {= 100 * maps[sets_apart.FROZEN[0.8]]["rms"][0]:.0f =} cm instead of
+# {= 100 * maps[sets_apart.SETS]["rms"][0]:.0f =}: an object that is frozen early keeps the error that it has then,
+# and from then on the robot believes it. The thesis gives no number; the package waits for 5 cm.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=6
 # ## Samples where they are needed
@@ -921,10 +929,10 @@ for name in (sets_apart.EKF, sets_apart.SETS, *sets_apart.FAST.values()):
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # With 1000 samples FastSLAM errs about as much as the EKF, and the true pose is outside in
 # {= 100 * maps[sets_apart.FAST[1000]]["outside"][0]:.0f =} % of the readings instead of the
-# {= 100 * maps["sets"]["outside"][0]:.0f =} of the sets: the correlations are back. It is still surer than it should be,
-# and with 100 samples much more so ({= 100 * maps[sets_apart.FAST[100]]["outside"][0]:.0f =} %). Each drawing leaves fewer
-# different beginnings of the way, and when the loop closes, the filter can only choose among those that are left.
-# Impoverishment again.
+# {= 100 * maps["sets"]["outside"][0]:.0f =} of the sets: the correlations are back. It is still surer than it should
+# be, and with 100 samples much more so ({= 100 * maps[sets_apart.FAST[100]]["outside"][0]:.0f =} %). Each drawing
+# leaves fewer different beginnings of the way, and when the loop closes, the filter can only choose among those that
+# are left. Impoverishment again.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Literature
