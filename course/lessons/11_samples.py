@@ -676,21 +676,12 @@ print("different samples after", {look: left[look] for look in (1, 5, 20, 60)})
 # SLAM asks for the landmarks as well. (This part calls them objects.) Why not take samples of everything at once: of
 # the pose, three numbers, and of $N$ objects, two numbers each?
 
-# %% slideshow={"slide_type": "fragment"}
-ask(
-    "11-dimensions",
-    "Say that ten samples in a row are enough for one number. **How many samples cover a pose and ten objects?**",
-    {
-        "230: ten for each of 23 numbers": "that would be enough if the numbers could be covered one by one. But a sample is a value "
-        "for all of them at once.",
-        "a thousand, as for the pose alone": "for the pose alone it takes 10 · 10 · 10. Each further number asks for ten times as "
-        "many.",
-        "10²³": "ten values for each number, each with ten of every other: ten to the power of 23.",
-    },
-    right="10²³",
-)
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# Say that ten samples in a row are enough for one number. For the pose alone it takes $10 \cdot 10 \cdot 10$ of them,
+# for a sample is a value of all its numbers at once. Each further number asks for ten times as many. With ten objects
+# there are 23 numbers, and it takes $10^{23}$ samples.
 
-# %% [markdown] slideshow={"slide_type": "subslide"} answers="11-dimensions"
+# %% [markdown] slideshow={"slide_type": "subslide"}
 # ### One set for each
 #
 # The MAK thesis has a way out, its algorithm 2: *one set of samples for the robot, and one for each object.* A
@@ -700,7 +691,7 @@ ask(
 # the robot is, and nobody knows that either. So whenever another place is needed, the algorithm takes **random
 # samples of its set**.
 
-# %% [markdown] slideshow={"slide_type": "subslide"} answers="11-dimensions"
+# %% [markdown] slideshow={"slide_type": "subslide"}
 # With $m$ such partners $p_1, \ldots, p_m$, drawn anew for every sample $x_i$ of the robot, its weight is the mean
 #
 # $$w_i \;\propto\; \frac{1}{m} \sum_{j=1}^{m} \Pr(z \mid x_i, p_j), \tag{11.9}$$
@@ -709,7 +700,7 @@ ask(
 # noise. A new object's samples stand where random poses would have seen it. We drive a simulated lap among ten
 # objects.
 
-# %% slideshow={"slide_type": "subslide"} answers="11-dimensions"
+# %% slideshow={"slide_type": "subslide"}
 lap = sets_apart.lap(12)
 slam, pictures = montecarlo(lap), {}
 for k, reading in enumerate(lap):
@@ -721,7 +712,7 @@ misses = slam.filter.landmarks()[rows] - lap.landmarks[list(slam.filter.frozen)]
 beside = np.hypot(*misses.T).mean()
 
 
-# %% slideshow={"slide_type": "fragment"} answers="11-dimensions"
+# %% slideshow={"slide_type": "fragment"}
 def sets_after(readings):
     names = "sets of objects", "frozen objects", "believed way", "set of the robot"
     layers = {"true way": Poses("truth", lap.truth.poses[: readings + 1])}
@@ -736,7 +727,7 @@ def sets_after(readings):
     return fig
 
 
-# %% slideshow={"slide_type": "subslide"} answers="11-dimensions"
+# %% slideshow={"slide_type": "subslide"}
 views.explore(
     sets_after,
     lambda readings: (
@@ -747,7 +738,7 @@ views.explore(
     readings=(0, len(lap) - 1, 52),
 )
 
-# %% [markdown] slideshow={"slide_type": "fragment"} answers="11-dimensions"
+# %% [markdown] slideshow={"slide_type": "fragment"}
 # Every object is a cloud: born as wide as the robot's doubt and the sensor's together, and shrinking while it is
 # seen. Press ▶ and look where the crosses are. The clouds shrink *beside* them: when the last sample of an object
 # lies within 5 cm of the mean, the object is frozen to a point, and the frozen ones are {= 100 * beside:.0f =} cm off
