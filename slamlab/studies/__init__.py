@@ -7,6 +7,8 @@
   ``line_truth``: lines against the true walls
 - ``three``: BOR, MAK, Monte Carlo, with ``three_records`` of each drive, ``three_rows`` of its
   table, ``three_costs``
+- ``samples``: how many samples find a robot, and maps by samples, with ``sampled_room``,
+  ``sampled_rail``, ``sets_apart``, the experiments of lesson 11
 - ``two_halves``, ``halves_in_turn``, ``agreeing_poses``: the laps of lesson 05, run where they
   stand
 - ``broken_slam``: EKF-SLAM with one thing wrong, for lesson 06; ``broken_bounds``: BOR with a bound
