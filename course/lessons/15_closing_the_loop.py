@@ -5,7 +5,7 @@
 # into one graph, derive and solve its equations, give each measurement the weight that it deserves, and say
 # when a false loop ruins a map, and what keeps it out.
 #
-# **95 minutes**, in two parts: a graph of poses (46), and loops true and false (49).
+# **80 minutes**, in two parts: a graph of poses (39), and loops true and false (41).
 # **Before:** lesson [04](04_models_and_jacobians.ipynb) for $\oplus$ and Jacobians, lesson
 # [13](13_scan_matching.ipynb) for the matching of scans.
 #
@@ -44,8 +44,14 @@ from slamlab.studies import edge_frames, false_loops, intel_maps
 from slamlab.studies.wheel_graphs import information_of_all, wheels_graph
 from slamlab.worlds import World
 
+GATES = [1, 3, 11.3, 30, 60, 100, 300, 1000, 3000, 10000, 30000]
 
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=5
+
+def slider(name, options, first):
+    return SelectionSlider(options=options, value=first, description=name)
+
+
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=4
 # ## Home again
 #
 # A robot drives once round a corridor, 42 m, and ends where it began. We let three estimators draw the map
@@ -113,7 +119,7 @@ views.show(
 # about the whole walk, and not only about where you stand. Lesson 03 said that a patient least squares knows the
 # *earlier* states better than a filter does. This is where that pays.
 
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=5
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=4
 # ## Poses as a graph
 #
 # Forget landmarks. The unknowns are **all** poses $x_0, x_1, \dots, x_n$ of the robot. An **edge** is a measured
@@ -140,7 +146,7 @@ views.show(
 # The last number is an **angle**. It has to be wrapped into $\pm\pi$, or a robot that went round once would be wrong by
 # 360°.
 
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=7
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=6
 # ## How an edge feels its poses
 #
 # The graph will move the poses until the errors are small. So it has to know how $e$ changes when a pose is moved a
@@ -221,7 +227,7 @@ for k, J in enumerate((J_i, J_j)):
     off = [abs(J(*at) - other).max() for other in (by_differences, by_sympy)]
     print(f"{J.__name__}: off by {off[0]:.6f} from differences, {off[1]:.6f} from sympy")
 
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=5
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=4
 # ## The best poses
 #
 # Not all edges are equally good: a match is sure to a millimetre, the wheels to centimetres. So each edge has an
@@ -256,7 +262,7 @@ for k, J in enumerate((J_i, J_j)):
 # alone. It is multiplied by $e$, and near the solution $e$ is small. The first *Deeper* section checks (15.5) by
 # machine.
 
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=8
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=7
 # ## Whose covariance is it?
 #
 # $\Lambda$ weighs the error $e$. What a match or the wheels tell us is the covariance $R$ of the *measurement* $z$. Are
@@ -321,7 +327,9 @@ def errors_and_claims(turn):
         ellipse = Ellipses(name, np.zeros((1, 2)), 1e6 * P.mean(axis=0)[None, :2, :2])
         views.draw(ax, ellipse, label=label, linewidth=2)
     views.draw(ax, Points("scan", 1e3 * each.e[:, :2]), label="errors e", markersize=8)
-    ax.set(xlabel="x of e [mm]", ylabel="y of e [mm]", xlim=(-9, 9), ylim=(-6, 6), adjustable="box")
+    ax.set(
+        xlabel="x of e [mm]", ylabel="y of e [mm]", xlim=(-10, 10), ylim=(-7, 7), adjustable="box"
+    )
     views.legend_below(fig)
     return fig
 
@@ -352,7 +360,7 @@ views.explore(
 # hundreds of loops, the wrong weights cost less than a millimetre. What showed it was the NEES of $e$. Ask the class which
 # test would have found it on the day it was written.
 
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=9
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=8
 # ## Five poses by hand
 #
 # A robot drives round a square of 2 m: four times "2 m ahead, then 90° to the left". Its wheels say 2.1 m and 84°. At the
@@ -476,7 +484,7 @@ for side in sides:
 # The sides are still 2.1 m. **A loop corrects what contradicts it, and nothing else.** Go to 0 rounds and press ▶: two rounds
 # do nearly all. Then make the loop unsure, and it will not close the gap.
 
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=6
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## One handshake
 #
 # Back to the corridor, with the worst track, that of the wheels alone, and a single loop: the last scan laid over the first.
@@ -556,7 +564,7 @@ views.explore(
 # *For the lecturer:* Without the loop $\chi^2$ was exactly zero: a chain contradicts nothing, so it can be as wrong as it
 # likes. Contradiction is information. Here is a good place for the break.
 
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=7
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## Part two: who may have been here before?
 #
 # That loop was given. A robot has to find it, in three steps: **propose, verify, optimise**.
@@ -595,7 +603,7 @@ shown = {
     | {"new scan": Points("scan", transform(found[name].pose, new.points))}
     for name, (new, old) in pairs.items()
 }
-fig, _ = views.side_by_side(shown, size=(9.5, 4))
+fig, _ = views.side_by_side(shown, size=(9.5, 3.4))
 views.show(
     fig,
     f"{len(pairs)} pairs of scans, each new one laid over an old one; all seem to fit.",
@@ -611,7 +619,7 @@ views.show(
 # *For the lecturer:* "fits" is said of all three. Let the class invent further tests: higher overlap, more scans at once (the
 # package lays a scan over a map of nine), colours, room numbers. All of them help, and none is proof.
 
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=7
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=6
 # ## Does it surprise the graph?
 #
 # The graph has an opinion of its own. It believes that pose $j$ lies somewhere as seen from pose $i$, and knows how sure it
@@ -654,7 +662,7 @@ for name, (right, bad) in passed.items():
 # {= passed["asked"][0] - passed["all four"][0] =} of {= passed["asked"][0] =} right loops. **Every gate has that price.**
 # A loop refused is a chance lost, and a later one may come; a false loop let in can ruin the map.
 
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=4
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=3
 # ## Twins
 #
 # A world made to deceive: two rooms, alike to the last chair, 7 m apart, off one corridor. To make it harder we let `graph`
@@ -672,13 +680,9 @@ for name, slam in systems.items():
 # %% slideshow={"slide_type": "subslide"}
 shown = {}
 for name, slam in systems.items():
-    ends = [
-        [*slam.graph.poses[e.i, :2], *slam.graph.poses[e.j, :2]]
-        for e in slam.graph.edges
-        if e.robust
-    ]
-    shown[name] = laid(slam.graph.poses, twins.clouds) | {"loops": Segments("before", ends)}
-fig, _ = views.side_by_side(shown, size=(9.5, 3.8))
+    tied = Segments("loop", false_loops.ends(slam.graph))
+    shown[name] = laid(slam.graph.poses, twins.clouds) | {"loops": tied}
+fig, _ = views.side_by_side(shown, size=(9.5, 3.2))
 views.show(
     fig,
     f"With the gate two rooms off a corridor; without it one room, in which both lie, and an error of "
@@ -689,7 +693,7 @@ views.show(
 # On the left there are two rooms, and loops only within each. On the right there is one room left: both lie in each other, table
 # on table, shelf on shelf. The corridor between them had to crumple.
 
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=6
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## How wide a gate?
 #
 # Where should the gate stand? Three numbers, so by chance alone the surprise of a right loop stays below 11.3 in 99 of 100
@@ -732,12 +736,6 @@ def gate_and_claim(gate, claimed_error):
     return fig
 
 
-def slider(name, options, first):
-    return SelectionSlider(options=options, value=first, description=name)
-
-
-GATES = [1, 3, 11.3, 30, 60, 100, 300, 1000, 3000, 10000, 30000]
-
 # %% slideshow={"slide_type": "fragment"} answers="15-width"
 views.explore(
     gate_and_claim,
@@ -763,7 +761,7 @@ refused = np.mean(by_claim[1][~twins.false] > 11.3)
 # Now move the other slider. The clouds keep their distance, but both move. **A robot that is too sure of its wheels finds its
 # right loops absurd**, and one that trusts them too little lets anything in. A gate is only as good as the covariance behind it.
 
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=5
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=4
 # ## Robust weights
 #
 # Must one false loop ruin everything? A square pulls the harder, the more absurd an error is. So we let an edge that *may* be
@@ -830,11 +828,11 @@ surprises = twins.surprises()
 def on_trial(false_offered, phi, gate):
     offered = twins.offered(false_offered)
     graph, _ = twins.closed(offered[surprises[offered] <= gate], phi)
-    shown = {f"{twins.worst(graph.poses):.2f} m off at worst": laid(graph.poses, twins.clouds)}
-    for label, name, bad in (("right loops", "before", False), ("false loops", "naive", True)):
-        pairs = [e for e in graph.edges if abs(e.i - e.j) > 1 and twins.lies(e) == bad]
-        ends = [[*graph.poses[e.i, :2], *graph.poses[e.j, :2]] for e in pairs]
-        shown[next(iter(shown))][label] = Segments(name, ends)
+    layers = laid(graph.poses, twins.clouds)
+    for label, name, bad in (("right loops", "loop", False), ("false loops", "naive", True)):
+        edges = [edge for edge in graph.edges if edge.robust and twins.lies(edge) == bad]
+        layers[label] = Segments(name, false_loops.ends(graph, edges))
+    shown = {f"{twins.worst(graph.poses):.2f} m off at worst": layers}
     return views.side_by_side(shown, size=(8.5, 4.8))[0]
 
 
@@ -898,7 +896,7 @@ print({name: f"{cost:,.0f}" for name, cost in paid.items()})
 # *For the lecturer:* This is the state of the art, and not a weakness of this code alone: every robust back end has a point where it
 # breaks down. Ask what one could do after the fact: take the loops in groups that agree with each other, and compare the costs.
 
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=6
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## A map that changes its mind
 #
 # A robot that comes back may find a door open that was closed. Points pile up, and keep both for ever. The cure is the *occupancy
@@ -967,7 +965,7 @@ with TemporaryDirectory() as folder:
     again = map_server.load(path)
 print("read again, the same cells:", bool((again.states == grid.states).all()))
 
-# %% [markdown] slideshow={"slide_type": "slide"} minutes=5
+# %% [markdown] slideshow={"slide_type": "slide"} minutes=4
 # ## A real building
 #
 # Back to lesson 01's real log: {= intel_maps.stored().readings =} scans in {= intel_maps.stored().minutes:.0f =} minutes through the
@@ -979,18 +977,18 @@ intel = intel_maps.stored()
 closed_map = {"scans": Points("corrected", intel.points["graph"])}
 shown = {
     "icp": {"scans": Points("corrected", intel.points["icp"])},
-    "graph": closed_map | {"loops": Segments("naive", intel.loops[::4])},
+    "graph": closed_map | {"loops": Segments("loop", intel.loops)},
 }
 fig, _ = views.side_by_side(shown, size=(9.5, 5))
 views.show(
     fig,
-    f"Left a floor plan with double walls; right the same with single ones, and every fourth of "
+    f"Left a floor plan with double walls; right the same with single ones, and "
     f"{len(intel.loops)} loops, all over the corridors.",
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # On the left walls stand twice where the robot came back. On the right each wall stands once, and you see why:
-# {= len(intel.loops) =} loops tie the laps together (a fourth of them is drawn).
+# {= len(intel.loops) =} loops tie the laps together.
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
 for name, mean in intel.off.items():

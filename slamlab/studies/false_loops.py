@@ -87,6 +87,23 @@ def judged(slam, truth, every=6):
     return false, dict(zip(names, gates, strict=True))
 
 
+def ends(graph, edges=None):
+    """Places of a graph's loops, from pose to pose.
+
+    Parameters
+    ----------
+    graph : PoseGraph
+    edges : list of Edge, or None for those that are robust
+
+    Returns
+    -------
+    (m, 4) [m]
+    """
+    edges = [edge for edge in graph.edges if edge.robust] if edges is None else edges
+    pairs = np.array([(edge.i, edge.j) for edge in edges], dtype=int).reshape(-1, 2)
+    return graph.poses[pairs, :2].reshape(-1, 4)
+
+
 def cost(graph, phi):
     """Cost of a graph's poses: χ² of trusted edges, and of robust ones what the kernel makes of it.
 
