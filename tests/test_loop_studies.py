@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 
 from slamlab import sources
+from slamlab.estimators.graph_slam import GraphSlam
+from slamlab.estimators.runner import run
 from slamlab.geometry import between
 from slamlab.posegraph.edge_error import information
 from slamlab.posegraph.optimisation import Optimum
@@ -53,6 +55,20 @@ def test_the_information_of_all_poses_is_a_sum_over_edges_in_the_order_of_the_po
     blocks = [held[k : k + 3, k : k + 3] for k in range(0, 12, 3)]
     np.testing.assert_allclose(graph.covariances()[1:], blocks, rtol=1e-6)
     assert np.count_nonzero(np.linalg.eigvalsh(found) < 1e-9 * found.max()) == 3
+
+
+def test_no_gate_alone_lets_in_what_is_right_and_nothing_else(corridor):
+    slam = run(corridor, GraphSlam(corridor.robot, loops=False)).estimator
+    wrong, gates = false_loops.judged(slam, false_loops.true_poses(slam, corridor))
+    for name in ("fits", "verified"):
+        assert (gates[name] & wrong).sum() > (gates[name] & ~wrong).sum()
+    assert gates["no surprise"][~wrong].all()
+    slides = gates["no surprise"] & wrong
+    assert slides.any(), "a match that slides claims too little to surprise"
+    assert not (slides & gates["fits"]).any()
+    everything = np.all(list(gates.values()), axis=0)
+    assert not (everything & wrong).any()
+    assert 0 < (everything & ~wrong).sum() < (~wrong).sum(), "every gate costs right loops"
 
 
 def test_a_gate_keeps_false_loops_out_and_without_it_they_ruin_the_map(twins):

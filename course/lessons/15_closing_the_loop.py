@@ -235,7 +235,8 @@ for k, J in enumerate((J_i, J_j)):
 #
 # $$\chi^2(x) = \sum_{\text{edges}} e^{\mathsf T} \Lambda\, e. \tag{15.4}$$
 #
-# Each term counts an error in units of its own doubt. A true edge contributes 3 on average, for it has three numbers.
+# Each term counts an error in units of its own doubt. At the true poses an honest edge contributes 3 on average, for it has
+# three numbers.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### A step of Gauss and Newton
@@ -268,8 +269,8 @@ for k, J in enumerate((J_i, J_j)):
 # $\Lambda$ weighs the error $e$. What a match or the wheels tell us is the covariance $R$ of the *measurement* $z$. Are
 # these two the same?
 #
-# A robot looks along a corridor. The walls fix its place *across* the corridor to 0.2 mm. *Along* it, where only niches
-# and corners help, $\sigma$ is some ten times as large. The robot turns left by 90°, and its new scan is matched with the
+# A robot looks along a corridor. The walls fix its place *across* the corridor to a fraction of a millimetre. *Along* it,
+# where only niches and corners help, $\sigma$ is many times as large. The robot turns left by 90°, and its new scan is matched with the
 # old one. $z$ is written in the frame of the *old* pose, whose x axis runs along the corridor: the large $\sigma$ is that
 # of its $x$.
 
@@ -477,7 +478,7 @@ for side in sides:
     print(f"{np.hypot(*side[:2]):.2f} m, {np.degrees(side[2]):.1f}°")
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="15-sides"
-# The loop says one thing only, about poses 4 and 0, and yet **every** pose has moved: each turn got 6° of the missing 24°.
+# The loop says one thing only, about poses 4 and 0, and yet **every** pose has moved: each turn got its 6° of the missing 24°.
 # A filter that keeps only the last pose cannot do that. $\chi^2$ can be read, too: $4 \cdot (6°/5°)^2 = 5.8$, and the graph
 # has {= optimum.chi2:.1f =}.
 #
@@ -557,7 +558,7 @@ views.explore(
 # sees its own beginning, and the whole map snaps shut.
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="15-halfway"
-# $\chi^2 = ${= optimum.chi2:.0f =} is more than chance would have: 11.3 is exceeded once in a hundred. These wheels err always
+# A $\chi^2$ of {= optimum.chi2:.0f =} is more than chance would have: 11.3 is exceeded once in a hundred. These wheels err always
 # to the same side, while $Q$ takes each step's error for a new one.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
@@ -570,8 +571,8 @@ views.explore(
 # That loop was given. A robot has to find it, in three steps: **propose, verify, optimise**.
 #
 # *Propose:* an old pose is a candidate if it may be near. That is: near by what is believed, allowing for the drift since
-# then. The robot of the handshake is {= off["wheels"][-1]:.1f =} m beside itself. If it asks only within 1.5 m, it never closes
-# its loop.
+# then. The robot of the handshake is {= off["wheels"][-1]:.1f =} m beside itself. If it asks only within 1.5 m, it does not
+# find its start.
 #
 # *Verify:* lay the new scan over the old one, and ask lesson 13's matcher for its verdict. How many points lie on old walls?
 # Does anything contradict? Do the walls fix all three numbers?
@@ -603,7 +604,7 @@ shown = {
     | {"new scan": Points("scan", transform(found[name].pose, new.points))}
     for name, (new, old) in pairs.items()
 }
-fig, _ = views.side_by_side(shown, size=(9.5, 3.4))
+fig, _ = views.side_by_side(shown, size=(9.5, 3.6), shared=False)
 views.show(
     fig,
     f"{len(pairs)} pairs of scans, each new one laid over an old one; all seem to fit.",
@@ -655,12 +656,17 @@ for name, (right, bad) in passed.items():
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # What a scan looks like tells little here: of {= passed["asked"][1] =} wrong pairs {= passed["fits"][1] =} *fit* somewhere, and
-# {= passed["verified"][1] =} pass even the strict test. The best single gate is the last one. It says "you cannot have got there":
+# {= passed["verified"][1] =} pass even the strict test. The last gate is the best: it says "you cannot have got there", and
 # {= passed["no surprise"][0] =} right and {= passed["no surprise"][1] =} wrong pass.
 #
-# All four together let {= passed["all four"][1] =} wrong ones through. But they also cost
-# {= passed["asked"][0] - passed["all four"][0] =} of {= passed["asked"][0] =} right loops. **Every gate has that price.**
-# A loop refused is a chance lost, and a later one may come; a false loop let in can ruin the map.
+# Even so it is **not enough alone**. What it lets in is a match that slides along a bare piece of corridor. It is more than a metre
+# off, and claims so little along the corridor that it surprises nobody. A scan tells that; the graph cannot.
+
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# All four gates together let {= passed["all four"][1] =} of the wrong ones through. But they also refuse
+# {= passed["asked"][0] - passed["all four"][0] =} of {= passed["asked"][0] =} right ones: *near* alone keeps only
+# {= passed["near"][0] =}, and *verified* only {= passed["verified"][0] =}. **Every gate has that price.** A right loop refused is a
+# chance lost, and another may come. A false one let in can ruin the map.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=3
 # ## Twins
@@ -682,7 +688,8 @@ shown = {}
 for name, slam in systems.items():
     tied = Segments("loop", false_loops.ends(slam.graph))
     shown[name] = laid(slam.graph.poses, twins.clouds) | {"loops": tied}
-fig, _ = views.side_by_side(shown, size=(9.5, 3.2))
+fig, all_axes = views.side_by_side(shown, size=(9.5, 3.4))
+all_axes[0].set(xlim=(-3, 16), ylim=(-2, 7))
 views.show(
     fig,
     f"With the gate two rooms off a corridor; without it one room, in which both lie, and an error of "
@@ -690,15 +697,15 @@ views.show(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# On the left there are two rooms, and loops only within each. On the right there is one room left: both lie in each other, table
-# on table, shelf on shelf. The corridor between them had to crumple.
+# On the left there are two rooms, and no loop ties the one to the other. On the right there is one room left: both lie in each
+# other, table on table, shelf on shelf. The corridor between them had to crumple.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## How wide a gate?
 #
 # Where should the gate stand? Three numbers, so by chance alone the surprise of a right loop stays below 11.3 in 99 of 100
-# cases. We collect all loops that both runs above were offered, {= np.sum(~twins.false) =} right and
-# {= np.sum(twins.false) =} false ones, and ask how much each surprises somebody who knows **the wheels alone**.
+# cases. We take the {= np.sum(~twins.false) =} right loops that the first run closed and the {= np.sum(twins.false) =} false ones that
+# the second let in, and ask how much each surprises somebody who knows **the wheels alone**.
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
@@ -755,8 +762,9 @@ for claim, s in by_claim.items():
 refused = np.mean(by_claim[1][~twins.false] > 11.3)
 
 # %% [markdown] slideshow={"slide_type": "subslide"} answers="15-width"
-# {= 100 * refused:.0f =} % of the right loops surprise by more than 11.3. So the package's gate stands at 60: wheels err
-# systematically, and a right loop refused is a map torn.
+# {= 100 * refused:.0f =} % of the right loops surprise by more than 11.3, since wheels err systematically, and the most
+# surprising one by {= by_claim[1][~twins.false].max():.0f =}. The false ones begin at {= by_claim[1][twins.false].min():.0f =}. The package's
+# gate stands at 60, between the two.
 #
 # Now move the other slider. The clouds keep their distance, but both move. **A robot that is too sure of its wheels finds its
 # right loops absurd**, and one that trusts them too little lets anything in. A gate is only as good as the covariance behind it.
@@ -852,7 +860,7 @@ views.explore(
 # ### Try
 #
 # 1. Offer one false loop, then two, then five. Where does the map break?
-# 2. With two false loops, raise $\Phi$ to 100: now nothing is robust any more. Lower it to 1: right loops lose their weight, too.
+# 2. With two false loops, raise $\Phi$ to 100: now two are enough. Lower it to 1: right loops lose their weight, too.
 # 3. With all false loops on offer, lower the gate. From where on is the map whole? And what happens when the gate is so low that it
 #    refuses right loops?
 
@@ -867,9 +875,9 @@ for count in (0, 1, 2, 5, 20, 46):
     print("{:11d}   {:5.2f} m   {:6.2f} m   {:6.2f} m".format(count, *trials[count]))
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="15-liars"
-# One false loop that is trusted spoils the map by {= trials[1][0]:.1f =} m; with a robust weight it does nothing. But five are enough,
-# **although** each has a robust weight. They contradict the wheels, and not each other. Where liars agree, the honest look like the
-# outliers.
+# If loops are trusted, a single false one spoils the map by {= trials[1][0]:.1f =} m. With robust weights it does nothing, and
+# neither do two. But these five are enough. All of them say the same, "you are in the other room, 7 m to the west": they contradict the
+# wheels, and not each other. **Where liars agree, the honest look like the outliers.**
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Was that the cheaper map?
@@ -901,7 +909,7 @@ print({name: f"{cost:,.0f}" for name, cost in paid.items()})
 #
 # A robot that comes back may find a door open that was closed. Points pile up, and keep both for ever. The cure is the *occupancy
 # grid* of Moravec and Elfes. Each cell keeps the **odds** that it is occupied, the probability that it is over the probability
-# that it is not. By Bayes' rule the odds $o$ after a scan are
+# that it is not. If a cell of which nobody knows anything has even odds, then by Bayes' rule the odds $o$ after a scan are
 #
 # $$o_{\text{after}} = o_{\text{before}} \cdot o_{\text{scan}}, \qquad \log o_{\text{after}} = \log o_{\text{before}} + \log
 # o_{\text{scan}}. \tag{15.11}$$
@@ -987,7 +995,7 @@ views.show(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# On the left walls stand twice where the robot came back. On the right each wall stands once, and you see why:
+# On the left walls stand twice where the robot came back. On the right they stand once, and you see why:
 # {= len(intel.loops) =} loops tie the laps together.
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
