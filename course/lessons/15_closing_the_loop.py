@@ -444,6 +444,14 @@ ask(
 )
 
 
+# %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"] answers="15-sides"
+best = square()
+optimum = best.optimise()
+sides = between(best.poses[:-1], best.poses[1:])
+for side in sides:
+    print(f"{np.hypot(*side[:2]):.2f} m, {np.degrees(side[2]):.1f}°")
+
+
 # %% slideshow={"slide_type": "subslide"} answers="15-sides"
 def shared_out(rounds, loop_known_within):
     graph = square(loop_known_within)
@@ -469,13 +477,6 @@ views.explore(
     rounds=(0, 5, 4),
     loop_known_within=(0.02, 2.0, 0.02),
 )
-
-# %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"] answers="15-sides"
-best = square()
-optimum = best.optimise()
-sides = between(best.poses[:-1], best.poses[1:])
-for side in sides:
-    print(f"{np.hypot(*side[:2]):.2f} m, {np.degrees(side[2]):.1f}°")
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="15-sides"
 # The loop says one thing only, about poses 4 and 0, and yet **every** pose has moved: each turn got its 6° of the missing 24°.
@@ -722,25 +723,21 @@ ask(
 )
 
 
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="15-width"
+by_claim = {claim: twins.surprises(claim) for claim in (0.2, 1, 3)}
+print("claimed error ×   right ones up to   false ones from")
+for claim, s in by_claim.items():
+    print(f"{claim:15g} {s[~twins.false].max():18.0f} {s[twins.false].min():17.0f}")
+refused = np.mean(by_claim[1][~twins.false] > 11.3)
+
+
 # %% slideshow={"slide_type": "subslide"} answers="15-width"
 def gate_and_claim(gate, claimed_error):
     surprises = twins.surprises(claimed_error)
-    refused, let_in = (
-        np.sum(~twins.false & (surprises > gate)),
-        np.sum(twins.false & (surprises <= gate)),
-    )
-    title = f"{refused} of {np.sum(~twins.false)} right ones refused, {let_in} false ones let in"
-    fig, ax = views.chart("surprise [1]", "", title, (8, 3.8))
-    for row, bad in enumerate((False, True)):
-        at = surprises[twins.false == bad]
-        up = row + np.linspace(-0.3, 0.3, len(at))
-        ax.plot(at, up, ".", color=views.COLOURS["naive" if bad else "corrected"], markersize=7)
-    ax.axvline(gate, color=views.COLOURS["limit"], linestyle="dashdot", label="gate")
-    ax.set(xscale="log", xlim=(0.05, 1e5), ylim=(-0.6, 1.6), yticks=(0, 1))
-    ax.set_yticklabels(["right", "false"])
-    ax.xaxis.set_major_formatter("{x:,g}")
-    views.legend(ax)
-    return fig
+    right, false = surprises[~twins.false], surprises[twins.false]
+    rows = {"right": ("corrected", right), "false": ("naive", false)}
+    title = f"{np.sum(right > gate)} of {len(right)} right ones refused, {np.sum(false <= gate)} false ones let in"
+    return views.strips(rows, {"gate": gate}, (0.05, 1e5), "surprise [1]", title)[0]
 
 
 # %% slideshow={"slide_type": "fragment"} answers="15-width"
@@ -753,13 +750,6 @@ views.explore(
     gate=slider("gate", GATES, 11.3),
     claimed_error=slider("claimed error ×", [0.1, 0.2, 0.3, 0.5, 1, 2, 3, 5], 1),
 )
-
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="15-width"
-by_claim = {claim: twins.surprises(claim) for claim in (0.2, 1, 3)}
-print("claimed error ×   right ones up to   false ones from")
-for claim, s in by_claim.items():
-    print(f"{claim:15g} {s[~twins.false].max():18.0f} {s[twins.false].min():17.0f}")
-refused = np.mean(by_claim[1][~twins.false] > 11.3)
 
 # %% [markdown] slideshow={"slide_type": "subslide"} answers="15-width"
 # {= 100 * refused:.0f =} % of the right loops surprise by more than 11.3, since wheels err systematically, and the most
