@@ -847,7 +847,7 @@ views.explore(
 )
 
 # %% [markdown] slideshow={"slide_type": "subslide"} answers="15-liars"
-# ### Try
+# The map is torn, and worse than by wheels alone. Now try:
 #
 # 1. Offer one false loop, then two, then five. Where does the map break?
 # 2. With two false loops, raise $\Phi$ to 100: now two are enough. Lower it to 1: right loops lose their weight, too.
