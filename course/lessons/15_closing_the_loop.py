@@ -847,7 +847,8 @@ views.explore(
 )
 
 # %% [markdown] slideshow={"slide_type": "subslide"} answers="15-liars"
-# The map is torn, and worse than by wheels alone. Now try:
+# The map is torn, and worse than that of the wheels alone, which is
+# {= twins.worst(wheels_graph(twins.steps, twins.robot).poses):.1f =} m off. Now try:
 #
 # 1. Offer one false loop, then two, then five. Where does the map break?
 # 2. With two false loops, raise $\Phi$ to 100: now two are enough. Lower it to 1: right loops lose their weight, too.
