@@ -7,7 +7,7 @@ import numpy as np
 from slamlab.geometry import compose
 from slamlab.posegraph import edge_error
 from slamlab.scanmatching import match
-from slamlab.simulation import RPLIDAR_A2
+from slamlab.simulation.range_scanners import RPLIDAR_A2
 
 WAY = 0.4, 0.1  # from the old scan to the new one, in the frame of the old [m]
 PLACES = [3.5, -0.3], [4.5, 0.3]  # of the old scan: corners of a piece of corridor along x [m]

@@ -15,7 +15,7 @@ from slamlab.estimators.runner import run
 from slamlab.geometry import between
 from slamlab.posegraph import edge_error, robust_kernel
 from slamlab.scanmatching import match
-from slamlab.sources import open as open_source
+from slamlab.sources.simulated_robot import simulation
 from slamlab.studies.wheel_graphs import wheels_graph
 
 APART = 0.15, 0.1  # farther from the truth than this, a loop is false [m], [rad]
@@ -219,7 +219,7 @@ def twins(seed=0):
     -------
     Twins
     """
-    source = open_source("sim:twins", np.random.default_rng(seed))
+    source = simulation("twins", np.random.default_rng(seed))
     with mock.patch.multiple(loop_closure, NEAR=FAR):
         gated = run(source, GraphSlam(source.robot))
     with mock.patch.multiple(loop_closure, NEAR=FAR, SURPRISE=np.inf):
