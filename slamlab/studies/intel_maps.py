@@ -1,7 +1,7 @@
 """``python -m slamlab.studies.intel_maps``: what wheels, and scans, make of the real Intel log.
 
-The log itself is not part of the course. This keeps what lesson 01 shows of it: which cells of a
-grid the points of either map fall into, and how far off relative poses are.
+The log itself is not part of the course. This keeps what lessons 01 and 13 show of it: which cells
+of a grid the points of either map fall into, and how far off relative poses are.
 """
 
 import argparse
@@ -21,6 +21,7 @@ from slamlab.studies.study_command import TABLES
 
 TABLE = TABLES / "intel-maps.npz"
 SIDES = {"odometry": 0.15, "icp": 0.1}  # of a grid's cells [m]
+WAYS = *SIDES, "icp-plain"
 
 
 @dataclass(frozen=True)
@@ -33,7 +34,10 @@ class IntelMaps:
     minutes : float
     way : float, as the wheels tell it [m]
     points : dict, name to (n, 2) centres of the cells that a scan's point fell into [m]
-    off : dict, name to the mean error of relative poses' places, see Relations [m]
+    off : dict, name to the mean error of relative poses' places, see Relations [m]; also of
+        ``icp-plain``
+    turned : dict, the same of their headings [rad]
+    relations : int, how many of these there are
     """
 
     readings: int
@@ -41,6 +45,8 @@ class IntelMaps:
     way: float
     points: dict
     off: dict
+    turned: dict
+    relations: int
 
 
 @cache
@@ -53,8 +59,13 @@ def stored():
     """
     with np.load(TABLE) as kept:
         points = {name: kept[name] * side for name, side in SIDES.items()}
-        off = dict(zip(SIDES, kept["off"].tolist(), strict=True))
-        return IntelMaps(int(kept["readings"]), *kept["driven"].tolist(), points, off)
+        off, turned = (
+            dict(zip(WAYS, kept[name].tolist(), strict=True)) for name in ("off", "turned")
+        )
+        count = int(kept["relations"])
+        return IntelMaps(
+            int(kept["readings"]), *kept["driven"].tolist(), points, off, turned, count
+        )
 
 
 def study():
@@ -72,15 +83,21 @@ def study():
     relations = load_relations(sources.recording("intel-relations"))
     readings = list(source)
     result = run(source, estimators.make("icp", source))
-    ways = {"odometry": result.naive, "icp": result.trajectory}
+    plain = run(source, estimators.make("icp-plain", source)).trajectory
+    ways = dict(zip(WAYS, (result.naive, result.trajectory, plain), strict=True))
+    errors = [relations_error(way, relations) for way in ways.values()]
     kept = {}
-    for name, way in ways.items():
-        scans = [transform(p, r.scan.points()) for p, r in zip(way.poses, readings, strict=True)]
+    for name in SIDES:
+        scans = [
+            transform(p, r.scan.points()) for p, r in zip(ways[name].poses, readings, strict=True)
+        ]
         cells = np.round(np.vstack(scans) / SIDES[name]).astype(np.int16)
         kept[name] = np.unique(cells, axis=0)
     steps = np.diff(result.naive.poses[:, :2], axis=0)
     return kept | {
-        "off": [relations_error(way, relations).translation for way in ways.values()],
+        "off": [error.translation for error in errors],
+        "turned": [error.rotation for error in errors],
+        "relations": errors[0].count,
         "readings": len(readings),
         "driven": [np.ptp(result.trajectory.times) / 60, np.hypot(*steps.T).sum()],
     }
