@@ -53,7 +53,7 @@ def nearest(source, target):
 #
 # as small as it can be. For the shift, use (13.2). For the rotation you have the choice. In the plane there is the
 # arctangent (13.4). In any dimension there is the singular value decomposition of the lesson's first *Deeper* section: count
-# both clouds from their centroids, sum $M = \sum_i a_i'\,b_i'^{\mathsf T}$, decompose $M = U D V^{\mathsf T}$, and turn by
+# both clouds from their centroids, sum $M = \sum_i a_i'\,b_i'^{\mathsf T}$, find its singular vectors $U$ and $V$, and turn by
 # $V U^{\mathsf T}$.
 #
 # **A rotation, never a mirror.** A robot looks at one straight wall, twice. Along the wall the points fit. Across it there is

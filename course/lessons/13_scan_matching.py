@@ -93,8 +93,8 @@ print(f"within 1 mm: {np.sum(apart < 1e-3)} of {len(second)} points")
 print(f"half of them lie farther than {1000 * np.median(apart):.0f} mm from the nearest point")
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="13-same-spots"
-# So there are no true pairs. We begin as if there were, since it leads to a formula that we need. The price will
-# show up later, and part two will pay it.
+# So there are no true pairs. We begin as if there were, since it leads to a formula that we need. We shall see what this
+# costs, and part two does without it.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=10
 # ## If the pairs were known
@@ -184,7 +184,7 @@ ask(
 # ### Does it work?
 #
 # We make pairs that we know: we carry the first scan back by the true motion, and add 5 mm of noise. The package's
-# `rigid_fit` is (13.2) and (13.4).
+# `rigid_fit` returns the motion of (13.2) and (13.4).
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 noise = 0.005 * np.random.default_rng(2).standard_normal(first.shape)
@@ -297,7 +297,7 @@ def watch(round, heading_off):
     start = [*guess[:2], true_motion[2] + np.radians(heading_off)]
     looks = point_to_point(second, first, start, history=True).history
     now = looks[min(round, len(looks) - 1)]
-    title = f"after {round} rounds: {told(now.pose)}"
+    title = f"round {round}: {told(now.pose)}"
     return views.overlay(first, transform(now.pose, second), now.pairs, title, (8, 5))[0]
 
 
@@ -305,7 +305,7 @@ def watch(round, heading_off):
 views.explore(
     watch,
     lambda round, heading_off: (
-        f"Grey lines from each point of the second scan to the nearest of the first, after {round} rounds from a "
+        f"Grey lines from each point of the second scan to the nearest of the first, in round {round} from a "
         f"guess {heading_off}° off; at first the scans lie near, but still turned."
     ),
     play="round",
@@ -404,8 +404,8 @@ print(f"stopped more than 1 mm before the end: {np.sum(early > 1)} of {len(runs)
 print(f"at most {early.max():.0f} mm before it")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# It did, in {= np.sum(early > 1) =} of {= len(runs) =} runs from these bad guesses. A loop that stops on the change of the
-# sum of squares, or when no pair has changed, has (13.5) on its side.
+# It did, in {= np.sum(early > 1) =} of {= len(runs) =} runs from these bad guesses. A loop that goes on until no
+# pair changes any more has (13.5) on its side.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* Both rules have their place. The change ends the loop; the length that is left says whether to
@@ -570,7 +570,7 @@ for share in (1.0, 0.9, 0.8, 0.7, 0.5, 0.3, 0.1):
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* Let the class say, before the slider moves, which points the fans end on. Here about three quarters
-# overlap, and a little less than that is a good share. Other ways to the same end: a largest length, robust weights.
+# overlap, and about that is a good share. Other ways to the same end: a largest length, robust weights.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=8
 # ## Part two: across the wall
@@ -853,8 +853,8 @@ for degrees in (0, 30, 60, 120):
 # $$\delta = -(J^{\mathsf T}J)^{-1} J^{\mathsf T} \varepsilon. \tag{13.9}$$
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
-# Let the noises be independent, each with the variance $\sigma^2$. By the rule $\operatorname{cov}(M \varepsilon) = M
-# \operatorname{cov}(\varepsilon)\, M^{\mathsf T}$ of lesson 03, the covariance of the pose is
+# As in lesson 03, the covariance of the pose is the expected value of $\delta\,\delta^{\mathsf T}$. Let the noises be independent,
+# each with the variance $\sigma^2$; then that of $\varepsilon\,\varepsilon^{\mathsf T}$ is $\sigma^2 I$, and
 #
 # $$P = (J^{\mathsf T}J)^{-1} J^{\mathsf T}\,\sigma^2 I\,J\,(J^{\mathsf T}J)^{-1} = \sigma^2 (J^{\mathsf T}J)^{-1} = \Lambda^{-1}.
 # \tag{13.10}$$
@@ -900,11 +900,11 @@ views.show(
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # Along the corridor the matches scatter {= ratio:.1f =} times as far as across it, since only the cupboard's short side holds them
 # there. And the solid ellipse, which **one** match told of itself, is nearly the dashed one, which took a hundred. (The
-# axes are the robot's, who looks 11° to the right of the corridor.)
+# axes are those of the robot, which looks 11° to the right of the corridor.)
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
-# Nearly is a word; lesson 03 has a number. NEES is the squared error, measured by what each match claims. With three
-# unknowns its mean should be 3, and for a hundred honest matches it stays between 2.5 and 3.5 in 95 % of all
+# How near is nearly? Lesson 03 has a number for it: NEES, the squared error, measured by what each match claims. With three
+# unknowns its mean should be 3, and for a hundred honest matches it lies between 2.5 and 3.5 in 95 % of all
 # cases.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
