@@ -282,8 +282,8 @@ for name, measure in measures.items():
 # once a smaller sum has been reached. So ICP always ends, in *a* valley. Whether it is the right one, (13.5) does not say.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* The package and the thesis report the mean length, since it is in metres and easily read; the
-# proof is about the squares. Keep the two apart, for the next section but one stops on the mean.
+# *For the lecturer:* Prove (13.5) at the board, one inequality at a time, and ask for each what it would need to hold for
+# another measure. The next section but one comes back to it.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=6
 # ## Watch it
