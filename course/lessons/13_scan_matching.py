@@ -795,7 +795,7 @@ true_steps = between(run.truth.poses[:-1], run.truth.poses[1:])
 degrees_off, metres_off = [0, 15, 30, 45, 60, 90, 180], [0, 0.25, 0.5, 1.0]
 
 
-def share_home(matcher, degrees, metres, rng, tries=6):
+def share_home(matcher, degrees, metres, rng, tries=3):
     """The share of guesses so far off that lead home, in directions drawn by lot."""
     came = []
     for k in np.arange(tries) % 3:
