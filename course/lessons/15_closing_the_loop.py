@@ -990,8 +990,9 @@ views.show(
 # {= len(intel.loops) =} loops tie the laps together.
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
-for name, mean in intel.off.items():
-    print(f"{name:>8}: off by {mean:.3f} ± {intel.spread[name]:.3f} m, {intel.relations} relations")
+for name in ("odometry", "icp", "graph"):
+    off, spread = intel.off[name], intel.spread[name]
+    print(f"{name:>8}: off by {off:.3f} ± {spread:.3f} m, {intel.relations} relations")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # These are trusted measurements of how one place lies as seen from another (Kümmerle and others, 2009). The loops make the error
