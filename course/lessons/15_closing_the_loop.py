@@ -991,8 +991,8 @@ views.show(
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
 for name in ("odometry", "icp", "graph"):
-    off, spread = intel.off[name], intel.spread[name]
-    print(f"{name:>8}: off by {off:.3f} ± {spread:.3f} m, {intel.relations} relations")
+    mean, spread = intel.off[name], intel.spread[name]
+    print(f"{name:>8}: off by {mean:.3f} ± {spread:.3f} m, {intel.relations} relations")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # These are trusted measurements of how one place lies as seen from another (Kümmerle and others, 2009). The loops make the error
