@@ -1,4 +1,4 @@
-"""The stored maps of the Intel log: what lesson 01 says of them, and where they come from."""
+"""The stored maps of the Intel log: what the lessons say of them, and where they come from."""
 
 import numpy as np
 import pytest
@@ -13,6 +13,14 @@ def test_the_stored_maps_say_what_the_lesson_says():
     wheels, scans = (np.ptp(maps.points[name], axis=0).max() for name in ("odometry", "icp"))
     assert wheels > 2 * scans, "the map of the wheels is twice as large"
     assert maps.off["icp"] < 0.1 * maps.off["odometry"]
+    assert maps.off["graph"] < 0.2 * maps.off["icp"], "loops closed mend what matching leaves"
+    assert maps.off["icp-plain"] > 0.9 * maps.off["odometry"], (
+        "plain ICP is worth no more than wheels"
+    )
+    assert maps.relations > 100
+    assert maps.loops.shape == (len(maps.loops), 4)
+    places = set(map(tuple, maps.track))
+    assert all(tuple(row[:2]) in places and tuple(row[2:]) in places for row in maps.loops)
     assert maps.readings == 910
     assert maps.way > 10 * scans, "the robot came by the same corridors several times"
 
@@ -33,7 +41,7 @@ def test_the_recording_gives_the_stored_maps(tmp_path):
     assert intel_maps.main(["--out", str(tmp_path / "maps.npz")]) == 0
     with np.load(tmp_path / "maps.npz") as made, np.load(intel_maps.TABLE) as kept:
         assert set(made) == set(kept)
-        for name in ("off", "readings", "driven"):
+        for name in (*intel_maps.ERRORS, "relations", "readings", "driven"):
             np.testing.assert_allclose(made[name], kept[name], rtol=0.01)
         for name in intel_maps.SIDES:  # cells: another machine rounds a point into the next
             same = set(map(tuple, made[name])) & set(map(tuple, kept[name]))

@@ -1,20 +1,20 @@
 # %% [markdown]
 # # Exercise 11 · Samples
 #
-# **You will be able to** localise a robot with a cloud of samples, weigh samples that were drawn
-# otherwise than they should have been, and find a robot again that somebody carried off.
+# **You will be able to** localise a robot with a cloud of samples, let samples count that were drawn from another
+# density than they should have been, and find a robot again that somebody carried off.
 #
 # **60 minutes. Before:** lesson [11 · Samples](../notebooks/11_samples.ipynb).
 #
-# Replace each `raise NotImplementedError(...)` by your code, run the cell, then run the check below
-# it, as often as you like. A check tries random inputs, says which law is broken, and what the
-# mistake is where it knows it.
+# Replace each `raise NotImplementedError(...)` by your code, run the cell, then run the check below it, as
+# often as you like. A check tries random inputs and inputs at the edges of what the text promises. Where a law is
+# broken it shows a small input that breaks it, and `hint("11-weigh")` in a cell of your own leads on.
 #
-# Metres and radians. `rows` (n, 3) are samples of the pose, one `[x, y, θ]` a row. `u = [d, Δθ]` is a
-# drive, `z` (m, 2) are ranges and bearings of the landmarks `p` (m, 2). There is one sample at least,
-# and one landmark. All headings and bearings that you are given lie in (−π, π]. Random numbers come
-# from `rng`, a `numpy.random.Generator`, and from nowhere else. Leave the arguments as they are:
-# whoever calls a function goes on with them.
+# All lengths are in metres, all angles in radians. `rows` (n, 3) are samples of the pose, one `[x, y, θ]` a row. A
+# drive is `u = [d, Δθ]`. `z` (m, 2) are ranges and bearings of the landmarks `p` (m, 2). There is at least one sample
+# and at least one landmark. All headings and bearings that you are given lie in $(-\pi, \pi]$. Random numbers come from
+# `rng`, a `numpy.random.Generator`, and from nowhere else. No function may change the arrays it is given, because
+# whoever called it still needs them.
 
 # %%
 import numpy as np
@@ -25,11 +25,12 @@ from slamlab.geometry import wrap
 from slamlab.models import f_odometry, h
 
 # %% [markdown]
-# What there is: `h(x, p)`, range and bearing of landmarks p (m, 2) from **one** pose x (3,), or of
-# **one** landmark p (2,) from many poses x (n, 3); `f_odometry(x, u)`, one pose driven; `wrap(angle)`,
-# which brings angles into (−π, π]; and three functions of the lesson, ready to use. Read them: each
-# sample drives along the heading that *it* has, with *its own* draw of the wheels' noise, which has
-# the covariance C (2, 2).
+# You may use `h(x, p)`, the range and bearing of landmarks p (m, 2) from **one** pose x (3,), or of **one** landmark
+# p (2,) from many poses x (n, 3); `f_odometry(x, u)`, one pose after a drive; and `wrap(angle)`, which brings angles
+# into $(-\pi, \pi]$.
+#
+# The next cell has three functions that are ready to use. Read them. In `move` each sample drives along the heading that
+# *it* has, with *its own* draw of the wheels' noise, whose covariance is C (2, 2).
 
 
 # %%
@@ -54,17 +55,17 @@ def effective_size(weights):
 # %% [markdown]
 # ## 1 · Weigh
 #
-# How likely does a sample find the scan? Every sighting errs by itself, with the covariance R (2, 2):
+# How well does a sample $x_i$ explain the scan? Each of the $m$ sightings errs independently of the others, with the
+# covariance $R$, so the logarithms of their likelihoods add up:
 #
-# $$l_i = \sum_{j=1}^{m} -\tfrac12\, v_{ij}^{\mathsf T} R^{-1} v_{ij}, \qquad
-# v_{ij} = z_j - h(x_i, p_j)$$
+# $$\ell_i = \sum_{j=1}^{m} -\tfrac12\, v_{ij}^{\mathsf T} R^{-1} v_{ij}, \qquad v_{ij} = z_j - h(x_i, p_j).$$
 #
-# **Predict first.** Twenty landmarks, every one two standard deviations off in range and bearing.
-# What is exp(l)? And the same for 400 beams of a lidar? What is the logarithm of what is left?
+# **Predict first.** There are twenty landmarks, and each sighting is two standard deviations off in range and in
+# bearing. What is $e^{\ell}$? What is it for the 400 beams of a lidar? What becomes of its logarithm in a float?
 #
-# **Your task.** The logarithms l_i, for all samples. A constant that all samples share does not
-# matter. Samples may be many metres off, so no likelihood of its own should ever be computed: it
-# would be zero. Range and bearing may err together. Some arrays hold whole numbers.
+# **Your task.** Return the logarithms $\ell_i$ of all samples. A constant that all samples share does not matter. Samples
+# may be many metres off, so never compute a likelihood itself: it would be zero. Range and bearing may err together. Some
+# arrays hold whole numbers.
 
 
 # %%
@@ -90,16 +91,16 @@ check("11-weigh")
 # %% [markdown]
 # ## 2 · Draw, with a comb
 #
-# Draw as many samples as there are, sample i with probability w_i. Lay the weights end to end on a
-# rod of length one, and hold a comb over it: n teeth, 1/n apart, the first at u/n. *One* random
-# number u from [0, 1) shifts them all. Each tooth picks the sample that it falls on.
+# Draw as many samples as there are, sample $i$ with the probability $w_i$. Lay the weights end to end on a rod of length
+# one, and hold a comb over it. The comb has $n$ teeth, $1/n$ apart, and *one* random number shifts the whole comb: its first
+# tooth stands anywhere from 0 to $1/n$, no place likelier than another. Each tooth picks the sample above whose piece it stands.
 #
-# **Predict first.** Ten samples, and one of them weighs 0.35. How many copies may it get from the
-# comb? And how many may it get from ten random numbers, one for each draw?
+# **Predict first.** One of ten samples weighs 0.35. How many copies of it may the comb make? And how many may there be if each
+# of the ten draws has a random number of its own?
 #
-# **Your task.** The rows drawn, as indices from 0 to n − 1, in any order. Weights may be zero; they
-# sum to one but for rounding, and rounding may leave the last end a hair below one. (`np.cumsum`
-# gives the ends of the pieces, `np.searchsorted` finds the piece.)
+# **Your task.** Return the rows that are drawn, as indices from 0 to $n - 1$, in any order. Weights may be zero. They sum
+# to one, but for rounding, and rounding may leave the end of the last piece a hair below one. (`np.cumsum` gives the ends of
+# the pieces, and `np.searchsorted` finds a piece.)
 
 
 # %%
@@ -119,7 +120,7 @@ def draw(weights, rng):
 check("11-draw")
 
 # %% [markdown]
-# Eight weights, and your eight draws beside the copies that the weights ask for.
+# Here are your eight draws from eight weights, beside the copies that the weights ask for.
 
 
 # %%
@@ -134,16 +135,16 @@ def _():
 # %% [markdown]
 # ## 3 · Localise
 #
-# One step of Monte Carlo localisation in a known map:
+# This is one step of Monte Carlo localisation in a known map:
 #
-# 1. move every sample;
-# 2. multiply its weight by the likelihood (lesson 11: by nothing else), and normalise;
-# 3. if the cloud is now worth less than half its samples, draw anew; all weights are equal then.
+# 1. Move every sample.
+# 2. Multiply its weight by the likelihood, (11.5), and let the weights sum to one.
+# 3. If the cloud is now worth less than half its samples, (11.6), draw anew. All weights are equal then.
 #
 # **Predict first.** What becomes of the weights of the step before, if nothing was drawn then?
 #
-# **Your task.** The samples and the weights after the step. The weights that you are given are
-# positive and sum to one. All samples may be metres off, and the wheels may hardly err at all.
+# **Your task.** Return the samples and the weights after the step. The weights that you are given are positive and sum to
+# one. All samples may be metres off, and the wheels may hardly err at all.
 
 
 # %%
@@ -167,7 +168,7 @@ def localise(rows, weights, u, C, p, z, R, rng):
 check("11-localise")
 
 # %% [markdown]
-# And watch it: 3000 samples that know nothing, four landmarks with names, five steps.
+# Watch it: 3000 samples that begin anywhere, four landmarks with names, and five steps.
 
 
 # %%
@@ -191,22 +192,22 @@ def _():
 # %% [markdown]
 # ## 4 · Samples from another drawing
 #
-# The lesson drew each sample by the wheels' noise, and so its weight was the likelihood alone. With a
-# fine sensor that is a waste: most samples land where the sighting says they cannot be. Somebody
-# therefore looked at the sighting *first*, and sent each sample to where the sighting wants it.
-# Sample i drove $e_i = [d, \Delta\theta]$, drawn from a Gaussian of its own with the mean $m_i$ and the
-# covariance $D_i$. The wheels have not changed by that: they drive u with the covariance C.
+# The lesson drew each sample by the wheels' noise, and so its weight was the likelihood alone. With a sharp sensor
+# that is a waste: most samples land where the sighting says that the robot cannot be. So somebody looked at the sighting
+# *first*, and sent each sample where the sighting wants it. Sample $i$ drove a $u_i = [d, \Delta\theta]$ that was drawn from
+# a Gaussian of its own, with the mean $m_i$ and the covariance $D_i$. The wheels are as they were: they drive $u$,
+# with noise of the covariance $C$.
 #
-# You know where each sample stood before and where it stands after its drive. (It drove along the
-# heading that it had, forwards or backwards, and then turned, by less than half a turn.)
+# You know where each sample stood before and where it stands after its drive. (It drove along the heading that it had,
+# forwards or backwards, and then turned by less than half a turn.)
 #
-# **Predict first.** A sample that the drawing wanted ten times as often as the wheels do: how much
-# should it count? Two samples drove the same e; for one of them it was drawn from a narrow hill, for
-# the other one from a hill four times as wide. May the two weigh the same?
+# **Predict first.** A sample made a drive that the drawing prefers ten times as much as the wheels do. How much should it count? Two samples
+# made the same drive, but one drew it from a narrow hill, the other from a hill four times as wide. May the
+# two weigh the same?
 #
-# **Your task.** Multiply the given weights, which are positive and hold all that was seen, by what
-# the lesson's derivation of *the weight* asks for here, and let them sum to one. Some samples may lie
-# so many σ off that no density of theirs can be held in a float.
+# **Your task.** The given weights are positive and hold everything that was seen. Multiply them by what (11.4) asks for
+# here, and let them sum to one. Some samples may lie so many $\sigma$ off that no density of theirs can be held in a
+# float.
 
 
 # %%
@@ -236,24 +237,22 @@ check("11-proposal")
 # %% [markdown]
 # ## 5 · Found again
 #
-# A robot drives in a room of 10 m by 8 m, whose middle is the origin. In every step it sees *one* of
-# six posts, and knows which, with the noise R. But one sighting in ten is false: its range is then any
-# number from 0 to 10 m, its bearing any angle. And once in a drive of thirty steps, nobody knows when,
-# somebody lifts the robot and sets it down at least three metres away, somewhere in the room, looking
-# in any direction.
+# A robot drives in a room of 10 m by 8 m, whose middle is the origin. In every step it sees *one* of six posts, and knows
+# which, with the noise $R$. But one sighting in ten is false: its range is then any number from 0 to 10 m, and its
+# bearing any angle. Once in a drive of thirty steps, nobody knows when, somebody lifts the robot and sets it down at
+# least three metres away, somewhere in the room, looking in any direction.
 #
-# At the beginning the cloud is where the robot is. Your `localise` goes on well, until the robot is
-# carried off. The lesson threw strangers anywhere; but here a stranger must hit three numbers, with
-# 300 samples, and one sighting tells two of them only.
+# At the beginning the cloud is where the robot is. Your `localise` follows it well until the robot is carried off. The
+# lesson threw strangers anywhere in the room. But here a stranger must hit three numbers, there are only 300 samples, and one
+# sighting tells two of the numbers.
 #
-# **Predict first.** You see a post at 3 m, and your samples expected it at 5 m. Which is likelier, a
-# false sighting or a kidnapping? And if the next post is odd, too? From which poses could the first
-# sighting have been made? How large is their density, if you draw some of them (task 4)?
+# **Predict first.** You see a post at 3 m, and your samples expected it at 5 m. Which is likelier, a false sighting or
+# a kidnapping? And if the next post is odd, too? From which poses could the first sighting have been made? If you draw
+# some of these poses, with which density do you draw them (task 4)?
 #
-# **Your task.** A step that finds the robot again soon, and that is not led astray by false sightings.
-# Any method goes. It gets as many samples as it must return, with weights that are not negative; all
-# that it knows of the past is in them. Sixteen drives are scored by how far the weight is from the
-# robot.
+# **Your task.** Write a step that finds the robot again soon, and that false sightings do not lead astray. Any method
+# will do. It gets as many samples as it must return, with weights that are not negative, and all that it knows of the
+# past is in them. Sixteen drives are scored by how far the weight is from the robot.
 
 # %%
 ROOM, REACH, GHOSTS = np.array([10.0, 8.0]), 10.0, 0.1
@@ -289,7 +288,7 @@ def find_again(rows, weights, u, C, p, z, R, rng):
 check("11-kidnapped")
 
 # %% [markdown]
-# One drive, in which the robot is carried off after step 12: how far is the weight from the robot?
+# In this drive the robot is carried off after step 12. How far is the weight from the robot?
 
 
 # %%
@@ -317,5 +316,6 @@ def _():
 # %% [markdown]
 # ## Done?
 #
-# Save the notebook. The cell below then says what the grader will say about it;
-# the grader draws other inputs. The next lesson lets samples, boxes and ellipses drive one robot.
+# Save the notebook. The cell below then says what the grader will say about it; the grader draws other inputs.
+#
+# **What comes next:** in lesson [12](../notebooks/12_three_filters.ipynb) samples, boxes and ellipses drive one robot.

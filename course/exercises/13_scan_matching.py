@@ -1,22 +1,23 @@
 # %% [markdown]
 # # Exercise 13 · Scan matching
 #
-# **You will be able to** lay one scan over another without being told which points belong
-# together, keep people who walk through the picture from spoiling it, say how sure a match is and
-# in which direction it knows nothing, and find home although half of what one scan saw is hidden
-# from the other.
+# **You will be able to** lay one scan over another without being told which points belong together, keep people who walk
+# through the picture from spoiling it, say how sure a match is and in which direction it knows nothing, and find home
+# although half of what one scan saw is hidden from the other.
 #
 # **60 minutes. Before:** lesson [13 · Scan matching](../notebooks/13_scan_matching.ipynb).
 #
-# Replace each `raise NotImplementedError(...)` by your code, run the cell, then run the check below
-# it, as often as you like. A check tries random clouds and says which law is broken, by which
-# input, and what the mistake is where it knows it. Tasks 1 to 3 rebuild the lesson's way to a match.
-# Task 4 takes its last step further, to a case that the lesson has not coded. Task 5 is open: any
-# method goes, and better ones earn more.
+# Replace each `raise NotImplementedError(...)` by your code, run the cell, and run the check below it, as often as you like. A
+# check tries random clouds. It says which law is broken and by which input, and what the mistake is, if it knows it. Tasks 1
+# to 3 build ICP. Task 4 takes the step across walls to a case that the lesson has not treated. Task 5 is open: any method
+# goes, and better ones earn more.
 #
-# Metres and radians. A cloud is `(n, 2)`, one point a row. A motion is a homogeneous matrix
-# `T = [[R, t], [0, 1]]`, `(3, 3)`: it turns a point by R and shifts it by t. No function may change
-# its arguments.
+# All lengths are in metres and all angles in radians. A cloud is an array `(n, 2)`, one point a row. A motion is the homogeneous
+# matrix
+#
+# $$T = \begin{bmatrix} \mathrm{Rot} & t\\ 0 & 1\end{bmatrix},$$
+#
+# with the shape `(3, 3)`: it turns a point by $\mathrm{Rot}$ and then shifts it by $t$. No function may change its arguments.
 
 # %%
 import numpy as np
@@ -28,8 +29,8 @@ from slamlab.layers import Points, Segments
 from slamlab.simulation import RPLIDAR_A2
 
 # %% [markdown]
-# Two helpers to use as you like: one carries a cloud by a motion, one finds for every source point
-# the nearest target point.
+# Here are two helpers to use as you like. One carries a cloud by a motion; the other finds, for every source point, the nearest
+# target point.
 
 
 # %% name="helpers"
@@ -46,22 +47,22 @@ def nearest(source, target):
 # %% [markdown]
 # ## 1 · The best motion of paired points
 #
-# Row i of `source` and row i of `target` are the same spot. Return the motion T that makes
+# Row $i$ of `source`, the point $a_i$, and row $i$ of `target`, the point $b_i$, are the same spot. Return the motion $T$ that makes
 #
-# $$\sum_i \left|R\,a_i + t - b_i\right|^2$$
+# $$\sum_i \left|\mathrm{Rot}\,a_i + t - b_i\right|^2$$
 #
-# as small as it can be. The lesson's recipe: take the centroids off both clouds, sum
-# $H = \sum_i a_i'\,b_i'^{\mathsf T}$, decompose it, $H = U S V^{\mathsf T}$, and turn by
-# $R = V U^{\mathsf T}$. What is left for t?
+# as small as it can be. For the shift, use (13.2). For the rotation you have the choice. In the plane there is the
+# arctangent (13.4). In any dimension there is the singular value decomposition of the lesson's first *Deeper* section: count
+# both clouds from their centroids, sum $M = \sum_i a_i'\,b_i'^{\mathsf T}$, find its singular vectors $U$ and $V$, and turn by
+# $V U^{\mathsf T}$.
 #
-# **A rotation, never a mirror.** A robot looks at one straight wall, twice. Along the wall the
-# points fit; across it there is nothing but noise, and sometimes the noise fits better when the wall
-# is turned inside out. Then $V U^{\mathsf T}$ is a mirror: its determinant is −1. No robot moves like
-# that, so your function must return the best *rotation* in that case, too. The lesson shows what to
-# change.
+# **A rotation, never a mirror.** A robot looks at one straight wall, twice. Along the wall the points fit. Across it there is
+# nothing but noise, and sometimes the noise fits better when the wall is turned inside out. Then $V U^{\mathsf T}$ is a mirror,
+# and its determinant is −1. No robot moves like that, so your function must return the best *rotation* in that case, too. If
+# you decompose, (13.13) tells what to change. If you take the arctangent, ask yourself why it cannot happen.
 #
-# There are two pairs at least, and not all points of a cloud lie in one spot. They may lie on one
-# line, or far from the origin, and they may be whole numbers (`int`).
+# There are at least two pairs, and not all points of a cloud lie in one spot. They may lie on one line, or far from the origin,
+# and they may be whole numbers (`int`).
 
 
 # %% name="best-motion"
@@ -72,8 +73,8 @@ def best_motion(source, target):
     """
     ### BEGIN SOLUTION
     a, b = source.mean(axis=0), target.mean(axis=0)
-    H = (source - a).T @ (target - b)
-    U, _, Vt = np.linalg.svd(H)
+    M = (source - a).T @ (target - b)
+    U, _, Vt = np.linalg.svd(M)
     if np.linalg.det(Vt.T @ U.T) < 0:
         Vt[1] *= -1
     T = np.eye(3)
@@ -87,8 +88,9 @@ def best_motion(source, target):
 check("13-best-motion")
 
 # %% [markdown]
-# Here is such a wall, with an F in front of it. The F was not measured: it is carried along by your
-# T, to show what T does. **Predict first:** how would a mirror show?
+# Here is such a wall, with an F in front of it. Nobody measured the F: your $T$ carries it along, to show what $T$ does.
+#
+# **Predict first.** How would a mirror show?
 
 
 # %% name="wall-picture"
@@ -99,7 +101,7 @@ def _():
     wall, again = np.column_stack([along, across]), np.column_stack([along + 0.4, 0.8 - across])
     F = np.array([[0, -0.6, 0, -0.2], [0, -0.2, 0.25, -0.2], [0, -0.4, 0.18, -0.4]])
     T = best_motion(wall, again)
-    fig, ax = views.axes(f"det R = {np.linalg.det(T[:2, :2]):+.0f}", size=(7, 4.5))
+    fig, ax = views.axes(f"det Rot = {np.linalg.det(T[:2, :2]):+.0f}", size=(7, 4.5))
     views.draw(ax, Points("scan", wall), label="wall, first look", markersize=8)
     views.draw(ax, Points("map", again), label="wall, second look", markersize=8)
     views.draw(ax, Segments("scan", F), label="F, first look")
@@ -110,16 +112,19 @@ def _():
 
 
 # %% [markdown]
-# With a rotation the F stays an F, on the same side of the wall. A mirror turns it over and puts it
-# behind the wall, although the wall's own points fit a little better.
+# With a rotation the F stays an F, on the same side of the wall. A mirror would turn it over and put it behind the wall, although
+# the points of the wall itself would fit a little better.
 
 # %% [markdown]
 # ## 2 · ICP
 #
-# Now nobody tells which points belong together. Guess: **the nearest ones**. Fit, and guess again,
-# from where the source lies now. Return T after exactly the given number of rounds, which may be 0.
+# Now nobody tells which points belong together, so take **the nearest ones** for pairs. Find the best motion of these pairs, move the
+# source, and pair anew, from where the source lies now. Return $T$ after exactly the given number of rounds, which may be 0.
 #
-# Source and target have two points at least, in any order; either may have more than the other.
+# **Predict first.** Your `best_motion` gets a source that $T$ has carried already. In whose frame is the motion that it finds, and
+# on which side of $T$ does it belong?
+#
+# Source and target have at least two points, in any order. Either may have more than the other.
 
 
 # %% name="icp"
@@ -143,10 +148,10 @@ def icp(source, target, T, rounds):
 check("13-icp")
 
 # %% [markdown]
-# Tuček's polygon, scanned from two places. Between them the robot turned by −45° and drove 27 cm.
-# His wrong odometry says −35° and 15 cm.
+# Here are the two scans of the lesson's polygon. Between them the robot turned by −45° and drove 27 cm. Its wrong odometry says −35°
+# and 15 cm.
 #
-# **Predict first:** how many rounds will it take until you see no more change? Then move the slider.
+# **Predict first.** How many rounds will it take until you see no more change? Then move the slider.
 
 
 # %% name="polygon"
@@ -186,19 +191,17 @@ def _():
 
 
 # %% [markdown]
-# Two rounds put most of the shift right; the turn takes fifteen. Then nothing moves any more, yet
-# it is not the truth: 9 mm and 0.7° are left. Some walls were seen from one place only, and their
-# points are paired all the same.
+# Two rounds put most of the shift right, while the turn takes fifteen. Then nothing moves any more, yet 9 mm and 0.7° are left.
+# Some walls were seen from one place only, and their points are paired all the same.
 
 # %% [markdown]
 # ## 3 · Trimmed ICP
 #
-# Points that only one scan saw have no partner, yet they get one, far away. So sort the pairs by
-# their distance and fit only the **share** of them that is shortest. Seek and sort them again in
-# every round.
+# Points that only one scan saw have no partner. They get one all the same, far away. So sort the pairs by their length and fit
+# only the **share** of them that is shortest. Seek the pairs and sort them anew in every round.
 #
-# There are as many pairs as source points. Of n pairs keep `share` · n, rounded down or up, as you
-# like; that is never less than two.
+# There are as many pairs as source points. Of $n$ pairs keep `share` · $n$, rounded down or up, as you like; this is never less
+# than two.
 
 
 # %% name="trimmed-icp"
@@ -223,8 +226,9 @@ def trimmed_icp(source, target, T, rounds, share):
 check("13-trimmed")
 
 # %% [markdown]
-# The same two places, and now the second scan with people in it. **Predict first:** will more
-# trimming always be better?
+# These are the same two places, but the second scan now has people in it.
+#
+# **Predict first.** Will more trimming always be better?
 
 
 # %% name="people"
@@ -242,40 +246,39 @@ def _():
 
 
 # %% [markdown]
-# Keeping everything is bad, and so is keeping too little: the shortest pairs are those that already
-# fit, so with too few of them nothing pulls any more.
+# Keeping everything is bad, and keeping too little is bad as well. The shortest pairs are those that fit already, so with too
+# few of them nothing pulls any more.
 
 # %% [markdown]
 # ## 4 · A step across walls, and how sure it is
 #
-# How far a point lies from its partner *along* a wall means nothing. Count the distance **across**
-# the wall alone. Lesson 13 does so with a step in the target's frame, all pairs alike, and nothing
-# known but the walls. Now a pose graph asks for more, so derive three things anew:
+# How far a point lies from its partner *along* a wall means nothing, so we count the distance **across** the wall alone, (13.6).
+# The lesson takes a step in the target's frame, (13.8), where all pairs count alike and nothing is known but the walls. A
+# filter or a graph of poses asks for more. So derive three things anew:
 #
-# - The correction $\delta = (d_x, d_y, d_\theta)$ is wanted **as the robot sees it**, in the source's
-#   own frame: T becomes $T\,D(\delta)$, where $D(\delta)$ turns by $d_\theta$ about the robot and
-#   shifts by $(d_x, d_y)$, both in the robot's frame. With $T = [[R, t], [0, 1]]$ the distance of pair
-#   i across its wall is then
+# - The correction $\delta = (d_x, d_y, d_\theta)$ is wanted **as the robot sees it**, in the source's own frame. $T$ becomes
+#   $T\,D(\delta)$, where $D(\delta)$ turns by $d_\theta$ about the robot and shifts by $d = (d_x, d_y)$, both in the robot's
+#   frame. The distance of pair $i$ across its wall is then
 #
-# $$r_i(\delta) = n_i^{\mathsf T}\left(R\,\bigl(R(d_\theta)\,a_i + d\bigr) + t - b_i\right)$$
+# $$e_i(\delta) = n_i^{\mathsf T}\left(\mathrm{Rot}\,\bigl(\mathrm{Rot}(d_\theta)\,a_i + d\bigr) + t - b_i\right).$$
 #
-# - Far points are measured worse than near ones: pair i errs by its own $\sigma_i$.
-# - T is no arbitrary guess. **Odometry** told it, and it knows how far it may be off: δ has the mean 0
-#   and the covariance Q before a wall is looked at.
+# - Far points are measured worse than near ones. Pair $i$ errs by a standard deviation $\sigma_i$ of its own.
+# - $T$ is not just any guess. **Odometry** told it, and it knows how far it may be off. Before we look at a wall, $\delta$ has the
+#   mean 0 and the covariance $Q$.
 #
-# Take $r_i(\delta) \approx r_i + J_i\,\delta$ near δ = 0, and return the δ that makes
+# Take $e_i(\delta) \approx e_i + J_i\,\delta$ near $\delta = 0$, and return the $\delta$ that makes
 #
-# $$\sum_i \frac{(r_i + J_i\,\delta)^2}{\sigma_i^2} \;+\; \delta^{\mathsf T} Q^{-1}\,\delta$$
+# $$\sum_i \frac{(e_i + J_i\,\delta)^2}{\sigma_i^2} \;+\; \delta^{\mathsf T} Q^{-1}\,\delta$$
 #
-# as small as it can be, and the covariance P of what is left in doubt, the inverse of all that walls
-# and odometry know together.
+# as small as it can be. Return with it the covariance $P$ of what is left in doubt: the inverse of all the information that walls
+# and odometry have together.
 #
-# **Predict first:** in a bare corridor all normals point across. Will you have to invert a singular
-# matrix? What will P say along the corridor, and what if there is no pair at all?
+# **Predict first.** In a bare corridor all normals point across. Will you have to invert a singular matrix? What will $P$ say
+# along the corridor, and what if there is no pair at all?
 #
-# Normals have length 1; which of its two sides one points to says nothing. All $\sigma_i$ are
-# positive, and Q has an inverse; errors of x, y and θ may be correlated. There may be any number of
-# pairs, also one or none, and coordinates may be whole numbers (`int`).
+# Normals have the length 1; to which side of its wall one points means nothing. All $\sigma_i$ are positive, and $Q$ has an
+# inverse; errors of $x$, $y$ and $\theta$ may be correlated. There may be any number of pairs, also one or none, and coordinates may be
+# whole numbers (`int`).
 
 
 # %% name="line-step"
@@ -288,14 +291,14 @@ def line_step(source, target, normals, sigma, T, Q):
     returns delta (3,) [m, m, rad] and P (3, 3)
     """
     ### BEGIN SOLUTION
-    R, t = T[:2, :2], T[:2, 2]
-    r = np.sum(normals * (source @ R.T + t - target), axis=1)
-    seen = normals @ R
+    Rot, t = T[:2, :2], T[:2, 2]
+    e = np.sum(normals * (source @ Rot.T + t - target), axis=1)
+    seen = normals @ Rot
     lever = source[:, 0] * seen[:, 1] - source[:, 1] * seen[:, 0]
     J = np.column_stack([seen, lever])
-    W = np.diag(1 / sigma**2)
-    P = np.linalg.inv(np.linalg.inv(Q) + J.T @ W @ J)
-    delta = -P @ J.T @ W @ r
+    w = np.diag(1 / sigma**2)
+    P = np.linalg.inv(np.linalg.inv(Q) + J.T @ w @ J)
+    delta = -P @ J.T @ w @ e
     return delta, P
     ### END SOLUTION
 
@@ -304,9 +307,10 @@ def line_step(source, target, normals, sigma, T, Q):
 check("13-line-step")
 
 # %% [markdown]
-# A robot drives along a corridor, and its wheels may be off by 20 cm along x and along y, and by 4°.
-# Thirty points of walls, each known to 2 cm. **Predict first:** which of the three numbers does a
-# wall at its side mend, and which does the wall at the end of the corridor?
+# A robot drives along a corridor. Its wheels may be off by 20 cm along $x$ and along $y$, and by 4°. Each point of a wall is known
+# to 2 cm.
+#
+# **Predict first.** Which of the three numbers does a wall at its side mend, and which does the wall at the end of the corridor?
 
 
 # %% name="corridor"
@@ -330,32 +334,30 @@ def _():
 
 
 # %% [markdown]
-# The wheels' doubt along the corridor stays as it was, number by number: no wall says anything of
-# it, and P says so. Nothing had to be looked for, no direction named: odometry fills in where the
-# walls are silent.
+# The doubt of the wheels along the corridor stays exactly as it was: no wall says anything of it, and $P$ says so. You did not have to look
+# for that direction or to name it. Odometry fills in where the walls are silent.
 
 # %% [markdown]
 # ## 5 · Half an overlap and a bad guess (open)
 #
-# A robot with a lidar that sees 240° has turned by 60° to 115°. So about half of what it sees now it
-# has not seen before, and much hides behind boxes. Its odometry slipped: the guess is off by 50 cm
-# to 120 cm and by 30° to 90°. ICP goes downhill from where it starts, and from there it goes into the
-# wrong valley. **Predict first:** how many of 16 such matches will `trimmed_icp` solve?
+# A robot with a lidar that sees 240° has turned by 60° to 115°. So it has not seen before about half of what it sees now, and
+# boxes hide much of the rest. Its odometry slipped: the guess is off by 50 cm to 120 cm and by 30° to 90°. ICP goes downhill from
+# where it starts, and from there it goes into the wrong valley.
 #
-# **Your task:** solve as many of 16 as you can, by any method. A match is *home* when it is off by
-# less than 20 cm and 5°. Four, eight and thirteen that are home earn more and more; so do nine that
-# are off by less than 1.5 cm and 0.5° only. The error of the ranges is 1 cm. Ideas:
+# **Predict first.** How many of 16 such matches will `trimmed_icp` solve?
 #
-# - Start from many turns and choose the best end. What number tells the best one, when half of the
-#   points have no partner?
-# - Of two scans, turned right, thousands of pairs of points ask for a shift. Which shift do most of
-#   them ask for?
+# **Your task.** Solve as many of 16 as you can, by any method. A match is *home* when it is off by less than 20 cm and 5°. Four,
+# eight and thirteen that are home earn more and more. So do nine that are off by less than 1.5 cm and 0.5° only. The ranges err by
+# 1 cm. Here are some ideas:
+#
+# - Start from many turns and choose the best end. What number tells the best one, when half of the points have no partner?
+# - Suppose that the turn is right. Then each pair of a source point and a target point asks for a shift, and there are thousands of
+#   such pairs. Which shift do most of them ask for?
 # - Finish across the walls.
 #
-# Both clouds come in the order of the beams, each in its robot's frame, and may differ in size; each
-# has 90 points at least. Rooms are about 7 m wide and have no right angles; three boxes stand about.
-# In one more try the guess is nearly right and more points are shared. Aim at 0.05 s a match: a check
-# stops after 10 s. Here are two functions to use as you like.
+# Both clouds come in the order of the beams, each in its robot's frame. They may differ in size, and each has 90 points at
+# least. Rooms are about 7 m wide and have no right angles; three boxes stand about. In one more try the guess is nearly right, and
+# more points are shared. Aim at 0.05 s a match: a check stops after 10 s. Here are two functions to use as you like.
 
 
 # %% name="ready"
@@ -382,9 +384,9 @@ def match(source, target, T):
     ### BEGIN SOLUTION
     tree, normals = cKDTree(target), normals_of(target)
 
-    def most_wanted(R, cell=0.3):
+    def most_wanted(Rot, cell=0.3):
         """How many pairs of points ask for one shift, and which shift most of them ask for."""
-        shifts = (target[:, None] - source[::3] @ R.T).reshape(-1, 2)
+        shifts = (target[:, None] - source[::3] @ Rot.T).reshape(-1, 2)
         cells = np.floor(shifts / cell).astype(int)
         first = cells.min(axis=0)
         i, j = (cells - first).T
@@ -393,34 +395,34 @@ def match(source, target, T):
         best = votes.argmax()
         return votes[best], (np.array(divmod(best, width)) + first + 0.5) * cell
 
-    def slid(R, shift, gates):
+    def slid(Rot, shift, gates):
         """Steps across the walls, each with the pairs that are shorter than its gate."""
         for gate in gates:
-            arm = source @ R.T
+            arm = source @ Rot.T
             distances, rows = tree.query(arm + shift)
             near = distances < gate
             arm, n = arm[near], normals[rows[near]]
-            r = np.sum(n * (arm + shift - target[rows[near]]), axis=1)
+            e = np.sum(n * (arm + shift - target[rows[near]]), axis=1)
             J = np.column_stack([n, arm[:, 0] * n[:, 1] - arm[:, 1] * n[:, 0]])
             A = J.T @ J + 1e-3 * np.eye(3)  # also where no wall fixes a direction
-            delta = -np.linalg.solve(A, J.T @ r)
-            R, shift = turned(delta[2]) @ R, shift + delta[:2]
-        return R, shift
+            delta = -np.linalg.solve(A, J.T @ e)
+            Rot, shift = turned(delta[2]) @ Rot, shift + delta[:2]
+        return Rot, shift
 
     voted = []
     for k in range(48):
-        R = turned(2 * np.pi * k / 48)
-        votes, shift = most_wanted(R)
-        voted.append((votes, k, R, shift))
+        Rot = turned(2 * np.pi * k / 48)
+        votes, shift = most_wanted(Rot)
+        voted.append((votes, k, Rot, shift))
     ends = []
-    for _, k, R, shift in sorted(voted)[-8:]:
-        R, shift = slid(R, shift, (0.5, 0.4, 0.3, 0.25, 0.2))
-        distances, _ = tree.query(source @ R.T + shift)
-        ends.append((np.sum(distances < 0.1), k, R, shift))
-    _, _, R, shift = max(ends)
-    R, shift = slid(R, shift, (0.15, 0.12, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1))
+    for _, k, Rot, shift in sorted(voted)[-8:]:
+        Rot, shift = slid(Rot, shift, (0.5, 0.4, 0.3, 0.25, 0.2))
+        distances, _ = tree.query(source @ Rot.T + shift)
+        ends.append((np.sum(distances < 0.1), k, Rot, shift))
+    _, _, Rot, shift = max(ends)
+    Rot, shift = slid(Rot, shift, (0.15, 0.12, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1))
     T = np.eye(3)
-    T[:2, :2], T[:2, 2] = R, shift
+    T[:2, :2], T[:2, 2] = Rot, shift
     return T
     ### END SOLUTION
 
@@ -429,8 +431,8 @@ def match(source, target, T):
 check("13-overlap")
 
 # %% [markdown]
-# One such pair of scans: where the guess lays the second, where `trimmed_icp` gets from there, and
-# where your match lays it.
+# Here is one such pair of scans: the second scan as the guess lays it, as `trimmed_icp` leaves it from there, and as your `match` lays
+# it.
 
 
 # %% name="half"
@@ -462,9 +464,9 @@ def _():
 
 
 # %% [markdown]
-# A match that knows how sure it is, and one that finds home from anywhere: that is what a SLAM needs
-# of its scans. The package's `match` does both, and judges itself: where few points lie on the other
-# scan's walls it searches on.
+# A SLAM needs matches that know how sure they are, and matches that find home from anywhere. The package's `match` does both. It judges
+# itself: where few points lie on the walls of the other scan, it searches on.
 #
-# **Next:** the matcher knows only the scan before. Every match is a little off, and the errors add
-# up, as odometry's did, only more slowly. Lesson 15 closes the loop.
+# **Next:** the matcher knows only the scan before. Every match is a little off, and the errors add up, as those of odometry did, only
+# more slowly. [Lesson 14](../notebooks/14_the_emir_system.ipynb) drives a live robot, and
+# [lesson 15](../notebooks/15_closing_the_loop.ipynb) closes the loop.

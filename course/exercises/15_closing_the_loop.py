@@ -2,18 +2,21 @@
 # # Exercise 15 · Closing the loop
 #
 # **You will be able to** write the heart of a graph SLAM: the error of an edge, its Jacobians, and a
-# step that shares out the error among all poses. You will then derive an edge that no lesson has
-# shown you, and draw a map of a building although some of its loops are false.
+# step that shares out the error among all poses. You will then derive an edge that measures nothing but a
+# distance, and draw a map of a building although some of its loops are false.
 #
 # **60 minutes. Before:** lesson [15 · Closing the loop](../notebooks/15_closing_the_loop.ipynb).
 #
-# Replace each `raise NotImplementedError(...)` by your code, run the cell, then run the check below
-# it, as often as you like. A check tries random graphs and says which law is broken, shows the
-# smallest case that breaks it, and names the mistake where it knows it.
+# Replace each `raise NotImplementedError(...)` by your code, run the cell, then run the check below it, as
+# often as you like. A check tries random graphs and graphs at the edges of what the text promises. Where a law
+# is broken it shows a small case that breaks it, and `hint("15-step")` in a cell of your own leads on.
 #
-# Lengths are in metres and angles in radians. A pose is `[x, y, θ]`, an array of three numbers, and
-# its heading lies between −π and π. No function may change its arguments: whoever called it still
-# needs them.
+# Lengths are in metres and angles in radians. A pose is `[x, y, θ]`, an array of three numbers, and its heading
+# lies between $-\pi$ and $\pi$. No function may change its arguments, because whoever called it still needs
+# them.
+#
+# In the code and in the hints some letters are those of the literature: `A` is $J_i$, `B` is $J_j$, `H` is
+# $\Lambda_x$, `b` is the sum on the right of (15.5), and `R` a rotation matrix.
 
 # %%
 import numpy as np
@@ -26,17 +29,18 @@ from slamlab.layers import Poses, Segments
 # %% [markdown]
 # ## 1 · The error of an edge
 #
-# An edge says that pose j, as seen from pose i, is z. Where z puts pose j and where it is believed
-# to be may differ. The **error** is pose j as seen from where z puts it:
+# An edge says that pose $j$, as seen from pose $i$, is $z$. Where $z$ puts pose $j$ and where it is believed to be
+# may differ. The **error** is pose $j$ as seen from where $z$ puts it, as in (15.2):
 #
-# $$e = z^{-1} \oplus (x_i^{-1} \oplus x_j) = \begin{bmatrix}
-# R(\theta_z)^{\mathsf T}\left(R(\theta_i)^{\mathsf T}(t_j - t_i) - t_z\right)\\
-# \theta_j - \theta_i - \theta_z\end{bmatrix}, \qquad t = \begin{bmatrix}x\\y\end{bmatrix}$$
+# $$e = \ominus z \oplus (\ominus x_i \oplus x_j) = \begin{bmatrix} \mathrm{Rot}(\theta_z)^{\mathsf T} \left(
+# \mathrm{Rot}(\theta_i)^{\mathsf T} (p_j - p_i) - p_z \right) \\ \theta_j - \theta_i - \theta_z \end{bmatrix},
+# \qquad p = \begin{bmatrix} x \\ y \end{bmatrix}.$$
 #
-# The last component is an angle, and it has to lie between −π and π: a robot that turned by 350°
-# too much is wrong by 10°. `wrap` brings angles there.
+# The last component is an angle, and it has to lie between $-\pi$ and $\pi$: a robot that turned by 350° too much
+# is wrong by 10°. `wrap` brings angles there.
 #
-# Any two poses may be joined by an edge, also two in one place, and z may be no motion at all.
+# **Your task.** Return $e$. Any two poses may be joined by an edge, also two in one place, and $z$ may be no motion
+# at all.
 
 
 # %% name="error"
@@ -63,17 +67,19 @@ check("15-error")
 # %% [markdown]
 # ## 2 · How the error feels its poses
 #
-# To know which poses to move, and by how much, a graph has to know how e changes when a pose moves:
-# $A = \partial e/\partial x_i$ and $B = \partial e/\partial x_j$. Derive them. With R the rotation
-# by $\theta_i + \theta_z$, the heading of the frame in which e is written,
+# To know which poses to move, and by how much, a graph has to know how $e$ changes when a pose moves:
+# $J_i = \partial e/\partial x_i$ and $J_j = \partial e/\partial x_j$. The lesson has read off most of them, in
+# (15.3):
 #
-# - if pose j moves, e changes by the same, written in that frame;
-# - if pose i moves, e changes by the opposite;
-# - if pose i *turns*, all that it sees swings round it. Only the part
-#   $R(\theta_i)^{\mathsf T}(t_j - t_i)$ of e holds θ_i, so this is what the third column of A comes
-#   from.
+# - If pose $j$ moves, $e$ changes by the same motion, seen from a frame that looks along $\theta_i + \theta_z$.
+# - If pose $i$ moves, $e$ changes by the opposite.
+# - If pose $i$ *turns*, all that it sees swings round it. Only the part
+#   $\mathrm{Rot}(\theta_i)^{\mathsf T}(p_j - p_i)$ of $e$ holds $\theta_i$, so the swing is the derivative of that.
 #
-# The same edges are asked for as in task 1.
+# **Predict first.** Pose $j$ stands straight ahead of pose $i$, and $z$ does not turn. Which entry of the swing is
+# zero, and what sign has the other?
+#
+# **Your task.** Derive the swing, and return $J_i$ and $J_j$, for the same edges as in task 1.
 
 
 # %% name="jacobians"
@@ -98,21 +104,22 @@ check("15-jacobians")
 # %% [markdown]
 # ## 3 · One step of Gauss and Newton
 #
-# All edges together cost $\chi^2 = \sum e^{\mathsf T}\Lambda\,e$, where Λ is the information of that
-# edge's e, the inverse of its covariance. Near the present poses $e(x + \delta) \approx e + J\delta$,
-# and the best δ solves
+# All edges together cost $\chi^2 = \sum e^{\mathsf T}\Lambda\,e$, with $\Lambda$ the information of that edge's $e$,
+# the inverse of its covariance. Near the present poses $e(x + \delta) \approx e + J\delta$, and by (15.5) the best
+# $\delta$ solves
 #
-# $$H\,\delta = -b, \qquad H = \sum J^{\mathsf T}\Lambda J, \qquad b = \sum J^{\mathsf T}\Lambda\,e$$
+# $$\Lambda_x\, \delta = -\sum J^{\mathsf T}\Lambda\, e, \qquad \Lambda_x = \sum J^{\mathsf T}\Lambda\, J.$$
 #
-# The J of an edge has A in the columns of pose i, B in those of pose j and zeros elsewhere. An edge
-# therefore adds to four blocks of H and to two parts of b.
+# The $J$ of an edge has $J_i$ in the columns of pose $i$, $J_j$ in those of pose $j$, and zeros elsewhere. So an edge
+# adds to four blocks of $\Lambda_x$, and to two parts of the sum on the right.
 #
-# Edges say only how poses lie to each other, so without more H is singular: **hold pose 0**. Then add
-# δ to the poses, number by number, and wrap the headings. Take one step, not more, because whoever
-# calls `step` goes on. Use your `error` and `jacobians`.
+# Edges say only how poses lie to each other, so without more $\Lambda_x$ is singular: **hold pose 0**. Then add
+# $\delta$ to the poses, number by number, and wrap the headings.
 #
-# There are two poses or more, and each of them is tied to pose 0 by some chain of edges. Edges come
-# in any order, they may point back (i larger than j), and several may join the same two poses.
+# **Your task.** Take one step and return the new poses. Do not take more, because whoever calls `step` goes on. Use
+# your `error` and `jacobians`. There are two poses or more, and each of them is tied to pose 0 by some chain of
+# edges. Edges come in any order, they may point back ($i$ larger than $j$), and several may join the same two
+# poses.
 
 
 # %% name="step"
@@ -143,9 +150,9 @@ def step(poses, edges):
 check("15-step")
 
 # %% [markdown]
-# A robot drives round a hall, ten poses; each of its turns is told too small. At the end it sees the
-# start, one step ahead. **Before you run it:** after how many steps do you expect to see no more change?
-# Then move the slider.
+# A robot drives round a hall, ten poses, and its wheels tell each turn too small. At the end it sees the start, one
+# step ahead. **Before you run it:** after how many steps do you expect to see no more change? Then move the
+# slider.
 
 
 # %% name="hall"
@@ -190,27 +197,27 @@ def _():
 
 
 # %% [markdown]
-# The first step takes e for straight over turns that are far from small, so it only halves χ². The
-# second puts nearly all right, and after the third nothing moves. Every turn has got its share.
+# The first step takes $e$ for straight over turns that are far from small, so it only halves $\chi^2$. The second
+# puts nearly all right, and after the third nothing moves. Every turn has got its share.
+
 
 # %% [markdown]
 # ## 4 · An edge by radio
 #
-# Two robots carry radios. From the time a signal takes, each pair of radios knows its **distance** r,
-# and nothing else: no direction and no heading. A radio seldom sits at its robot's centre, so let
-# $a_i$ and $a_j$ be the places of the two radios in their own robots' frames. With
+# Two robots carry radios. From the time that a signal takes, each pair of radios knows its **distance** $r$, and
+# nothing else: no direction and no heading. A radio seldom sits at its robot's centre, so let $a_i$ and $a_j$ be the
+# places of the two radios in their own robots' frames. The way from the one to the other, and the error of the edge, are
 #
-# $$d = \left(t_j + R(\theta_j)\,a_j\right) - \left(t_i + R(\theta_i)\,a_i\right), \qquad
-# e = \lVert d\rVert - r$$
+# $$d = \left(p_j + \mathrm{Rot}(\theta_j)\,a_j\right) - \left(p_i + \mathrm{Rot}(\theta_i)\,a_i\right), \qquad
+# e = \lVert d\rVert - r.$$
 #
-# such an edge belongs into the same graph as all others. Only its e is now one number, and A and B
-# are single rows. Derive them, as you derived those of task 2: what does a small motion of pose i do
-# to d, and how much of that changes the length of d?
+# Such an edge belongs into the same graph as all others. Only its $e$ is now one number, and $J_i$ and $J_j$ are single
+# rows. What does a small motion of pose $i$ do to $d$, and how much of that changes the length of $d$?
 #
-# **Predict first.** A radio at the centre of its robot: which entry of A is zero, and why?
+# **Predict first.** A radio sits at the centre of its robot. Which entry of $J_i$ is zero, and why?
 #
-# The radios are at least 10 cm apart. They may sit at the centres, and the robots may look in any
-# direction.
+# **Your task.** Return $e$ and the two rows. The radios are at least 10 cm apart. They may sit at the centres, and the
+# robots may look in any direction.
 
 
 # %% name="range"
@@ -242,9 +249,9 @@ def range_edge(x_i, x_j, r, a_i, a_j):
 check("15-range")
 
 # %% [markdown]
-# The hall again, but this time nobody sees the start. Instead the robot hears a radio that stands
-# where it began, and the radio on its mast tells it nine distances, one a pose. **Before you run
-# it:** no distance says anything about a direction. Can nine of them mend nine turns?
+# The hall again, but this time nobody sees the start. Instead the robot hears a radio that stands where it began, and
+# the radio on its mast tells it nine distances, one at each pose. **Before you run it:** no distance says anything about
+# a direction. Can nine of them mend nine turns?
 
 
 # %% name="heard"
@@ -279,18 +286,16 @@ def _():
 
 
 # %% [markdown]
-# Nearly. The wheels know the shape of each step, and the distances tell how the steps must be bent
-# for all of them to fit. What is left of the error is what the distances leave open.
+# Nearly. The wheels know the shape of each step, and the distances tell how the steps must be bent for all of them to
+# fit. What is left of the error is what the distances leave open.
+
 
 # %% [markdown]
 # ## 5 · A map in spite of liars
 #
-# A loop may be false: one door looks like the next. The lesson's remedy is to lower the weight of
-# an edge whose χ² is beyond Φ. The edge then pays
-#
-# $$\rho(\chi^2) = 3\Phi - \frac{4\Phi^2}{\Phi + \chi^2} \quad (\chi^2 > \Phi)$$
-#
-# instead of χ², which is to say that its Λ is scaled by the slope of ρ. Here it is, ready to use:
+# A loop may be false: one door looks like the next. The lesson's remedy is to lower the weight of an edge whose $\chi^2$ is
+# beyond $\Phi$. Such an edge pays the cost (15.9) in place of its $\chi^2$, so its $\Lambda$ is multiplied by the slope
+# of that cost, the weight (15.10). Here it is, ready to use:
 
 
 # %% name="weight"
@@ -300,10 +305,9 @@ def weight(chi2, phi):
 
 
 # %% [markdown]
-# The hall once more, with its true loop and a liar: an edge that claims pose 6 was next to pose 1.
-# **Before you run it:** what will the hall look like if the liar is trusted, and what if both loops
-# are weighed? (Φ begins large and shrinks from step to step, because at the start the true loop
-# looks as false as the liar.)
+# The hall once more, with its true loop and a liar: an edge that claims that pose 6 was next to pose 1. **Before you run
+# it:** what will the hall look like if the liar is trusted, and what if both loops are weighed? ($\Phi$ begins large and
+# shrinks from step to step, because at the start the true loop looks as false as the liar.)
 
 
 # %% name="liar"
@@ -333,30 +337,26 @@ def _():
 
 
 # %% [markdown]
-# One liar is easily refused. Now the robot drives two laps round a building on poor wheels, which
-# err by 5° a step, and its scanner reports eighteen loops. Ten of them are true. Two are false, each
-# in its own way. The other six **agree with each other**: one after the other they take a place for
-# its twin 2.5 m away, as the lesson's two rooms did. Where liars agree, the honest may look like the
-# outliers, and weights alone no longer help.
+# One liar is easily refused. Now the robot drives two laps round a building on poor wheels, which err by 5° a step, and its
+# scanner reports eighteen loops. Ten of them are true. Two are false, each in its own way. The other six **agree with each
+# other**: one after the other they take a place for its twin 2.5 m away, as the lesson's two rooms did. Where liars agree,
+# the honest may look like the outliers, and weights alone no longer help.
 #
-# Draw the best map that you can. Any method goes: refuse loops before you trust any, look for loops
-# that support each other, weigh them, try several beginnings and compare what they cost. A few
-# questions that may lead on:
+# **Your task.** Draw the best map that you can. Any method goes: refuse loops before you trust any, look for loops that
+# support each other, weigh them, or try several beginnings and compare what they cost. A few questions that may lead on:
 #
 # - How far may the wheels have drifted between two poses, and which loops claim more than that?
-# - Once one loop is trusted, the doubt about all other poses shrinks. What does this say about the
-#   loops that have not been judged yet?
+# - Once one loop is trusted, the doubt about all other poses shrinks. What does this say about the loops that have not been
+#   judged yet?
 # - How would you compare a map that trusts one group of loops with a map that trusts another?
 #
-# The error of a map is how far its poses are off (rms, pose 0 being known). Sixteen drives are tried.
-# The first step of the ladder asks for eight maps that are off by less than 0.9 m, the second for
-# eight that are off by less than 0.32 m, and the third for eleven below 0.6 m. The wheels alone are
-# off by more than a metre, and so is the map that trusts all loops.
+# The error of a map is how far its poses are off (rms, with pose 0 known). Sixteen drives are tried. The first step of the
+# ladder asks for eight maps that are off by less than 0.9 m, the second for eight that are off by less than 0.32 m, and the
+# third for eleven below 0.6 m. The wheels alone are off by more than a metre, and so is the map that trusts all loops.
 #
-# The edges of the wheels are honest: there is one from each pose to the next, in their order. `poses`
-# is what the wheels make of them, so it is the map without a loop. There is at least one loop, and a
-# true one errs by about 5 cm and 1°, as its Λ says. Drives may have any length, and perhaps all of
-# their loops are true.
+# The edges of the wheels are honest: there is one from each pose to the next, in their order. `poses` is what the wheels make
+# of them, so it is the map without a loop. There is at least one loop, and a true one errs by about 5 cm and 1°, as its
+# $\Lambda$ says. Drives may have any length, and perhaps all of their loops are true.
 
 
 # %% name="liars"
@@ -431,8 +431,8 @@ def close_loops(poses, edges, loops):
 check("15-liars")
 
 # %% [markdown]
-# To try your method, here is a drive whose truth is known. Change the number of the drive, and look
-# at those on which your map is still wrong: which loops did it believe?
+# To try your method, here are drives whose truth is known. Change the number of the drive, and look at those on which your map
+# is still wrong: which loops did it believe?
 
 
 # %% name="two-laps"
@@ -477,4 +477,4 @@ def _():
 
 
 # %% [markdown]
-# **Next:** this was the last lesson. Point `slamlab run … --estimator graph` at a log of your own.
+# **Next:** point `slamlab run … --estimator graph` at a log of your own.

@@ -534,7 +534,7 @@ ask(
 
 # %% slideshow={"slide_type": "fragment"} name="intel-maps" answers="01-again" tags=["nbval-check-output"]
 intel = intel_maps.stored()
-long, across = (np.ptp(points, axis=0).max() for points in intel.points.values())
+long, across = (np.ptp(intel.points[name], axis=0).max() for name in ("odometry", "icp"))
 print(f"a way of {intel.way:.0f} m, in {intel.readings} readings")
 print(f"maps {long:.0f} m long (odometry) and {across:.0f} m (icp)")
 

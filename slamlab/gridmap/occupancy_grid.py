@@ -72,7 +72,7 @@ class OccupancyGrid:
         """Update the occupancy grid with a scan: beams hit where they end, free where they pass.
 
         Each cell changes once a scan, however many beams meet it; one that a beam ends in counts as
-        hit, even if others pass. Beams without a return tell nothing.
+        hit, even if others pass. Beams without a return tell nothing. Equation (15.11).
 
         Parameters
         ----------

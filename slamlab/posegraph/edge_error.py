@@ -8,6 +8,8 @@ from slamlab.geometry import between
 def error(x_i, x_j, z):
     """Residual e = z⁻¹ ⊕ (x_i⁻¹ ⊕ x_j): zero where pose j is as measured (Grisetti et al. 2010).
 
+    Equation (15.2).
+
     Parameters
     ----------
     x_i, x_j : (..., 3) poses [m, m, rad]
@@ -21,11 +23,11 @@ def error(x_i, x_j, z):
 
 
 def information(z, covariance):
-    """Information matrix of e, Λ_e = Tᵀ P⁻¹ T with T = diag(R(θ_z), 1), P the covariance of z.
+    """Information matrix of e, Λ_e = Tᵀ P⁻¹ T with T = diag(Rot(θ_z), 1), P that of z.
 
     A measured motion z errs by n in the frame of pose i: z = m + n, m the true motion. From there e
     is seen turned back: e = z⁻¹ ⊕ m = −Tᵀ n, exactly. So P_e = Tᵀ P T, and Λ_e is its inverse. Of
-    all that hand a covariance to a graph this is the one place where it is turned.
+    all that hand a covariance to a graph this is the one place where it is turned. Equation (15.7).
 
     Parameters
     ----------

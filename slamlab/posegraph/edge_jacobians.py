@@ -6,6 +6,8 @@ import numpy as np
 def J_i(x_i, x_j, z):
     """Jacobian ∂e/∂x_i = [[−Rᵀ, Rᵀ(y_j−y_i, x_i−x_j)], [0, −1]], R of the angle θ_i + θ_z.
 
+    Equation (15.3).
+
     Parameters
     ----------
     x_i, x_j, z : (..., 3) poses and measured motion [m, m, rad]
@@ -25,6 +27,8 @@ def J_i(x_i, x_j, z):
 
 def J_j(x_i, x_j, z):
     """Jacobian ∂e/∂x_j = [[Rᵀ, 0], [0, 1]], R of the angle θ_i + θ_z.
+
+    Equation (15.3).
 
     Parameters
     ----------

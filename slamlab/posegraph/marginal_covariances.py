@@ -36,6 +36,7 @@ def squared_mahalanobis(problem, poses, pairs, measured, R, phi):
     """Squared Mahalanobis distance vᵀ(J H⁻¹ Jᵀ + R)⁻¹v of candidate edges, v = e(x_i, x_j, z).
 
     Innovation v and its covariance J H⁻¹ Jᵀ + R: the chi-square test of a loop-closure candidate.
+    Equation (15.8).
 
     Parameters
     ----------

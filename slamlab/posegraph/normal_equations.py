@@ -40,6 +40,8 @@ class NormalEquations:
     def linearise(self, J, information, e):
         """Linearise: assemble H = Σ JᵀΛJ and g = Σ JᵀΛe, half the cost's gradient (Gauss-Newton).
 
+        Equation (15.5).
+
         Parameters
         ----------
         J : (m, 3, 6) Jacobian of each edge over pose i and pose j

@@ -13,6 +13,8 @@ PHI = 11.345  # 99 % of true edges have a χ² of 3 degrees of freedom below thi
 def weight(chi2, phi=PHI):
     """Weight s² of an edge by the robust kernel: 1 up to Φ, then falling like 1/χ⁴.
 
+    Equation (15.10).
+
     Parameters
     ----------
     chi2 : (...) each edge's eᵀΛe [1]
@@ -27,6 +29,8 @@ def weight(chi2, phi=PHI):
 
 def cost(chi2, phi=PHI):
     """Cost of the robust kernel: ρ(χ²) = χ² up to Φ, 3Φ − 4Φ²/(Φ + χ²) beyond.
+
+    Equation (15.9).
 
     Parameters
     ----------

@@ -33,9 +33,9 @@ def point_to_line(
 
     Each round pairs nearest points, drops pairs too far apart or whose walls point elsewhere,
     keeps the share that lies best, weighs it by Cauchy's function and takes a Gauss-Newton step on
-    Σ w_i (n_i·(R p_i + t − q_i))² / c² + eᵀ Σ⁻¹ e, with e the way from the first guess and Σ its
-    covariance, where it has one: along a corridor, which no wall fixes, the guess then stands. The
-    longest pair shrinks from round to round. Stops when a step moves no point by the tolerance.
+    Σ w_i e_i² / c² + δᵀ P⁻¹ δ, with e_i of Equation (13.6), δ the way from the first guess and P
+    its covariance, where it has one: along a corridor, which no wall fixes, the guess then stands.
+    The longest pair shrinks from round to round. Stops when a step moves no point by the tolerance.
 
     Parameters
     ----------
@@ -114,19 +114,19 @@ def _normals_agree(n, n_source, turn, limit):
 
 
 def _gauss_newton_step(n, arm, residuals, c, information, guess):
-    """Gauss-Newton step (dx, dy, dθ) that lowers Σ w r² / c² + eᵀ diag(information) e.
+    """Gauss-Newton step (dx, dy, dθ) that lowers Σ w e² / c² + δᵀ diag(information) δ.
 
-    r has the derivative [n_x, n_y, arm × n]; Cauchy's weight is w = 1 / (1 + (r/c)²). A degenerate
+    Equations (13.7) and (13.8), with Cauchy's weight w = 1 / (1 + (e/c)²). A degenerate
     direction, which neither the walls nor the first guess fix, is left as it was.
 
     Parameters
     ----------
     n : (k, 2) unit normals
     arm : (k, 2) points seen from the robot, in the target's directions [m]
-    residuals : (k,) distances across the walls [m]
+    residuals : (k,) e, distances across the walls [m]
     c : float, residual at which a pair counts half [m]
     information : (3,) of the first guess [1/m², 1/m², 1/rad²]
-    guess : (3,) e, how far the pose is from the first guess [m, m, rad]
+    guess : (3,) δ, how far the pose is from the first guess [m, m, rad]
 
     Returns
     -------

@@ -10,8 +10,9 @@ from slamlab.scanmatching.nearest_neighbours import NearestNeighbours
 def rigid_fit(source, target):
     """Rigid transformation (Kabsch, by SVD) of paired points with the least sum of squares.
 
-    H = Σ (p_i − p̄)(q_i − q̄)ᵀ = U S Vᵀ,  R = V diag(1, det V Uᵀ) Uᵀ,  t = q̄ − R p̄
+    M = Σ (a_i − ā)(b_i − b̄)ᵀ = U D Vᵀ,  Rot = V diag(1, det V Uᵀ) Uᵀ,  t = b̄ − Rot ā
     (Tuček §3.1 steps 2-4; the diagonal turns the best reflection into the best rotation).
+    Equations (13.2), (13.11) and (13.13).
 
     Parameters
     ----------
@@ -21,14 +22,14 @@ def rigid_fit(source, target):
     -------
     (3,) pose of the source's frame in the target's [m, m, rad]
     """
-    p_mean, q_mean = source.mean(axis=0), target.mean(axis=0)
-    H = (source - p_mean).T @ (target - q_mean)
-    U, _, Vt = np.linalg.svd(H)
+    a_mean, b_mean = source.mean(axis=0), target.mean(axis=0)
+    M = (source - a_mean).T @ (target - b_mean)
+    U, _, Vt = np.linalg.svd(M)
     if np.linalg.det(U) * np.linalg.det(Vt) < 0:
         Vt[1] *= -1
-    R = Vt.T @ U.T
-    x, y = q_mean - R @ p_mean
-    return np.array([x, y, np.arctan2(R[1, 0], R[0, 0])])
+    Rot = Vt.T @ U.T
+    x, y = b_mean - Rot @ a_mean
+    return np.array([x, y, np.arctan2(Rot[1, 0], Rot[0, 0])])
 
 
 def point_to_point(
@@ -44,7 +45,8 @@ def point_to_point(
     """Point-to-point ICP: pair nearest neighbours, fit a rigid transformation, repeat (Tuček §3.1).
 
     Stops when the mean distance of the pairs changes by less than the tolerance from one round to
-    the next, as the thesis' listing does; its text stops on the distance itself.
+    the next, as the thesis' listing does; its text stops on the distance itself. What never grows
+    is the sum of squares, (13.5), and not this mean.
 
     Parameters
     ----------

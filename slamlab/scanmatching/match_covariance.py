@@ -9,7 +9,7 @@ from slamlab.scanmatching.registration import information_floor, robust_weights
 
 @dataclass(frozen=True)
 class Observability:
-    """Observability of a match: eigenvalues of the information matrix H of [x, y, θ reach].
+    """Observability of a match: eigenvalues of the information matrix Λ of [x, y, θ reach].
 
     A degenerate direction, such as that along a corridor, is one that no wall constrains.
 
@@ -73,10 +73,10 @@ def observability(source, target, pairs, kernel_width):
 def censi(source, target, pairs, kernel_width):
     """Censi's covariance of the pose that minimises Σ ρ(r), from the measurement noise alone.
 
-    P = H⁻¹ (∂g/∂z) cov(z) (∂g/∂z)ᵀ H⁻¹ with the gradient g of Σ ρ and H its derivative (Censi 2007,
-    "An accurate closed-form estimate of ICP's covariance"). A point of the source has one residual;
-    one of the target has a share in every line that is fitted through it. In a degenerate direction
-    the standard deviation is the width of the surface.
+    P = Λ⁻¹ (∂γ/∂z) cov(z) (∂γ/∂z)ᵀ Λ⁻¹ with the gradient γ of Σ ρ and Λ its derivative (Censi 2007,
+    "An accurate closed-form estimate of ICP's covariance"), Equation (13.14). A point of the source
+    has one residual; one of the target has a share in every line that is fitted through it. In a
+    degenerate direction the standard deviation is the width of the surface.
 
     Parameters
     ----------

@@ -7,6 +7,8 @@
   ``line_truth``: lines against the true walls
 - ``three``: BOR, MAK, Monte Carlo, with ``three_records`` of each drive, ``three_rows`` of its
   table, ``three_costs``
+- ``samples``: how many samples find a robot, and maps by samples, with ``sampled_room``,
+  ``sampled_rail``, ``sets_apart``, the experiments of lesson 11
 - ``two_halves``, ``halves_in_turn``, ``agreeing_poses``: the laps of lesson 05, run where they
   stand
 - ``broken_slam``: EKF-SLAM with one thing wrong, for lesson 06; ``broken_bounds``: BOR with a bound
@@ -15,8 +17,10 @@
 - ``found_walls``: recall and false metres of line extraction, ``walls_on_trial``: which walls enter
   a map, both for lesson 08
 - ``small_errors``: what a Jacobian foretells, and what a wrong one does, in lesson 04
-- ``intel_maps``: the maps of a real log that lesson 01 shows; ``a2_at_rest``: statistics of a real
-  lidar, for lesson 02
+- ``wheel_graphs``, ``edge_frames``, ``false_loops``: pose graphs, their edges and their loops on
+  trial, for lesson 15
+- ``intel_maps``: the maps of a real log that lessons 01 and 15 show; ``a2_at_rest``: statistics of
+  a real lidar, for lesson 02
 - ``arena_logs``: the six data sets as files; ``paired_statistics``, ``study_command``: what they
   share
 """

@@ -1,7 +1,7 @@
 """``python -m slamlab.studies.intel_maps``: what wheels, and scans, make of the real Intel log.
 
-The log itself is not part of the course. This keeps what lesson 01 shows of it: which cells of a
-grid the points of either map fall into, and how far off relative poses are.
+The log itself is not part of the course. This keeps what lessons 01, 13 and 15 show of it: which
+cells of a grid the points of each map fall into, how far off relative poses are, the closed loops.
 """
 
 import argparse
@@ -20,12 +20,14 @@ from slamlab.geometry import transform
 from slamlab.studies.study_command import TABLES
 
 TABLE = TABLES / "intel-maps.npz"
-SIDES = {"odometry": 0.15, "icp": 0.1}  # of a grid's cells [m]
+SIDES = {"odometry": 0.15, "icp": 0.1, "graph": 0.1}  # of a grid's cells [m]
+WAYS = "odometry", "icp-plain", "icp", "graph"
+ERRORS = "off", "spread", "turned"  # of the relations
 
 
 @dataclass(frozen=True)
 class IntelMaps:
-    """What was kept of the log, and of two maps of it, by ``odometry`` and by ``icp``.
+    """What was kept of the log, and of its maps by ``odometry``, by ``icp`` and by ``graph``.
 
     Parameters
     ----------
@@ -33,7 +35,12 @@ class IntelMaps:
     minutes : float
     way : float, as the wheels tell it [m]
     points : dict, name to (n, 2) centres of the cells that a scan's point fell into [m]
-    off : dict, name to the mean error of relative poses' places, see Relations [m]
+    off, spread : dict, name to mean and standard deviation of relative poses' errors, see
+        Relations [m]; also of ``icp-plain``
+    turned : dict, the mean of their headings' errors [rad]
+    relations : int, how many relative poses were asked
+    track : (n, 2) places of the graph's keyframes [m]
+    loops : (m, 4) the graph's loops, from place to place [m]
     """
 
     readings: int
@@ -41,6 +48,11 @@ class IntelMaps:
     way: float
     points: dict
     off: dict
+    spread: dict
+    turned: dict
+    relations: int
+    track: np.ndarray
+    loops: np.ndarray
 
 
 @cache
@@ -53,8 +65,11 @@ def stored():
     """
     with np.load(TABLE) as kept:
         points = {name: kept[name] * side for name, side in SIDES.items()}
-        off = dict(zip(SIDES, kept["off"].tolist(), strict=True))
-        return IntelMaps(int(kept["readings"]), *kept["driven"].tolist(), points, off)
+        errors = [dict(zip(WAYS, kept[name].tolist(), strict=True)) for name in ERRORS]
+        counts, driven = (int(kept["readings"]), int(kept["relations"])), kept["driven"].tolist()
+        track = kept["track"].astype(float)
+        loops = track[kept["loops"]].reshape(-1, 4)
+        return IntelMaps(counts[0], *driven, points, *errors, counts[1], track, loops)
 
 
 def study():
@@ -71,18 +86,28 @@ def study():
     source = sources.open(sources.recording("intel"))
     relations = load_relations(sources.recording("intel-relations"))
     readings = list(source)
-    result = run(source, estimators.make("icp", source))
-    ways = {"odometry": result.naive, "icp": result.trajectory}
+    plain, result, closed = (run(source, estimators.make(name, source)) for name in WAYS[1:])
+    graph = closed.estimator.graph
+    ways = (result.naive, plain.trajectory, result.trajectory, closed.trajectory)
+    ways = dict(zip(WAYS, ways, strict=True))
+    found = [relations_error(way, relations) for way in ways.values()]
     kept = {}
-    for name, way in ways.items():
-        scans = [transform(p, r.scan.points()) for p, r in zip(way.poses, readings, strict=True)]
+    for name in SIDES:
+        scans = [
+            transform(p, r.scan.points()) for p, r in zip(ways[name].poses, readings, strict=True)
+        ]
         cells = np.round(np.vstack(scans) / SIDES[name]).astype(np.int16)
         kept[name] = np.unique(cells, axis=0)
     steps = np.diff(result.naive.poses[:, :2], axis=0)
     return kept | {
-        "off": [relations_error(way, relations).translation for way in ways.values()],
+        "off": [each.translation for each in found],
+        "spread": [each.translation_std for each in found],
+        "turned": [each.rotation for each in found],
+        "relations": found[0].count,
         "readings": len(readings),
         "driven": [np.ptp(result.trajectory.times) / 60, np.hypot(*steps.T).sum()],
+        "track": graph.poses[:, :2].astype(np.float32),
+        "loops": np.array([(e.i, e.j) for e in graph.edges if e.robust], dtype=np.int16),
     }
 
 

@@ -9,7 +9,7 @@ Read in this order:
 - ``figure_faults``: what a machine can see to be wrong with a figure
 - ``showing``, ``figure_words``: how a figure reaches a notebook, and its alternative text
 - ``comparison``, ``box_drawing``, ``heatmap``, ``interval_plot``, ``loglog_plot``, ``matrix_plot``,
-  ``linked_map``, ``scan_overlay``, ``resampling_wheel``, ``frame_sketches``,
+  ``linked_map``, ``scan_overlay``, ``strip_plot``, ``resampling_wheel``, ``frame_sketches``,
   ``encoder_sketch``: one plot each
 - ``sliders``, ``play_button``, ``widget_errors``: interactive figures
 - ``player``: the drawing in a browser, in JavaScript; of what runs and of films
@@ -34,6 +34,7 @@ from slamlab.views.resampling_wheel import wheel
 from slamlab.views.scan_overlay import overlay
 from slamlab.views.showing import png, show
 from slamlab.views.sliders import explore
+from slamlab.views.strip_plot import strips
 
 __all__ = [
     "COLOURS",
@@ -66,6 +67,7 @@ __all__ = [
     "shares",
     "show",
     "side_by_side",
+    "strips",
     "two_sigma",
     "wheel",
 ]

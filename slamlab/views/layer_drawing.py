@@ -74,7 +74,7 @@ def side_by_side(layers_by_title, size=(11, 5), shared=True):
 
     Parameters
     ----------
-    layers_by_title : dict, title to list of layers
+    layers_by_title : dict, title to list of layers, or to dict of what the legend says to layer
     size : (width, height) of the whole figure [80 pixels of the page]
     shared : bool, whether all show the same part of the plane
 
@@ -84,8 +84,9 @@ def side_by_side(layers_by_title, size=(11, 5), shared=True):
     """
     fig, all_axes = panels(list(layers_by_title), size, shared)
     for ax, layers in zip(all_axes, layers_by_title.values(), strict=True):
-        for layer in layers:
-            draw(ax, layer)
+        named = layers.items() if isinstance(layers, dict) else ((x.name, x) for x in layers)
+        for label, layer in named:
+            draw(ax, layer, label=label)
     legend_below(fig)
     return fig, all_axes
 

@@ -9,20 +9,20 @@ WAYS = {
 def best_motion(source, target):
     a, b = np.mean(source, axis=0), np.mean(target, axis=0)
     U, _, Vt = np.linalg.svd((source - a).T @ (target - b))
-    R = Vt.T @ np.diag([1, np.linalg.det(Vt.T @ U.T)]) @ U.T
-    return np.block([[R, (b - R @ a)[:, None]], [np.zeros(2), np.ones(1)]])
+    Rot = Vt.T @ np.diag([1, np.linalg.det(Vt.T @ U.T)]) @ U.T
+    return np.block([[Rot, (b - Rot @ a)[:, None]], [np.zeros(2), np.ones(1)]])
 """,
-    "mirror mended in U, H by a loop": """
+    "mirror mended in U, M by a loop": """
 def best_motion(source, target):
     a, b = source.mean(axis=0), target.mean(axis=0)
-    H = np.zeros((2, 2))
+    M = np.zeros((2, 2))
     for p, q in zip(source - a, target - b):
-        H += np.outer(p, q)
-    U, _, Vt = np.linalg.svd(H)
+        M += np.outer(p, q)
+    U, _, Vt = np.linalg.svd(M)
     U[:, 1] *= np.sign(np.linalg.det(U) * np.linalg.det(Vt))
-    R = (U @ Vt).T
+    Rot = (U @ Vt).T
     T = np.eye(3)
-    T[:2, :2], T[:2, 2] = R, b - R @ a
+    T[:2, :2], T[:2, 2] = Rot, b - Rot @ a
     return T
 """,
     "angle in closed form": """
@@ -62,8 +62,8 @@ def best_motion(source, target):
     "three motions after one another": """
 def best_motion(source, target):
     a, b = source.mean(axis=0), target.mean(axis=0)
-    H = (source - a).T @ (target - b)
-    turn = np.array([[H[0, 0] + H[1, 1], H[1, 0] - H[0, 1]], [H[0, 1] - H[1, 0], H[0, 0] + H[1, 1]]])
+    M = (source - a).T @ (target - b)
+    turn = np.array([[M[0, 0] + M[1, 1], M[1, 0] - M[0, 1]], [M[0, 1] - M[1, 0], M[0, 0] + M[1, 1]]])
     away, about, back = np.eye(3), np.eye(3), np.eye(3)
     away[:2, 2], back[:2, 2] = -a, b
     about[:2, :2] = turn / np.hypot(*turn[0])
@@ -72,20 +72,20 @@ def best_motion(source, target):
     "eigenvectors instead of singular ones": """
 def best_motion(source, target):
     a, b = source.mean(axis=0), target.mean(axis=0)
-    H = (source - a).T @ (target - b)
-    c, s = np.trace(H), H[0, 1] - H[1, 0]
+    M = (source - a).T @ (target - b)
+    c, s = np.trace(M), M[0, 1] - M[1, 0]
     _, vectors = np.linalg.eigh(np.array([[c, s], [s, -c]]))  # of half the angle
     x, y = vectors[:, -1]
-    R = np.array([[x * x - y * y, -2 * x * y], [2 * x * y, x * x - y * y]])
+    Rot = np.array([[x * x - y * y, -2 * x * y], [2 * x * y, x * x - y * y]])
     T = np.identity(3)
-    T[:2, :2], T[:2, 2] = R, b - R @ a
+    T[:2, :2], T[:2, 2] = Rot, b - Rot @ a
     return T
 """,
 }
 
 D = "mirror mended by a diagonal"
-H = "H = (source - a).T @ (target - b)"
-R = "T[:2, :2] = Vt.T @ U.T"
+M = "M = (source - a).T @ (target - b)"
+Rot = "T[:2, :2] = Vt.T @ U.T"
 SHIFT = "T[:2, 2] = b - T[:2, :2] @ a"
 MEND = "Vt[1] *= -1"
 GUARD = "if np.linalg.det(Vt.T @ U.T) < 0:"
@@ -93,23 +93,23 @@ RETURN = "return T"
 
 
 def _mended(how):
-    """The program in which R is mended otherwise after it has been multiplied."""
-    return [(MEND, "pass"), (R, f"{R}\n    if np.linalg.det(T[:2, :2]) < 0:\n        {how}")]
+    """The program in which Rot is mended otherwise after it has been multiplied."""
+    return [(MEND, "pass"), (Rot, f"{Rot}\n    if np.linalg.det(T[:2, :2]) < 0:\n        {how}")]
 
 
 SLIPS = (
     Slip(
         "rotation-transposed",
-        "R turns the wrong way: it is the transpose of the right one. Which of U and V belongs to the "
-        "source depends on which cloud stands on the left in H.",
-        (R, "T[:2, :2] = U @ Vt"),
-        (H, "H = (target - b).T @ (source - a)"),
+        "Rot turns the wrong way: it is the transpose of the right one. Which of U and V belongs to the "
+        "source depends on which cloud stands on the left in M.",
+        (Rot, "T[:2, :2] = U @ Vt"),
+        (M, "M = (target - b).T @ (source - a)"),
     ),
     Slip(
         "not-centred",
-        "The centroids were left on one or both clouds when H was summed. Turning is about the "
+        "The centroids were left on one or both clouds when M was summed. Turning is about the "
         "centroids, not about the origin.",
-        (H, "H = source.T @ target"),
+        (M, "M = source.T @ target"),
     ),
     Slip(
         "one-number-centroid",
@@ -122,32 +122,32 @@ SLIPS = (
     ),
     Slip(
         "centroid-not-turned",
-        "The source's centroid has to be turned by R before it is compared with the target's.",
+        "The source's centroid has to be turned by Rot before it is compared with the target's.",
         (SHIFT, "T[:2, 2] = b - a"),
     ),
     Slip(
         "centroid-turned-back",
-        "In t the source's centroid is turned the wrong way round: by the transpose of R.",
+        "In t the source's centroid is turned the wrong way round: by the transpose of Rot.",
         (SHIFT, "T[:2, 2] = b - T[:2, :2].T @ a"),
         (SHIFT, "T[:2, 2] = b - a @ T[:2, :2]"),
     ),
     Slip(
         "centroids-swapped",
-        "The centroids have changed places in t, or its sign is wrong: T carries the source, so R meets "
+        "The centroids have changed places in t, or its sign is wrong: T carries the source, so Rot meets "
         "the source's centroid.",
         (SHIFT, "T[:2, 2] = a - T[:2, :2] @ b"),
         (SHIFT, "T[:2, 2] = T[:2, :2] @ a - b"),
     ),
     Slip(
         "target-turned",
-        "R was put on the difference of the centroids, or on the target's. Only the source is turned.",
+        "Rot was put on the difference of the centroids, or on the target's. Only the source is turned.",
         (SHIFT, "T[:2, 2] = T[:2, :2] @ (b - a)"),
         (SHIFT, "T[:2, 2] = T[:2, :2] @ b - a"),
     ),
     Slip(
         "shift-only",
-        "Nothing is turned: R is the identity. The clouds are turned against each other.",
-        (R, "pass"),
+        "Nothing is turned: Rot is the identity. The clouds are turned against each other.",
+        (Rot, "pass"),
     ),
     Slip(
         "no-shift",
@@ -181,7 +181,8 @@ SLIPS = (
     ),
     Slip(
         "singular-values-left",
-        "S was left in R. It says how far the clouds spread, and a rotation does not stretch.",
+        "The singular values were left in Rot. They say how far the clouds spread, and a rotation does "
+        "not stretch.",
         Edit(
             D, (("U, _, Vt", "U, S, Vt"), ("np.diag([1, np.linalg.det(Vt.T @ U.T)])", "np.diag(S)"))
         ),
@@ -189,7 +190,10 @@ SLIPS = (
             D,
             (
                 ("U, _, Vt", "U, S, Vt"),
-                ("R = Vt.T", "R = np.sign(np.linalg.det(Vt.T @ U.T)) * Vt.T @ np.diag(S / S[0])"),
+                (
+                    "Rot = Vt.T",
+                    "Rot = np.sign(np.linalg.det(Vt.T @ U.T)) * Vt.T @ np.diag(S / S[0])",
+                ),
                 (" @ np.diag([1, np.linalg.det(Vt.T @ U.T)])", ""),
             ),
         ),
@@ -197,11 +201,11 @@ SLIPS = (
     Slip(
         "affine",
         "This is the best linear map, which may stretch and shear. A robot only turns and drives.",
-        (R, "T[:2, :2] = (np.linalg.pinv(source - a) @ (target - b)).T"),
+        (Rot, "T[:2, :2] = (np.linalg.pinv(source - a) @ (target - b)).T"),
     ),
     Slip(
         "mirrored",
-        "det R = −1: the wall is turned inside out. Find out when V Uᵀ is a mirror, and which column of "
+        "det Rot = −1: the wall is turned inside out. Find out when V Uᵀ is a mirror, and which column of "
         "V costs least to turn over.",
         (MEND, "pass"),
     ),
@@ -209,11 +213,11 @@ SLIPS = (
         "v-for-vt",
         "numpy's svd returns the transpose of V. In the plane V is often its own transpose, which hides "
         "the mistake as long as there is no mirror.",
-        [(MEND, "pass"), (R, "T[:2, :2] = Vt @ U.T")],
+        [(MEND, "pass"), (Rot, "T[:2, :2] = Vt @ U.T")],
     ),
     Slip(
         "negated",
-        "In the plane det(−R) = det R: negating the whole matrix leaves a mirror a mirror. One column "
+        "In the plane det(−Rot) = det Rot: negating the whole matrix leaves a mirror a mirror. One column "
         "has to be turned over.",
         _mended("T[:2, :2] *= -1"),
     ),
@@ -225,7 +229,7 @@ SLIPS = (
     ),
     Slip(
         "product-flipped",
-        "A row or a column of R itself, or a row of V, was turned over: that is a rotation, but not the "
+        "A row or a column of Rot itself, or a row of V, was turned over: that is a rotation, but not the "
         "best one. svd gives the transpose of V: which column of V costs least?",
         _mended("T[1, :2] *= -1"),
         (MEND, "Vt[:, 0] *= -1"),
@@ -261,7 +265,7 @@ SLIPS = (
     ),
     Slip(
         "nine-points",
-        "H was divided, or a mean taken, by a number of points that is not that of the clouds.",
+        "M was divided, or a mean taken, by a number of points that is not that of the clouds.",
         (
             "a, b = source.mean(axis=0), target.mean(axis=0)",
             "a, b = source.sum(axis=0) / 9, target.sum(axis=0) / 9",
@@ -277,7 +281,7 @@ STUMBLES = (
         (RETURN, "return T[:2]"),
         (RETURN, "pass"),
     ),
-    Stumble("raised", (H, "H = (source - a) @ (target - b)")),
+    Stumble("raised", (M, "M = (source - a) @ (target - b)")),
 )
 
 EQUIVALENT = {}

@@ -4,13 +4,13 @@ from course.tasks import Slip, Stumble
 
 TASK = "13-line-step"
 
-DISTANCE = "r = np.sum(normals * (source @ R.T + t - target), axis=1)"
-SEEN = "seen = normals @ R"
+DISTANCE = "e = np.sum(normals * (source @ Rot.T + t - target), axis=1)"
+SEEN = "seen = normals @ Rot"
 LEVER = "lever = source[:, 0] * seen[:, 1] - source[:, 1] * seen[:, 0]"
 JACOBIAN = "J = np.column_stack([seen, lever])"
-WEIGHT = "W = np.diag(1 / sigma**2)"
-P = "P = np.linalg.inv(np.linalg.inv(Q) + J.T @ W @ J)"
-DELTA = "delta = -P @ J.T @ W @ r"
+WEIGHT = "w = np.diag(1 / sigma**2)"
+P = "P = np.linalg.inv(np.linalg.inv(Q) + J.T @ w @ J)"
+DELTA = "delta = -P @ J.T @ w @ e"
 RETURN = "return delta, P"
 
 SLIPS = (
@@ -22,7 +22,7 @@ SLIPS = (
             (SEEN, "seen = normals"),
             (
                 LEVER,
-                "arm = source @ R.T\n    lever = arm[:, 0] * normals[:, 1] - arm[:, 1] * normals[:, 0]",
+                "arm = source @ Rot.T\n    lever = arm[:, 0] * normals[:, 1] - arm[:, 1] * normals[:, 0]",
             ),
         ],
     ),
@@ -31,13 +31,13 @@ SLIPS = (
         "The turn is about the target's origin. The robot turns about itself: what is the arm then?",
         (
             LEVER,
-            "p = source @ R.T + t\n    lever = p[:, 0] * normals[:, 1] - p[:, 1] * normals[:, 0]",
+            "p = source @ Rot.T + t\n    lever = p[:, 0] * normals[:, 1] - p[:, 1] * normals[:, 0]",
         ),
         [
             (SEEN, "seen = normals"),
             (
                 LEVER,
-                "p = source @ R.T + t\n    lever = p[:, 0] * normals[:, 1] - p[:, 1] * normals[:, 0]",
+                "p = source @ Rot.T + t\n    lever = p[:, 0] * normals[:, 1] - p[:, 1] * normals[:, 0]",
             ),
         ],
     ),
@@ -51,41 +51,41 @@ SLIPS = (
         "normals-turned-back",
         "The normals are turned the wrong way: T leads from the robot's frame to the target's, and here "
         "they come back.",
-        (SEEN, "seen = normals @ R.T"),
+        (SEEN, "seen = normals @ Rot.T"),
     ),
     Slip(
         "source-not-carried",
         "The distance is that of the source as the robot sees it: the target's points and normals lie in "
         "another frame, and T leads there.",
-        (DISTANCE, "r = np.sum(normals * (source - target), axis=1)"),
+        (DISTANCE, "e = np.sum(normals * (source - target), axis=1)"),
     ),
     Slip(
         "carried-back",
-        "The source is turned the wrong way, by the transpose of R.",
-        (DISTANCE, "r = np.sum(normals * (source @ R + t - target), axis=1)"),
+        "The source is turned the wrong way, by the transpose of Rot.",
+        (DISTANCE, "e = np.sum(normals * (source @ Rot + t - target), axis=1)"),
     ),
     Slip(
         "shift-forgotten",
         "T also shifts: t is missing in the distance.",
-        (DISTANCE, "r = np.sum(normals * (source @ R.T - target), axis=1)"),
+        (DISTANCE, "e = np.sum(normals * (source @ Rot.T - target), axis=1)"),
     ),
     Slip(
         "point-to-point",
         "This is how far each point lies from its partner, along the wall as well. Only the part across "
         "the wall counts, with its sign.",
-        (DISTANCE, "r = np.linalg.norm(source @ R.T + t - target, axis=1)"),
+        (DISTANCE, "e = np.linalg.norm(source @ Rot.T + t - target, axis=1)"),
     ),
     Slip(
         "absolute-distance",
         "The distances have lost their signs: on which side of its wall a point lies decides which way "
         "to go.",
-        (DISTANCE, "r = np.abs(np.sum(normals * (source @ R.T + t - target), axis=1))"),
+        (DISTANCE, "e = np.abs(np.sum(normals * (source @ Rot.T + t - target), axis=1))"),
     ),
     Slip(
         "sign",
         "The correction leads away from the walls: it has the wrong sign.",
-        (DELTA, "delta = P @ J.T @ W @ r"),
-        (DISTANCE, "r = np.sum(normals * (target - source @ R.T - t), axis=1)"),
+        (DELTA, "delta = P @ J.T @ w @ e"),
+        (DISTANCE, "e = np.sum(normals * (target - source @ Rot.T - t), axis=1)"),
     ),
     Slip(
         "lever-sign",
@@ -125,68 +125,68 @@ SLIPS = (
     Slip(
         "sigma-not-squared",
         "A weight is one over the variance, and σ is no variance yet.",
-        (WEIGHT, "W = np.diag(1 / sigma)"),
+        (WEIGHT, "w = np.diag(1 / sigma)"),
     ),
     Slip(
         "weights-inverted",
         "The worse a pair was measured, the more it counts here. It should be the other way round.",
-        (WEIGHT, "W = np.diag(sigma**2)"),
-        (WEIGHT, "W = np.diag(sigma)"),
+        (WEIGHT, "w = np.diag(sigma**2)"),
+        (WEIGHT, "w = np.diag(sigma)"),
     ),
     Slip(
         "weights-twice",
-        "The weights enter twice: they stand once between Jᵀ and J, and once between Jᵀ and r.",
-        (WEIGHT, "W = np.diag(1 / sigma**4)"),
+        "The weights enter twice: they stand once between Jᵀ and J, and once between Jᵀ and e.",
+        (WEIGHT, "w = np.diag(1 / sigma**4)"),
     ),
     Slip(
         "weights-ignored",
         "All pairs count alike: each has its own σ.",
-        (WEIGHT, "W = np.eye(len(sigma))"),
+        (WEIGHT, "w = np.eye(len(sigma))"),
     ),
     Slip(
         "one-sigma",
         "All pairs count alike, with one σ for all. Each has its own.",
-        (WEIGHT, "W = np.eye(len(sigma)) / np.mean(sigma**2)"),
-        (WEIGHT, "W = np.eye(len(sigma)) / np.mean(sigma) ** 2"),
+        (WEIGHT, "w = np.eye(len(sigma)) / np.mean(sigma**2)"),
+        (WEIGHT, "w = np.eye(len(sigma)) / np.mean(sigma) ** 2"),
     ),
     Slip(
         "weights-in-one",
         "The weights stand in one of the two places only: JᵀWJ and JᵀWr both have them.",
         (P, "P = np.linalg.inv(np.linalg.inv(Q) + J.T @ J)"),
-        (DELTA, "delta = -P @ J.T @ r"),
+        (DELTA, "delta = -P @ J.T @ e"),
     ),
     Slip(
         "odometry-ignored",
         "Q was not used: the walls alone decide. Odometry knows something as well, and where walls are "
         "silent it is all there is.",
-        (P, "P = np.linalg.pinv(J.T @ W @ J)"),
+        (P, "P = np.linalg.pinv(J.T @ w @ J)"),
     ),
     Slip(
         "Q-not-inverted",
         "Q was added to an information. It is a covariance: what odometry knows is its inverse.",
-        (P, "P = np.linalg.inv(Q + J.T @ W @ J)"),
+        (P, "P = np.linalg.inv(Q + J.T @ w @ J)"),
     ),
     Slip(
         "covariances-added",
         "The covariances of walls and odometry were added. Two who know something know more together: "
         "it is information that adds up.",
-        (P, "P = Q + np.linalg.pinv(J.T @ W @ J)"),
+        (P, "P = Q + np.linalg.pinv(J.T @ w @ J)"),
     ),
     Slip(
         "Q-diagonal",
         "Of Q only the diagonal was used. The errors of x, y and θ are correlated.",
-        (P, "P = np.linalg.inv(np.diag(1 / np.diag(Q)) + J.T @ W @ J)"),
+        (P, "P = np.linalg.inv(np.diag(1 / np.diag(Q)) + J.T @ w @ J)"),
     ),
     Slip(
         "Q-turned",
         "Q was turned into the target's frame. It is the covariance of δ, as the robot sees it, already.",
         (
             P,
-            "G = np.eye(3)\n    G[:2, :2] = R\n    P = np.linalg.inv(np.linalg.inv(G @ Q @ G.T) + J.T @ W @ J)",
+            "G = np.eye(3)\n    G[:2, :2] = Rot\n    P = np.linalg.inv(np.linalg.inv(G @ Q @ G.T) + J.T @ w @ J)",
         ),
         (
             P,
-            "G = np.eye(3)\n    G[:2, :2] = R\n    P = np.linalg.inv(np.linalg.inv(G.T @ Q @ G) + J.T @ W @ J)",
+            "G = np.eye(3)\n    G[:2, :2] = Rot\n    P = np.linalg.inv(np.linalg.inv(G.T @ Q @ G) + J.T @ w @ J)",
         ),
     ),
     Slip(
@@ -197,7 +197,7 @@ SLIPS = (
     Slip(
         "walls-only-P",
         "δ uses odometry and P does not: P is what walls and odometry leave in doubt together.",
-        (RETURN, "return delta, np.linalg.pinv(J.T @ W @ J)"),
+        (RETURN, "return delta, np.linalg.pinv(J.T @ w @ J)"),
     ),
     Slip(
         "P-is-Q",
@@ -207,41 +207,41 @@ SLIPS = (
     Slip(
         "covariance-of-walls-noise",
         "This is how the walls' noise spreads into δ. The guess errs as well, and its part is missing.",
-        (RETURN, "return delta, P @ J.T @ W @ J @ P"),
+        (RETURN, "return delta, P @ J.T @ w @ J @ P"),
     ),
     Slip(
         "scaled-by-residuals",
         "P was multiplied by what the residuals spread. How far each pair errs is told by its σ.",
-        (RETURN, "return delta, P * np.mean(r @ W @ r) / max(len(r), 1)"),
-        (RETURN, "return delta, P * np.mean(r**2) if len(r) else P"),
-        (RETURN, "return delta, P * np.mean(sigma**2) if len(r) else P"),
+        (RETURN, "return delta, P * np.mean(e @ w @ e) / max(len(e), 1)"),
+        (RETURN, "return delta, P * np.mean(e**2) if len(e) else P"),
+        (RETURN, "return delta, P * np.mean(sigma**2) if len(e) else P"),
     ),
     Slip(
         "mean-for-sum",
         "The pairs' information was divided by their number: each pair adds its own.",
-        (WEIGHT, "W = np.diag(1 / sigma**2) / max(len(sigma), 1)"),
+        (WEIGHT, "w = np.diag(1 / sigma**2) / max(len(sigma), 1)"),
     ),
     Slip(
         "half-or-double",
         "The correction has the right direction and another length, half or twice as long.",
-        (DELTA, "delta = -0.5 * P @ J.T @ W @ r"),
-        (DELTA, "delta = -2 * P @ J.T @ W @ r"),
+        (DELTA, "delta = -0.5 * P @ J.T @ w @ e"),
+        (DELTA, "delta = -2 * P @ J.T @ w @ e"),
     ),
     Slip(
         "gradient",
         "This is the slope only: P is what tells how far to go.",
-        (DELTA, "delta = -J.T @ W @ r"),
+        (DELTA, "delta = -J.T @ w @ e"),
     ),
     Slip(
         "in-the-targets-directions",
         "δ or P came back in the target's directions. Both are wanted as the robot sees them.",
-        (RETURN, "return np.append(R @ delta[:2], delta[2]), P"),
-        (RETURN, "G = np.eye(3)\n    G[:2, :2] = R\n    return delta, G @ P @ G.T"),
+        (RETURN, "return np.append(Rot @ delta[:2], delta[2]), P"),
+        (RETURN, "G = np.eye(3)\n    G[:2, :2] = Rot\n    return delta, G @ P @ G.T"),
     ),
     Slip(
         "pose-returned",
         "This is the corrected pose: δ alone is asked for.",
-        (RETURN, "return delta + [*t, np.arctan2(R[1, 0], R[0, 0])], P"),
+        (RETURN, "return delta + [*t, np.arctan2(Rot[1, 0], Rot[0, 0])], P"),
     ),
     Slip(
         "no-pairs",
@@ -270,7 +270,7 @@ SLIPS = (
 STUMBLES = (
     Stumble("malformed", (RETURN, "return P, delta"), (RETURN, "return delta")),
     Stumble("malformed", (RETURN, "pass"), (RETURN, "return delta, np.sqrt(np.diag(P))")),
-    Stumble("raised", (P, "P = np.linalg.inv(J @ W @ J.T)")),
+    Stumble("raised", (P, "P = np.linalg.inv(J @ w @ J.T)")),
 )
 
 PASTED = {
@@ -278,10 +278,10 @@ PASTED = {
 def line_step(source, target, normals, sigma, T, Q):
     moved = carry(T, source)
     arm = moved - T[:2, 2]
-    r = np.sum(normals * (moved - target), axis=1)
+    e = np.sum(normals * (moved - target), axis=1)
     J = np.column_stack([normals, arm[:, 0] * normals[:, 1] - arm[:, 1] * normals[:, 0]])
-    P = np.mean(sigma**2) * np.linalg.pinv(J.T @ J) if len(r) else Q
-    return np.linalg.lstsq(J, -r, rcond=None)[0], P
+    P = np.mean(sigma**2) * np.linalg.pinv(J.T @ J) if len(e) else Q
+    return np.linalg.lstsq(J, -e, rcond=None)[0], P
 """,
     "the best motion of the pairs": """
 def line_step(source, target, normals, sigma, T, Q):

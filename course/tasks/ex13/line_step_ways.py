@@ -3,12 +3,12 @@
 WAYS = {
     "odometry as three more rows": """
 def line_step(source, target, normals, sigma, T, Q):
-    r = np.einsum("ki,ki->k", normals, carry(T, source) - target)
+    e = np.einsum("ki,ki->k", normals, carry(T, source) - target)
     seen = normals @ T[:2, :2]
-    J = np.column_stack([seen, np.cross(np.c_[source, 0 * r], np.c_[seen, 0 * r])[:, 2]])
+    J = np.column_stack([seen, np.cross(np.c_[source, 0 * e], np.c_[seen, 0 * e])[:, 2]])
     whitened = np.linalg.inv(np.linalg.cholesky(Q))
     A = np.vstack([J / sigma[:, None], whitened])
-    y = np.concatenate([-r / sigma, np.zeros(3)])
+    y = np.concatenate([-e / sigma, np.zeros(3)])
     return np.linalg.lstsq(A, y, rcond=None)[0], np.linalg.inv(A.T @ A)
 """,
     "pair by pair": """
@@ -24,13 +24,13 @@ def line_step(source, target, normals, sigma, T, Q):
 """,
     "a Kalman update": """
 def line_step(source, target, normals, sigma, T, Q):
-    r = np.sum(normals * (carry(T, source) - target), axis=1)
+    e = np.sum(normals * (carry(T, source) - target), axis=1)
     seen = normals @ T[:2, :2]
     J = np.column_stack([seen, np.sum(seen * source[:, ::-1] * [-1, 1], axis=1)])
     S = J @ Q @ J.T + np.diag(sigma**2)
     K = Q @ J.T @ np.linalg.inv(S)
     I_KJ = np.eye(3) - K @ J
-    return -K @ r, I_KJ @ Q @ I_KJ.T + K @ np.diag(sigma**2) @ K.T
+    return -K @ e, I_KJ @ Q @ I_KJ.T + K @ np.diag(sigma**2) @ K.T
 """,
     "one update a pair": """
 def line_step(source, target, normals, sigma, T, Q):
@@ -38,9 +38,9 @@ def line_step(source, target, normals, sigma, T, Q):
     for k in range(len(source)):
         seen = T[:2, :2].T @ normals[k]
         J = np.append(seen, seen @ [-source[k, 1], source[k, 0]])
-        r = normals[k] @ (carry(T, source[k : k + 1])[0] - target[k]) + J @ delta
+        e = normals[k] @ (carry(T, source[k : k + 1])[0] - target[k]) + J @ delta
         K = P @ J / (J @ P @ J + sigma[k] ** 2)
-        delta, P = delta - K * r, P - np.outer(K, J @ P)
+        delta, P = delta - K * e, P - np.outer(K, J @ P)
     return delta, P
 """,
     "finite differences": """
@@ -50,8 +50,8 @@ def line_step(source, target, normals, sigma, T, Q):
         D = np.array([[c, -s, delta[0]], [s, c, delta[1]], [0, 0, 1]])
         return np.sum(normals * (carry(T @ D, source) - target), axis=1)
 
-    e = 1e-5 * np.eye(3)
-    J = np.column_stack([(distances(d) - distances(-d)) / 2e-5 for d in e])
+    steps = 1e-5 * np.eye(3)
+    J = np.column_stack([(distances(d) - distances(-d)) / 2e-5 for d in steps])
     A = np.linalg.inv(Q) + (J / sigma[:, None] ** 2).T @ J
     delta = np.linalg.solve(A, -J.T @ (distances(np.zeros(3)) / sigma**2))
     return delta.tolist(), np.linalg.inv(A).tolist()
@@ -62,11 +62,11 @@ def line_step(source, target, normals, sigma, T, Q):
     G[:2, :2] = T[:2, :2]  # a shift as the robot sees it, seen from the target
     moved = carry(T, source)
     arm = moved - T[:2, 2]
-    r = np.sum(normals * (moved - target), axis=1) / sigma
+    e = np.sum(normals * (moved - target), axis=1) / sigma
     J = np.column_stack([normals, arm[:, 0] * normals[:, 1] - arm[:, 1] * normals[:, 0]])
     J = J / sigma[:, None]
     A = J.T @ J + np.linalg.inv(G @ Q @ G.T)
-    step = np.linalg.solve(A, -J.T @ r)
+    step = np.linalg.solve(A, -J.T @ e)
     return (G.T @ step, G.T @ np.linalg.inv(A) @ G)
 """,
 }

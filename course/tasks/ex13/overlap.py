@@ -91,10 +91,10 @@ WAYS = {
 """,
 }
 
-CHOICE = "ends.append((np.sum(distances < 0.1), k, R, shift))"
-FINISHED = "R, shift = slid(R, shift, (0.15, 0.12, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1))"
-FIRST = "R, shift = slid(R, shift, (0.5, 0.4, 0.3, 0.25, 0.2))"
-TURNS = "R = turned(2 * np.pi * k / 48)"
+CHOICE = "ends.append((np.sum(distances < 0.1), k, Rot, shift))"
+FINISHED = "Rot, shift = slid(Rot, shift, (0.15, 0.12, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1))"
+FIRST = "Rot, shift = slid(Rot, shift, (0.5, 0.4, 0.3, 0.25, 0.2))"
+TURNS = "Rot = turned(2 * np.pi * k / 48)"
 RETURN = "return T"
 FROM_GUESS = "def match(source, target, T):\n    return {}\n"
 MANY = """
@@ -127,7 +127,7 @@ SLIPS = (
         "decide: judge by those that fit.",
         MANY.format(icp="icp(source, target, start, 15)", cost="distances.mean()"),
         MANY.format(icp=TRIM, cost="distances.mean()"),
-        (CHOICE, "ends.append((-distances.mean(), k, R, shift))"),
+        (CHOICE, "ends.append((-distances.mean(), k, Rot, shift))"),
     ),
     Slip(
         "turns-only",
@@ -150,8 +150,8 @@ SLIPS = (
     Slip(
         "turns-in-degrees",
         "The turns do not go round: radians and degrees are mixed, or the range of turns is too small.",
-        (TURNS, "R = turned(np.radians(2 * np.pi * k / 48))"),
-        (TURNS, "R = turned(np.pi / 4 * (k / 24 - 1))"),
+        (TURNS, "Rot = turned(np.radians(2 * np.pi * k / 48))"),
+        (TURNS, "Rot = turned(np.pi / 4 * (k / 24 - 1))"),
     ),
     Slip(
         "inverted",
@@ -160,16 +160,16 @@ SLIPS = (
     ),
     Slip(
         "mirrored-shift",
-        "R and the shift do not belong together: the shift is that of a source that was turned by R "
+        "Rot and the shift do not belong together: the shift is that of a source that was turned by Rot "
         "before.",
-        ("T[:2, :2], T[:2, 2] = R, shift", "T[:2, :2], T[:2, 2] = R, -shift"),
-        ("T[:2, :2], T[:2, 2] = R, shift", "T[:2, :2], T[:2, 2] = R.T, shift"),
-        ("T[:2, :2], T[:2, 2] = R, shift", "T[:2, :2], T[:2, 2] = R, R @ shift"),
+        ("T[:2, :2], T[:2, 2] = Rot, shift", "T[:2, :2], T[:2, 2] = Rot, -shift"),
+        ("T[:2, :2], T[:2, 2] = Rot, shift", "T[:2, :2], T[:2, 2] = Rot.T, shift"),
+        ("T[:2, :2], T[:2, 2] = Rot, shift", "T[:2, :2], T[:2, 2] = Rot, Rot @ shift"),
     ),
 )
 
 STUMBLES = (
-    Stumble("malformed", (RETURN, "return R, shift"), (RETURN, "return T[:2]"), (RETURN, "pass")),
+    Stumble("malformed", (RETURN, "return Rot, shift"), (RETURN, "return T[:2]"), (RETURN, "pass")),
     Stumble("raised", (RETURN, "return best_motion(source, target[:, 0])")),
 )
 

@@ -20,6 +20,8 @@ from slamlab.models import jacobians, observation
 class FastSLAM:
     """FastSLAM 1.0 (Montemerlo and others): proposal by odometry alone, then importance weights.
 
+    Equation (11.11).
+
     Parameters
     ----------
     rng : numpy.random.Generator

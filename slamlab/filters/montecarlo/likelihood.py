@@ -91,7 +91,7 @@ def of_unassociated_scan(x, p, z, R, clutter=1e-3):
     """Log-likelihood log p(z | x) of a scan of unknown data association, for every pose.
 
     Σ_k log( (1/m) Σ_j N(z_k; h(x, p_j), R_k) + clutter ): each pose has its own association, and
-    clutter, which is no landmark of the map, costs every pose alike.
+    clutter, which is no landmark of the map, costs every pose alike. Equation (11.8), and clutter.
 
     Parameters
     ----------

@@ -12,8 +12,9 @@ from slamlab.filters.montecarlo.particles import RESAMPLING_THRESHOLD, ParticleS
 class MCL:
     """Particle filter of the pose in a known map: algorithm 1, its errata mended.
 
-    Resample, sample the motion, weight by the likelihood alone, normalise. Resampling waits until
-    the effective sample size is below half the particles: each time some are lost for good.
+    Resample, sample the motion, weight by the likelihood alone, normalise: equation (11.3).
+    Resampling waits until the effective sample size is below half the particles: each time some
+    are lost for good.
 
     Parameters
     ----------

@@ -75,6 +75,8 @@ class ParticleSet:
     def reweighted(self, logs):
         """Reweight by a measurement (importance weights): w_i ← w_i exp l_i, normalised.
 
+        Equation (11.5).
+
         Where no particle can explain the measurement (every l_i is −inf) the weights stay.
 
         Parameters

@@ -26,7 +26,7 @@ class SampleSets:
     - the robot starts at the origin for certain, as the map's frame is laid there;
     - an object starts where random poses of the robot would have seen it, had the noise been
       another one, so its set holds the robot's uncertainty and the sensor's;
-    - a likelihood is the mean over ``partners`` random samples (the thesis: one);
+    - a likelihood is the mean over ``partners`` random samples (the thesis: one), equation (11.9);
     - a scan updates the observed sets only, every one from the others' priors;
     - a set is resampled when its effective sample size is below half its samples, and where it has
       not moved it is roughened then, without a change of its mean and covariance;

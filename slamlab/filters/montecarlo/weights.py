@@ -6,7 +6,7 @@ import numpy as np
 def normalise(logs):
     """Normalise log weights (log-sum-exp): w_i = exp(l_i − log Σ exp l_j), sum one.
 
-    Taking the largest out first is what keeps likelihoods of e⁻¹⁰⁰⁰⁰⁰ apart from zero.
+    Equation (11.7). Taking the largest out first keeps likelihoods of e⁻¹⁰⁰⁰⁰⁰ apart from zero.
 
     Parameters
     ----------
@@ -37,6 +37,8 @@ def normalise(logs):
 
 def effective_sample_size(weights):
     """Effective sample size (effective number of particles): 1 / Σ w_i², from 1 to n.
+
+    Equation (11.6).
 
     Parameters
     ----------

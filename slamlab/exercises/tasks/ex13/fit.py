@@ -8,7 +8,7 @@ from slamlab.exercises.task import Probe, Task
 from slamlab.exercises.tasks.ex13 import motions
 from slamlab.exercises.tasks.ex13.motions import carried, either_sign, motion
 
-LINE = 1e-9  # share of |H|² that det H is of points on a line
+LINE = 1e-9  # share of |M|² that det M is of points on a line
 TURN, SHIFT, LAST = np.s_[:2, :2], np.s_[:2, 2], np.s_[2]
 
 
@@ -61,14 +61,14 @@ def want(inputs):
 def _on_the_way(inputs):
     a, b = inputs["source"], inputs["target"]
     p, q = (c - c.mean(axis=1, keepdims=True) for c in (a, b))
-    return {"mean of source": a.mean(axis=1), "mean of target": b.mean(axis=1), "H": p.mT @ q}
+    return {"mean of source": a.mean(axis=1), "mean of target": b.mean(axis=1), "M": p.mT @ q}
 
 
 def _parts(inputs, outputs):
-    """R, t and the last row where H says which way round; on a line rounding alone decides it."""
-    H = _on_the_way(inputs)["H"]
-    T = outputs["result"][np.abs(np.linalg.det(H)) > LINE * np.square(H).sum(axis=(1, 2))]
-    return {"R": T[:, :2, :2], "t": T[:, :2, 2], "last row": T[:, 2]}
+    """Rot, t and the last row where M says which way round; on a line rounding alone decides it."""
+    M = _on_the_way(inputs)["M"]
+    T = outputs["result"][np.abs(np.linalg.det(M)) > LINE * np.square(M).sum(axis=(1, 2))]
+    return {"Rot": T[:, :2, :2], "t": T[:, :2, 2], "last row": T[:, 2]}
 
 
 BEST_MOTION = Task(
@@ -81,10 +81,10 @@ BEST_MOTION = Task(
         equals(
             "turn",
             2,
-            "R is the rotation with the least sum of squares",
+            "Rot is the rotation with the least sum of squares",
             want,
             parts={"result": TURN},
-            asks="Take three points that are only turned by 90°. What are H, U and V, and which "
+            asks="Take three points that are only turned by 90°. What are M, U and V, and which "
             "product of the two turns by +90°?",
             step=_on_the_way,
         ),
@@ -100,7 +100,7 @@ BEST_MOTION = Task(
         equals(
             "mirror",
             1,
-            "R stays the best rotation where a mirror would fit better, or as well",
+            "Rot stays the best rotation where a mirror would fit better, or as well",
             want,
             asks="What is det(V Uᵀ) here? There is one column that costs least to turn over: whose "
             "singular value is the least?",

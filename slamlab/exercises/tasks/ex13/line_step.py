@@ -59,28 +59,28 @@ def _whole(rng):
 
 
 def linearised(inputs):
-    """How far each point is off across its wall r (k, n), and its slopes J (k, n, 3)."""
+    """How far each point is off across its wall e (k, n), and its slopes J (k, n, 3)."""
     T, a, n = inputs["T"], inputs["source"], inputs["normals"]
-    r = np.sum(n * (carried(T, a) - inputs["target"]), axis=-1)
+    e = np.sum(n * (carried(T, a) - inputs["target"]), axis=-1)
     seen = n @ T[:, :2, :2]  # the normals as the robot sees them
     lever = a[..., 0] * seen[..., 1] - a[..., 1] * seen[..., 0]
-    return r, np.concatenate([seen, lever[..., None]], axis=-1)
+    return e, np.concatenate([seen, lever[..., None]], axis=-1)
 
 
 def want(inputs):
     """The least squares of walls and odometry together, stacked and solved without a JᵀJ."""
-    r, J = linearised(inputs)
-    W = np.linalg.inv(np.linalg.cholesky(inputs["Q"]))  # whitens the guess's error
-    rows = np.concatenate([J / inputs["sigma"][..., None], W], axis=1)
-    wanted = np.concatenate([-r / inputs["sigma"], np.zeros((len(r), 3))], axis=1)
+    e, J = linearised(inputs)
+    whitening = np.linalg.inv(np.linalg.cholesky(inputs["Q"]))  # of the guess's error
+    rows = np.concatenate([J / inputs["sigma"][..., None], whitening], axis=1)
+    wanted = np.concatenate([-e / inputs["sigma"], np.zeros((len(e), 3))], axis=1)
     q, upper = np.linalg.qr(rows)
     back = np.linalg.inv(upper)
     return {"delta": (back @ (q.mT @ wanted[..., None]))[..., 0], "P": back @ back.mT}
 
 
 def _on_the_way(inputs):
-    r, J = linearised(inputs)
-    return {"r": r, "J": J}
+    e, J = linearised(inputs)
+    return {"e": e, "J": J}
 
 
 LINE_STEP = Task(

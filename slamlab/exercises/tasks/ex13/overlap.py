@@ -14,8 +14,8 @@ RIGID = 1e-6  # what a motion's matrix may be off its own
 def within(inputs, outputs, limits):
     """(n,) bool, whether each answer is a motion and near the true one."""
     T = outputs["result"]
-    R = T[:, :2, :2]
-    rigid = (np.abs(R @ R.mT - np.eye(2)).max(axis=(1, 2)) < RIGID) & (np.linalg.det(R) > 0)
+    Rot = T[:, :2, :2]
+    rigid = (np.abs(Rot @ Rot.mT - np.eye(2)).max(axis=(1, 2)) < RIGID) & (np.linalg.det(Rot) > 0)
     rigid &= np.abs(T[:, 2] - [0, 0, 1]).max(axis=1) < RIGID
     way, turn = offs(inputs, T)
     return rigid & (way < limits[0]) & (turn < limits[1])

@@ -1,0 +1,88 @@
+"""Lesson 11: samples in a room and on a rail, sets that are kept apart, and the stored table."""
+
+import numpy as np
+import pytest
+
+from slamlab.estimators.dead_reckoning import DeadReckoning
+from slamlab.estimators.mak_slam import MakSlam
+from slamlab.filters.montecarlo.particles import ParticleSet
+from slamlab.sources.landmark_runs import LandmarkRun, Loop
+from slamlab.studies import sampled_rail as rail
+from slamlab.studies import sets_apart
+from slamlab.studies.sampled_room import MAP, NEAR, evidence, film, look, near
+from slamlab.studies.samples import main
+from slamlab.studies.study_command import stored
+
+
+def test_a_drive_is_the_same_whatever_follows_it():
+    drives = [film(n, 3, 30, 9.0, strangers, carried=12) for n, strangers in ((20, 0), (300, 9))]
+    truths = [np.array([truth for _, truth in pictures]) for pictures in drives]
+    np.testing.assert_array_equal(*truths)
+    jumps = np.hypot(*np.diff(truths[0][:, :2], axis=0).T)
+    assert jumps[12] > 2
+    assert np.delete(jumps, 12).max() < 0.3
+
+
+def test_the_looks_hardly_tell_a_place_from_the_opposite_one():
+    assert 0.8 < np.median([evidence(seed, 10) for seed in range(40)]) < 1.5
+
+
+def test_the_post_is_seen_from_near_by_only():
+    rng, beside = np.random.default_rng(0), np.array([*MAP[4] - [0.9, 0], 0.0])
+    assert [len(look(beside, rng, reach)) for reach in (0.5, 1.2)] == [len(MAP) - 1, len(MAP)]
+
+
+def test_near_is_the_weight_within_reach():
+    rows = np.array([[0, 0, 0], [NEAR - 0.01, 0, 3], [0, NEAR + 0.01, 0]])
+    assert near(ParticleSet(rows, np.array([0.5, 0.3, 0.2])), [0, 0, 1]) == pytest.approx(0.8)
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_on_a_rail_the_cloud_is_the_kalman_filter_and_a_drive_that_counts_twice_halves_its_noise(
+    seed,
+):
+    zs = rail.measured(seed)
+    right, twice, largest = (
+        rail.by_samples(zs, np.random.default_rng(2), 40_000, rule)
+        for rule in (rail.RIGHT, rail.TWICE, rail.LARGEST)
+    )
+    np.testing.assert_allclose(right, rail.by_kalman(zs), atol=0.02)
+    np.testing.assert_allclose(twice, rail.by_kalman(zs, rail.Q / 2), atol=0.02)
+    assert right[1] - twice[1] > 0.02
+    assert largest[1] < twice[1]
+
+
+def test_a_set_drawn_anew_walks_as_far_as_theory_says():
+    n, steps, sigma = 50, 40, 0.1
+    walked, claimed = sets_apart.drawn_anew(n, steps, sigma, np.random.default_rng(3), sets=3000)
+    kept = (1 - 1 / n) ** np.arange(1, steps + 1)
+    start = 2 * sigma**2 * (1 - 1 / n)  # of n draws, by n
+    np.testing.assert_allclose(walked, np.sqrt(start * (1 - kept)), rtol=0.06)
+    np.testing.assert_allclose(claimed, np.sqrt(start * kept), rtol=0.03)
+
+
+def test_without_noise_nobody_is_off_and_odometry_claims_nothing():
+    quiet = Loop(steps=12, v_sigma=0, omega_sigma=0, range_sigma=1e-9, bearing_sigma=1e-9)
+    run = LandmarkRun(quiet, np.random.default_rng(0))
+    rms, outside = sets_apart.judged(run, DeadReckoning())
+    assert rms < 1e-12
+    assert np.isnan(outside)
+    assert sets_apart.judged(run, MakSlam(run.robot, run.sensor)) == pytest.approx((0, 0), abs=1e-6)
+
+
+def test_the_command_refuses_too_few_runs(capsys, tmp_path):
+    assert main(["--runs", "3", "--out", str(tmp_path / "x.json")]) == 2
+    assert "at least 6" in capsys.readouterr().err
+
+
+def test_the_stored_table_says_what_the_lesson_says():
+    table = stored("samples")
+    found, maps = table["found"], table["maps"]
+    assert table["runs"] >= 50
+    assert found["5000"][1] > found["200"][2]  # intervals apart: many samples find more robots
+    assert table["strangers"]["50"]["found"][1] > table["strangers"]["0"]["found"][2]
+    outside = {name: row["outside"] for name, row in maps.items() if "outside" in row}
+    assert outside[sets_apart.EKF][2] < 0.1  # the EKF is honest, the sets are far too sure
+    assert outside[sets_apart.SETS][1] > 0.5
+    assert outside["FastSLAM, 1000"][2] < outside["FastSLAM, 100"][1]
+    assert maps[sets_apart.SETS]["against odometry"][2] < 0
