@@ -21,11 +21,9 @@
 # Good for a poll: the first question, the one on the far landmark, and the one on dropping.
 
 # %% slideshow={"slide_type": "skip"} tags=["folded"]
-import json
 from copy import deepcopy
 from dataclasses import replace
 from functools import cache
-from importlib.resources import files
 from itertools import pairwise
 from time import perf_counter
 
@@ -44,6 +42,7 @@ from slamlab.layers import Points, Poses
 from slamlab.sources.landmark_runs import LandmarkRun, Loop
 from slamlab.studies import forgetting, observability, shared_errors, two_halves
 from slamlab.studies.consistency import errors_of
+from slamlab.studies.study_command import stored
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=4
 # ## Two landmarks, two sightings
@@ -960,10 +959,9 @@ for name, first_estimates in (("standard", False), ("first estimates", True)):
 # beforehand, with good wheels and with noisy ones (`python -m slamlab.studies.consistency`).
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-folder = files("slamlab") / "data" / "studies"
 lines = ["| wheels | filter | NEES | steps above band | heading | landmarks |", "|---" * 6 + "|"]
-for wheels, file in (("good", "consistency.json"), ("noisy", "consistency-noisy.json")):
-    study = json.loads((folder / file).read_text(encoding="utf-8"))
+for wheels, table in (("good", "consistency"), ("noisy", "consistency-noisy")):
+    study = stored(table)
     for name, row in study["filters"].items():
         lines.append(
             f"| {wheels} | {name} | {row['nees']:.2f} ± {row['nees_standard_error']:.2f} "

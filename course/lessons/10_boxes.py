@@ -18,7 +18,6 @@
 # For a poll: the questions on the overlap, on the bent hook, on the drive, and on who is nearest.
 
 # %% slideshow={"slide_type": "skip"} tags=["folded"]
-import json
 import textwrap
 from dataclasses import replace
 from timeit import repeat
@@ -44,6 +43,7 @@ from slamlab.sources.landmark_runs import LandmarkRun, Loop
 from slamlab.studies import boxes as study
 from slamlab.studies.boxes import inside
 from slamlab.studies.broken_bounds import cut_off, objects_made, one_bad_range, race
+from slamlab.studies.study_command import stored
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=4
 # ## A bound is a promise
@@ -588,7 +588,7 @@ for name in ("steps", "outside", "empty"):
 # course. You can run it again, with the command that the next cell prints:
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-table = json.loads(study.TABLE.read_text())
+table = stored("boxes")
 assert table["command"].startswith(f"python -m {study.__name__} "), "the command must be there"
 print(table["command"].split(" --jobs")[0])
 print({name: table["counted"][name] for name in ("steps", "sightings", "outside", "empty")})

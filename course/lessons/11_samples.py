@@ -17,7 +17,7 @@
 # and "A room of two places". For a poll: the questions on the corners, on fewer samples, on the unlikely drive, on
 # the better sensor, and on the object that nobody sees.
 
-# %% slideshow={"slide_type": "skip"}
+# %% slideshow={"slide_type": "skip"} tags=["folded"]
 from functools import cache
 
 import numpy as np
@@ -77,7 +77,7 @@ ask(
 # First we watch it.
 
 
-# %% slideshow={"slide_type": "subslide"} answers="11-where"
+# %% slideshow={"slide_type": "subslide"} answers="11-where" tags=["folded"]
 def scene(cloud, truth, title):
     """The room, at most 1500 of the samples, and a Gaussian of the same mean and covariance."""
     some, b = slice(None, None, len(cloud.rows) // 1500 + 1), cloud.moments
@@ -230,7 +230,7 @@ def driven(heading_sigma, samples):
     return ends, P, share
 
 
-# %% slideshow={"slide_type": "fragment"} answers="11-banana"
+# %% slideshow={"slide_type": "fragment"} answers="11-banana" tags=["folded"]
 def banana(heading_sigma, samples):
     ends, P, share = driven(heading_sigma, samples)
     title = f"the ellipse holds {share:.0%} of the samples"
@@ -314,7 +314,7 @@ sp.factor(story["12"] + story["22"]) / total
 # before we use it.
 
 
-# %% slideshow={"slide_type": "subslide"}
+# %% slideshow={"slide_type": "subslide"} tags=["folded"]
 def on_a_line(drawn_mean, drawn_sigma):
     x = np.random.default_rng(1).normal(drawn_mean, drawn_sigma, 60)
     w = norm.pdf(x, 0, 1) / norm.pdf(x, drawn_mean, drawn_sigma)
@@ -428,7 +428,7 @@ def weighed(range_sigma, samples):
     return ParticleSet(rows, normalise(logs)[0]), mark
 
 
-# %% slideshow={"slide_type": "fragment"} answers="11-worth"
+# %% slideshow={"slide_type": "fragment"} answers="11-worth" tags=["folded"]
 def worth(range_sigma, samples):
     cloud, mark = weighed(range_sigma, samples)
     layers = {"samples, area by weight": Samples("sample", cloud.rows, cloud.weights)}
@@ -597,7 +597,7 @@ ask(
 )
 
 
-# %% slideshow={"slide_type": "subslide"} answers="11-carried"
+# %% slideshow={"slide_type": "subslide"} answers="11-carried" tags=["folded"]
 @cache
 def errors_of(strangers, seed):
     """How far the cloud's mean is off, after each of 60 steps."""
@@ -712,7 +712,7 @@ misses = slam.filter.landmarks()[rows] - lap.landmarks[list(slam.filter.frozen)]
 beside = np.hypot(*misses.T).mean()
 
 
-# %% slideshow={"slide_type": "fragment"}
+# %% slideshow={"slide_type": "fragment"} tags=["folded"]
 def sets_after(readings):
     names = "sets of objects", "frozen objects", "believed way", "set of the robot"
     layers = {"true way": Poses("truth", lap.truth.poses[: readings + 1])}
@@ -791,7 +791,7 @@ for name, places in {"as they were made": seen, "random partners": rng.permutati
 # they (the root mean square of the position's error along the way, the absolute trajectory error), and how often is
 # the true pose outside of the region that should hold it 95 times in 100?
 
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="11-forget"
+# %% slideshow={"slide_type": "fragment"} tags=["folded", "nbval-check-output"] answers="11-forget"
 maps = many["maps"]
 
 
@@ -840,7 +840,7 @@ ask(
 )
 
 
-# %% slideshow={"slide_type": "subslide"} answers="11-unseen"
+# %% slideshow={"slide_type": "subslide"} answers="11-unseen" tags=["folded"]
 @cache
 def unseen(samples):
     return sets_apart.drawn_anew(samples, 300, 0.1, np.random.default_rng(14))

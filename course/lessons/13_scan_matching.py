@@ -18,7 +18,7 @@
 # "When to stop" and "Four places, one map". For a poll: the questions on what can grow, on poses that are right
 # already, on the wall ahead, and on the corridor.
 
-# %% slideshow={"slide_type": "skip"}
+# %% slideshow={"slide_type": "skip"} tags=["folded"]
 from dataclasses import replace
 
 import numpy as np
@@ -301,7 +301,7 @@ def watch(round, heading_off):
     return views.overlay(first, transform(now.pose, second), now.pairs, title, (8, 5))[0]
 
 
-# %% slideshow={"slide_type": "fragment"}
+# %% slideshow={"slide_type": "fragment"} tags=["folded"]
 views.explore(
     watch,
     lambda round, heading_off: (
@@ -319,7 +319,7 @@ shift, turn = 1 - np.divide(off(watched.history[1].pose), off(guess))
 # heading. Along a wall, a point's nearest partner is *beside* it, and not where it came from. The pairs pull the walls
 # together, but they hold them back from sliding into place.
 
-# %% slideshow={"slide_type": "subslide"}
+# %% slideshow={"slide_type": "subslide"} tags=["folded"]
 errors = np.array([off(look.pose) for look in watched.history])
 lines = {
     "mean length of the pairs [mm]": 1000 * np.array([look.error for look in watched.history]),
@@ -418,7 +418,7 @@ print(f"at most {early.max():.0f} mm before it")
 # the step, and put the pose together from all matches so far. Beside it runs the pose by odometry alone.
 
 
-# %% slideshow={"slide_type": "skip"}
+# %% slideshow={"slide_type": "skip"} tags=["folded"]
 def walk(source, matcher):
     """Poses (n, 3) by odometry alone and by matching, and the scans."""
     naive, corrected, scans = [np.zeros(3)], [np.zeros(3)], []
@@ -451,7 +451,7 @@ def maps_of(source, matcher):
     return views.side_by_side(shown, size=(10, 4.6))[0], ends
 
 
-# %% slideshow={"slide_type": "subslide"}
+# %% slideshow={"slide_type": "subslide"} tags=["folded"]
 fig, by_wrong = maps_of(simulation("polygon-wrong", np.random.default_rng(1)), point_to_point)
 views.show(
     fig,
@@ -530,7 +530,7 @@ def fans(share_kept, heading_off):
     return views.overlay(half[0], transform(end.pose, half[1]), end.pairs, title, (8, 5))[0]
 
 
-# %% slideshow={"slide_type": "fragment"} answers="13-new-quarter"
+# %% slideshow={"slide_type": "fragment"} answers="13-new-quarter" tags=["folded"]
 views.explore(
     fans,
     lambda share_kept, heading_off: (
@@ -665,7 +665,7 @@ for name, matcher in METHODS.items():
     looks = matcher(second, first, guess, history=True).history[:21]
     turned[name] = np.pad([off(look.pose)[1] for look in looks], (0, 21 - len(looks)), "edge")
 
-# %% slideshow={"slide_type": "subslide"}
+# %% slideshow={"slide_type": "subslide"} tags=["folded"]
 fig, ax = views.curves(np.arange(21), turned, "round", "heading off [°]", size=(8, 4.2))
 ax.set_yscale("log")
 views.legend(ax)
@@ -743,7 +743,7 @@ def fan_of(method, share_kept, metres_off):
     return tracks
 
 
-# %% slideshow={"slide_type": "subslide"}
+# %% slideshow={"slide_type": "subslide"} tags=["folded"]
 def fan(method, share_kept, metres_off):
     tracks = fan_of(method, share_kept, metres_off)
     title = f"{sum(came for _, came in tracks)} of {len(tracks)} come home"
@@ -757,7 +757,7 @@ def fan(method, share_kept, metres_off):
     return fig
 
 
-# %% slideshow={"slide_type": "fragment"}
+# %% slideshow={"slide_type": "fragment"} tags=["folded"]
 views.explore(
     fan,
     lambda method, share_kept, metres_off: (
@@ -806,7 +806,7 @@ def share_home(matcher, degrees, metres, rng, tries=3):
     return np.mean(came)
 
 
-# %% slideshow={"slide_type": "subslide"} answers="13-basin"
+# %% slideshow={"slide_type": "subslide"} answers="13-basin" tags=["folded"]
 basins = {}
 for name in ("point to point", "point to line", "match"):
     rng, matcher = np.random.default_rng(0), (METHODS | {"match": match})[name]  # same guesses
@@ -883,7 +883,7 @@ def two_looks(walls, rng):
 rng, furnished = np.random.default_rng(0), np.vstack([corridor, cupboard])
 hundred = [match(*two_looks(furnished, rng), [0.2, 0, 0.3]) for _ in range(100)]
 
-# %% slideshow={"slide_type": "subslide"}
+# %% slideshow={"slide_type": "subslide"} tags=["folded"]
 errors = np.array([m.pose for m in hundred]) - moved_by
 told_by_one = hundred[0].covariance * 1e6
 claims = {"told by the first match": told_by_one, "of the hundred": 1e6 * np.cov(errors.T)}
@@ -945,7 +945,7 @@ for way, m in zip((0, 60), slid, strict=True):
     print(f"odometry says {way:2} cm: {100 * along:.0f} cm off along, {100 * aside:.0f} cm across")
     print(f"                       {m.verdict}")
 
-# %% slideshow={"slide_type": "subslide"} answers="13-corridor"
+# %% slideshow={"slide_type": "subslide"} answers="13-corridor" tags=["folded"]
 shown = {
     f"odometry says {way} cm": [
         Points("map", bare[1]),
@@ -994,7 +994,7 @@ for name, m in {"with the cupboard": hundred[0], "bare": slid[0]}.items():
 # before, once by plain ICP, and once across walls, with gates and weights. The log is not ours to give away, but its map
 # and the errors are kept with the course.
 
-# %% slideshow={"slide_type": "subslide"}
+# %% slideshow={"slide_type": "subslide"} tags=["folded"]
 intel = intel_maps.stored()
 fig, _ = views.side_by_side(
     {"Intel Research Lab, estimator icp": [Points("map", intel.points["icp"])]}, size=(8, 5.6)
@@ -1135,7 +1135,7 @@ print(f"{mirrors.sum()} of {len(mirrors)} are mirrors")
 # What would a mirror do? We take one of these pairs of looks. The best mirror is the best rotation of a source that we turned inside out
 # before. Beside the wall a chest of drawers stands to the left, and both fits carry it along.
 
-# %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"] answers="13-mirror"
+# %% slideshow={"slide_type": "subslide"} tags=["folded", "nbval-check-output"] answers="13-mirror"
 old, new = pairs_of_looks[np.flatnonzero(mirrors)[0]]
 things = np.vstack([ring([(-0.15, 0), (0.15, 0), (0, 0.35)]), box((-0.7, 0.6), (0.4, 0.25))])
 fig, ax = views.axes(None, size=(8, 4.6))
@@ -1191,7 +1191,7 @@ print("a thousand random clouds never differ by more than 1e-12 rad:", most < 1e
 # | `slam.py` | a scan of fewer than three points clears the previous one | keep it | the next motion is lost |
 
 
-# %% slideshow={"slide_type": "subslide"}
+# %% slideshow={"slide_type": "subslide"} tags=["code"]
 def as_printed(source, matcher):
     """Tuček's add_new_scan and calculate_transformation, in their own logic."""
     points, previous, current = None, None, np.zeros(3)
@@ -1217,7 +1217,7 @@ poses = {"truth": run.truth.poses[-1], "mended": mended[-1], "as printed": print
 for name, pose in (poses | {"and one empty scan": cleared}).items():
     print(f"{name:>18}: {pose[0]:.2f} m, {pose[1]:.2f} m, {np.degrees(pose[2]):.0f}°")
 
-# %% slideshow={"slide_type": "subslide"}
+# %% slideshow={"slide_type": "subslide"} tags=["folded"]
 shown = {
     "as printed": [Points("naive", printed_map), Poses("robot", [printed])],
     "mended": laid("corrected", mended, [scan for scan, _ in scans]),

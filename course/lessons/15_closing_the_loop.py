@@ -18,7 +18,7 @@
 # short, leave out "A map that changes its mind". For a poll: the questions on the ends, on the sides of the
 # square, on the error half way, and on five liars.
 
-# %% slideshow={"slide_type": "skip"}
+# %% slideshow={"slide_type": "skip"} tags=["folded"]
 from copy import deepcopy
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -92,7 +92,7 @@ def laid(poses, clouds, name="corrected"):
     return {f"scans, {words}": Points(name, np.vstack(xy)), f"track, {words}": Poses(name, poses)}
 
 
-# %% slideshow={"slide_type": "fragment"} answers="15-ends"
+# %% slideshow={"slide_type": "fragment"} answers="15-ends" tags=["folded"]
 some = slice(0, None, 4)
 clouds = [reading.scan.points() for reading in readings[some]]
 shown = {
@@ -169,7 +169,7 @@ ask(
 )
 
 
-# %% slideshow={"slide_type": "subslide"} answers="15-push"
+# %% slideshow={"slide_type": "subslide"} answers="15-push" tags=["folded"]
 def an_edge(turn_of_pose_i, push_of_pose_j):
     x_i, z = np.array([0, 0, np.radians(30 + turn_of_pose_i)]), np.array([2.0, 0.3, np.pi / 3])
     there = compose(np.array([0, 0, np.pi / 6]), z)  # where pose j is when nothing is moved
@@ -319,7 +319,7 @@ for turn, (wrong, right) in nees.items():
     print(f"{turn:3d}° {wrong:12.1f} {right:12.1f}")
 
 
-# %% slideshow={"slide_type": "subslide"} answers="15-frame"
+# %% slideshow={"slide_type": "subslide"} answers="15-frame" tags=["folded"]
 def errors_and_claims(turn):
     each = matches[turn]
     claims = {"95 % by R": ("naive", each.R), "95 % by (15.7)": ("corrected", each.of_e())}
@@ -525,7 +525,7 @@ for name, graph in {"wheels": chain, "with one loop": closed}.items():
 print(f"χ² = {optimum.chi2:.0f}, with 3 numbers more than unknowns")
 
 
-# %% slideshow={"slide_type": "subslide"} answers="15-halfway"
+# %% slideshow={"slide_type": "subslide"} answers="15-halfway" tags=["folded"]
 def watched(pose, loop_is_known):
     """Wheels up to a pose, and the graph, which learns of the loop at the last one."""
     shown = {}
@@ -599,7 +599,7 @@ for name, m in found.items():
     verified = loops.is_verified(m, *pairs[name])
     print(f"{name}: on old walls {share:.0%}, fixed {fixed} of 3, verified {verified}; {m.verdict}")
 
-# %% slideshow={"slide_type": "subslide"}
+# %% slideshow={"slide_type": "subslide"} tags=["folded"]
 shown = {
     name: {"old scan": Points("map", old.points)}
     | {"new scan": Points("scan", transform(found[name].pose, new.points))}
@@ -684,7 +684,7 @@ for name, slam in systems.items():
     off_by = twins.worst(slam.graph.poses)
     print(f"{name}: {refused} refused, {bad} false let in, {off_by:.2f} m off at worst")
 
-# %% slideshow={"slide_type": "subslide"}
+# %% slideshow={"slide_type": "subslide"} tags=["folded"]
 shown = {}
 for name, slam in systems.items():
     tied = Segments("loop", false_loops.ends(slam.graph))
@@ -938,7 +938,7 @@ for world in laps:
         grid.add(pose, scan)
         piled.append(transform(pose, scan.points()[::3]))
 
-# %% slideshow={"slide_type": "subslide"}
+# %% slideshow={"slide_type": "subslide"} tags=["folded"]
 shown = {
     "points of both laps": {"points": Points("scan", np.vstack(piled))},
     "grid after both laps": {"occupied": grid.layer()},
@@ -971,7 +971,7 @@ print("read again, the same cells:", bool((again.states == grid.states).all()))
 # Intel Research Lab, several laps, raw odometry. The matcher's map had many walls twice. The recording is not part of the course, so
 # these maps were computed before and are stored; everything else in this lesson is simulated.
 
-# %% slideshow={"slide_type": "subslide"}
+# %% slideshow={"slide_type": "subslide"} tags=["folded"]
 intel = intel_maps.stored()
 closed_map = {"scans": Points("corrected", intel.points["graph"])}
 shown = {
