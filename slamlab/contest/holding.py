@@ -10,6 +10,7 @@ import numpy as np
 from slamlab.contest import commitment, scoreboard
 from slamlab.contest.class_judging import Course, entrants, judge_class
 from slamlab.contest.commitment import ContestError
+from slamlab.contest.ladder import LADDER, climb
 from slamlab.contest.pseudonyms import pseudonyms
 from slamlab.grading.records import write_atomically
 from slamlab.grading.submissions import SubmissionError
@@ -38,7 +39,7 @@ def draw_arenas(contest):
 
 
 def hold_contest(contest, found, out, prepared, workers, *, jobs=1, names=False, again=None,
-                 told=None):  # fmt: skip
+                 stays_open=False, told=None):  # fmt: skip
     """Judge a class, and write the board.
 
     Parameters
@@ -51,6 +52,7 @@ def hold_contest(contest, found, out, prepared, workers, *, jobs=1, names=False,
     jobs : int, students judged at once
     names : bool, whether names are shown instead of pseudonyms
     again : Path or None, the board's folder of the same contest, judged before
+    stays_open : bool, whether more may be handed in: then scores show by the ladder, and no more
     told : callable that is given a submission's name after each of its worlds, or None
 
     Returns
@@ -67,11 +69,15 @@ def hold_contest(contest, found, out, prepared, workers, *, jobs=1, names=False,
         raise SubmissionError("there is no notebook to be judged")
     revealed = out / BOARD / commitment.REVEALED
     over = revealed.exists() and again is None
+    if over and stays_open:
+        raise ContestError(f"this contest is over: {revealed} tells its bits")
     carried = late_points(again, contest) if again else {}
     budget = partial(Budget, *[np.inf] * 4) if again else partial(Budget, **contest.budget)
     course = Course(prepared, out / DRIVES, budget, over, carried)
     entries = list(judge_class(found, course, workers, jobs, told))
     shown = _names(out, [entry.student for entry in entries], names)
+    if stays_open:
+        return _open_board(contest, entries, out, shown)
     rows, marks = scoreboard.rank(entries, shown, prepared)
     unjudged = sorted((shown[e.student], e.reason) for e in entries if e.reason is not None)
     scoreboard.write_board(out / BOARD, rows, marks, prepared, contest, unjudged)
@@ -84,6 +90,21 @@ def hold_contest(contest, found, out, prepared, workers, *, jobs=1, names=False,
     write_atomically(revealed, contest.text)
     write_atomically(out / BOARD / commitment.COMMITMENT, commitment.commitment_text(contest))
     return said + (_compared(entries, again, contest) if again else [])
+
+
+def _open_board(contest, entries, out, names):
+    """Write the board of a contest that is open; what there is to tell."""
+    points = {
+        entry.student: np.reshape([r.points for r in entry.results], (-1, contest.worlds))
+        for entry in entries
+        if entry.reason is None
+    }
+    scores = climb(out / LADDER, points)
+    known = {names[student]: score for student, score in scores.items() if student in names}
+    scoreboard.write_open_board(out / BOARD, known, contest)
+    said = [f"{len(points)} judged, {len(entries) - len(points)} not: {out / BOARD / 'index.html'}"]
+    said += [f"{e.student}: {e.reason}" for e in entries if e.reason is not None]
+    return [*said, "the contest is open: nothing is revealed until it is judged without --open"]
 
 
 def contest_again(folder):

@@ -12,6 +12,7 @@ import jinja2
 import numpy as np
 
 from slamlab.contest.class_judging import Entry
+from slamlab.contest.ladder import STEP
 from slamlab.contest.moments import BAND, WAY, first_moment
 from slamlab.contest.pictures import film_page, map_picture
 from slamlab.contest.ranking import LEVEL, Standing, standings
@@ -109,6 +110,21 @@ def write_board(out, rows, marks, arenas, contest, unjudged):
     remove_tree(out / "students")  # whose names may have been other ones
     for row in rows:
         write_student_page(out, row, arenas, families)
+
+
+def write_open_board(out, shown, contest):
+    """Write the board of a contest that is open: names and the scores that show, and no more.
+
+    Parameters
+    ----------
+    out : Path
+    shown : dict, name to score
+    contest : Contest
+    """
+    rows = sorted(shown.items(), key=lambda row: (-row[1], row[0]))
+    known = {"rows": rows, "contest": contest, "level": LEVEL, "step": STEP}
+    write_atomically(out / "index.html", TEMPLATES.get_template("open_board.html").render(known))
+    write_table(out / "board.csv", [["name", "score"], *([n, str(score)] for n, score in rows)])
 
 
 def write_student_page(out, row, arenas, families):

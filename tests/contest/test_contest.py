@@ -226,3 +226,27 @@ def test_wrong_use_is_told_in_a_line(tmp_path, words, told, capsys):
     words = [word.format(tmp=tmp_path) for word in words]
     assert main(["contest", *words, "--out", str(tmp_path / "out")]) == 2
     assert told in capsys.readouterr().err
+
+
+def test_while_it_is_open_only_scores_leave_and_then_it_closes(held, tmp_path):
+    shutil.copytree(held.out / "drives", tmp_path / "drives")
+    keep = {"workers": NOBODY, "prepared": held.arenas, "out": tmp_path}
+    found = [s for s in held.found if s.name != "fox.ipynb"]
+    said = holding.hold_contest(held.contest, found, stays_open=True, **keep)
+    board = tmp_path / "board"
+    assert {path.name for path in board.rglob("*")} == {"index.html", "board.csv"}
+    given = json.loads((tmp_path / holding.PSEUDONYMS).read_text())
+    shown = {row["name"]: row for row in rows(board)}
+    assert set(shown[given["ada"]]) == {"name", "score"}
+    assert int(shown[given["ada"]]["score"]) > 50
+    assert shown[given["bob"]]["score"] == shown[given["cem"]]["score"] == "0"
+    text = (board / "index.html").read_text("utf-8")
+    assert held.contest.commitment in text
+    assert held.contest.seed not in text
+    assert "ValueError" not in text
+    assert "open" in said[-1]
+    holding.hold_contest(held.contest, found, **keep)
+    assert (board / commitment.REVEALED).exists()
+    assert len(rows(board, "worlds.csv")) == 9
+    with pytest.raises(commitment.ContestError, match="is over"):
+        holding.hold_contest(held.contest, found, stays_open=True, **keep)
