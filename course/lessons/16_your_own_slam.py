@@ -77,29 +77,39 @@ def with_one_wrong_turn(at, degrees):
 
 
 # %% slideshow={"slide_type": "fragment"} answers="16-once"
+def two_measures(poses):
+    """Mean distance from the truth, and mean error of pieces 5 m long [m]."""
+    away = np.hypot(*(poses - truth)[:, :2].T)
+    return away.mean(), relative_errors(poses, truth, metres, 5.0).mean()
+
+
+# %% slideshow={"slide_type": "fragment"} answers="16-once"
 def one_wrong_turn(at, degrees):
     poses = with_one_wrong_turn(at, degrees)
-    away = np.hypot(*(poses - truth)[:, :2].T).mean()
-    e = relative_errors(poses, truth, metres, 5.0).mean()
+    away, e = two_measures(poses)
     title = f"mean distance from the truth {away:.2f} m; mean error of pieces 5 m long {e:.3f} m"
     shown = [walls, Poses("truth", truth), Poses("corrected", poses)]
     fig, _ = views.side_by_side({title: shown}, size=(9, 5))
     return fig
 
 
+# %% slideshow={"slide_type": "fragment"} answers="16-once"
 views.explore(
     one_wrong_turn,
     lambda at, degrees: (
         f"A floor plan with the true way and an estimate that turns away from it by {degrees}° at "
         f"reading {at} and stays at that angle."
     ),
-    at=(1, len(truth) - 10, 1),
+    at=(8, len(truth) - 18, 8),
     degrees=(-20, 20, 10),
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="16-once"
-# Move `at`: the mean distance from the truth falls from far to nothing as the mistake moves towards the end.
-# The other number, which we define next, hardly changes, as it should.
+# Move `at`: as the mistake of 10° moves towards the end, the mean distance from the truth falls from
+# {= two_measures(with_one_wrong_turn(8, 10))[0]:.2f =} m to
+# {= two_measures(with_one_wrong_turn(len(truth) - 18, 10))[0]:.2f =} m. The other number, which we define next,
+# stays near {= np.mean([two_measures(with_one_wrong_turn(k, 10))[1] for k in range(8, len(truth) - 18)]):.2f =} m,
+# wherever the mistake is made.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Relations
@@ -151,25 +161,21 @@ ask(
 
 
 # %% slideshow={"slide_type": "subslide"} answers="16-lengths"
-def mean_errors(name, lengths):
-    """Mean relative error over each length, mean of all buildings [m]."""
-    return np.mean(
-        [
-            [
-                relative_errors(
-                    own[name].trajectory, a.world.truth.poses, a.world.metres, way
-                ).mean()
-                for way in lengths
-            ]
-            for a, own in zip(arenas, drives, strict=True)
-        ],
-        axis=0,
-    )
+def errors_over(way, name):
+    """Mean relative error over a length, in each building (k,) [m]."""
+    found = []
+    for arena, own in zip(arenas, drives, strict=True):
+        poses, true = own[name].trajectory, arena.world.truth.poses
+        found.append(relative_errors(poses, true, arena.world.metres, way).mean())
+    return np.array(found)
 
 
 # %% slideshow={"slide_type": "fragment"} answers="16-lengths"
 lengths = np.array([0.5, 1, 2, 5, 10, 20])
-errors = {name: mean_errors(name, lengths) for name in ("graph", "odometry", "icp", "no loops")}
+errors = {
+    name: np.array([errors_over(way, name).mean() for way in lengths])
+    for name in ("graph", "odometry", "icp", "no loops")
+}
 fig, ax = views.curves(lengths, errors, "length of the pieces [m]", "mean error [m]", size=(9, 4.4))
 ax.set(xscale="log", yscale="log", xticks=lengths, xticklabels=[f"{way:g}" for way in lengths])
 views.legend(ax, loc="upper left")
@@ -213,17 +219,20 @@ ask(
     right="about 0.3",
 )
 
-# %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"] answers="16-map"
+# %% slideshow={"slide_type": "subslide"} answers="16-map"
 seen, all_walls = arenas[0].walls
 low, high = all_walls.min(axis=0), all_walls.max(axis=0)
 full = np.stack(np.meshgrid(*(np.arange(a, b, 0.05) for a, b in zip(low, high, strict=True))), -1)
 graph = drives[0]["graph"]
+
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="16-map"
 maps = {
     "the walls themselves": seen,
     "the walls, 10 cm beside": seen + np.array([0.1, 0.0]),
     "a point everywhere": full.reshape(-1, 2),
     "graph, laid on the truth": compose(
-        aligned(graph.trajectory, arenas[0].world.truth.poses), np.pad(graph.points, ((0, 0), (0, 1)))
+        aligned(graph.trajectory, arenas[0].world.truth.poses),
+        np.pad(graph.points, ((0, 0), (0, 1))),
     )[:, :2],
 }
 for name, points in maps.items():
@@ -275,6 +284,7 @@ def claimed(sigma):
     return fig
 
 
+# %% slideshow={"slide_type": "fragment"} answers="16-half"
 views.explore(
     claimed,
     lambda sigma: (
@@ -310,18 +320,7 @@ views.explore(
 
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-def errors_over(name, way=20.0):
-    """Mean relative error in each building (k,) [m]."""
-    pairs = zip(arenas, drives, strict=True)
-    return np.array(
-        [
-            relative_errors(own[name].trajectory, a.world.truth.poses, a.world.metres, way).mean()
-            for a, own in pairs
-        ]
-    )
-
-
-e = {name: errors_over(name) for name in NAMES}
+e = {name: errors_over(20.0, name) for name in NAMES}
 for name in ("no loops", "graph"):
     print(f"{name:>9}:", "  ".join(f"{error:.3f}" for error in e[name]), "m")
 
@@ -352,11 +351,8 @@ for name, (low, high) in intervals.items():
 
 # %% slideshow={"slide_type": "fragment"} answers="16-paired"
 number = np.arange(1, len(arenas) + 1)
-fig, ax = views.curves(
-    number,
-    {name: e[name] for name in ("graph", "no loops")},
-    "building", "error over 20 m [m]", size=(9, 4),
-)  # fmt: skip
+pair = {name: e[name] for name in ("graph", "no loops")}
+fig, ax = views.curves(number, pair, "building", "error over 20 m [m]", size=(9, 4))
 ax.set(ylim=(0, 1.35 * max(e["no loops"])))
 views.legend(ax, loc="upper left", ncols=2)
 views.show(
@@ -426,6 +422,7 @@ ask(
 STUDENTS, SPREAD = 1000, 15.0  # who try; of a version's points between worlds
 
 
+# %% slideshow={"slide_type": "fragment"} answers="16-best"
 def best_of(versions, worlds):
     """How much better the best of some equally good versions seems to each student."""
     luck = np.random.default_rng(1).standard_normal((STUDENTS, versions))
@@ -440,6 +437,7 @@ def best_of(versions, worlds):
     return fig
 
 
+# %% slideshow={"slide_type": "fragment"} answers="16-best"
 views.explore(
     best_of,
     lambda versions, worlds: (
