@@ -44,6 +44,12 @@ def add_parser(subparsers):
         "one only where it is better beyond doubt. Judge without --open to close the contest",
     )
     parser.add_argument(
+        "--code",
+        action="store_true",
+        help="open the code of the notebooks, too, beside the students' pages, as for a second "
+        "contest in which all may build on it; ask the class first",
+    )
+    parser.add_argument(
         "--again",
         metavar="DIR",
         type=Path,
@@ -96,6 +102,8 @@ def _contest(arguments, scratch):
         raise UsageError("--again needs the FOLDER of the submissions, and another --out")
     if again and arguments.open:
         raise UsageError("--again is for a contest that is over, --open for one that is not")
+    if arguments.open and arguments.code:
+        raise UsageError("--code is for a contest that closes: leave out --open")
     contest = holding.contest_again(again) if again else commitment.commit(out)
     if arguments.folder is None:
         file = out / commitment.COMMITMENT
@@ -110,7 +118,7 @@ def _contest(arguments, scratch):
             bar = progress.add_task("", total=readable * len(prepared))
             said = holding.hold_contest(
                 contest, found, out, prepared, workers, jobs=arguments.jobs,
-                names=arguments.names, again=again, stays_open=arguments.open,
+                names=arguments.names, again=again, stays_open=arguments.open, code=arguments.code,
                 told=lambda name: progress.update(bar, advance=1, description=printable(name)),
             )  # fmt: skip
     print("\n".join(map(printable, said)))

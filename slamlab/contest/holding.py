@@ -10,10 +10,10 @@ import numpy as np
 from slamlab.contest import commitment, scoreboard
 from slamlab.contest.class_judging import Course, entrants, judge_class
 from slamlab.contest.commitment import ContestError
-from slamlab.contest.ladder import LADDER, climb
+from slamlab.contest.ladder import LADDER, climb, write_open_board
 from slamlab.contest.pseudonyms import pseudonyms
 from slamlab.grading.records import write_atomically
-from slamlab.grading.submissions import SubmissionError
+from slamlab.grading.submissions import SubmissionError, read_notebook
 from slamlab.project.driving import Budget
 from slamlab.project.scores import arenas
 from slamlab.project.world_families import FAMILIES
@@ -39,7 +39,7 @@ def draw_arenas(contest):
 
 
 def hold_contest(contest, found, out, prepared, workers, *, jobs=1, names=False, again=None,
-                 stays_open=False, told=None):  # fmt: skip
+                 stays_open=False, code=False, told=None):  # fmt: skip
     """Judge a class, and write the board.
 
     Parameters
@@ -53,6 +53,7 @@ def hold_contest(contest, found, out, prepared, workers, *, jobs=1, names=False,
     names : bool, whether names are shown instead of pseudonyms
     again : Path or None, the board's folder of the same contest, judged before
     stays_open : bool, whether more may be handed in: then scores show by the ladder, and no more
+    code : bool, whether the code of those who were judged is opened, too
     told : callable that is given a submission's name after each of its worlds, or None
 
     Returns
@@ -80,7 +81,8 @@ def hold_contest(contest, found, out, prepared, workers, *, jobs=1, names=False,
         return _open_board(contest, entries, out, shown)
     rows, marks = scoreboard.rank(entries, shown, prepared)
     unjudged = sorted((shown[e.student], e.reason) for e in entries if e.reason is not None)
-    scoreboard.write_board(out / BOARD, rows, marks, prepared, contest, unjudged)
+    opened = _codes(found, entries) if code else None
+    scoreboard.write_board(out / BOARD, rows, marks, prepared, contest, unjudged, opened)
     said = [f"{len(rows)} judged, {len(unjudged)} not: {out / BOARD / 'index.html'}"]
     said += [f"{e.student}: {e.reason}" for e in entries if e.reason is not None]
     if not names:
@@ -92,6 +94,19 @@ def hold_contest(contest, found, out, prepared, workers, *, jobs=1, names=False,
     return said + (_compared(entries, again, contest) if again else [])
 
 
+def _codes(found, entries):
+    """The code cells of each student, of the notebook that was judged."""
+    judged = {entry.student: entry.sha256 for entry in entries if entry.reason is None}
+    codes = {}
+    for submission in found:
+        if submission.student in judged:
+            notebook = read_notebook(submission)
+            if notebook.sha256 == judged[submission.student]:
+                cells = (f"# cell {number}\n{source}\n" for number, source in notebook.cells)
+                codes[submission.student] = "\n".join(cells)
+    return codes
+
+
 def _open_board(contest, entries, out, names):
     """Write the board of a contest that is open; what there is to tell."""
     points = {
@@ -101,7 +116,7 @@ def _open_board(contest, entries, out, names):
     }
     scores = climb(out / LADDER, points)
     known = {names[student]: score for student, score in scores.items() if student in names}
-    scoreboard.write_open_board(out / BOARD, known, contest)
+    write_open_board(out / BOARD, known, contest)
     said = [f"{len(points)} judged, {len(entries) - len(points)} not: {out / BOARD / 'index.html'}"]
     said += [f"{e.student}: {e.reason}" for e in entries if e.reason is not None]
     return [*said, "the contest is open: nothing is revealed until it is judged without --open"]

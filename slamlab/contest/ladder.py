@@ -8,7 +8,9 @@ import json
 
 import numpy as np
 
-from slamlab.contest.ranking import scores, standings
+from slamlab.contest.ranking import LEVEL, scores, standings
+from slamlab.contest.scoreboard import TEMPLATES
+from slamlab.grading.grade_tables import write_table
 from slamlab.grading.records import write_atomically
 
 LADDER = "ladder.json"
@@ -52,3 +54,18 @@ def climb(file, points):
             shown[student] = np.asarray(found).tolist()
     write_atomically(file, json.dumps(shown, sort_keys=True) + "\n")
     return {student: round(float(scores(np.array(found)))) for student, found in shown.items()}
+
+
+def write_open_board(out, shown, contest):
+    """Write the board of a contest that is open: names and the scores that show, and no more.
+
+    Parameters
+    ----------
+    out : Path
+    shown : dict, name to score
+    contest : Contest
+    """
+    rows = sorted(shown.items(), key=lambda row: (-row[1], row[0]))
+    known = {"rows": rows, "contest": contest, "level": LEVEL, "step": STEP}
+    write_atomically(out / "index.html", TEMPLATES.get_template("open_board.html").render(known))
+    write_table(out / "board.csv", [["name", "score"], *([n, str(score)] for n, score in rows)])

@@ -12,7 +12,6 @@ import jinja2
 import numpy as np
 
 from slamlab.contest.class_judging import Entry
-from slamlab.contest.ladder import STEP
 from slamlab.contest.moments import BAND, WAY, first_moment
 from slamlab.contest.pictures import film_page, map_picture
 from slamlab.contest.ranking import LEVEL, Standing, standings
@@ -89,7 +88,7 @@ def rank(entries, names, arenas):
     return rows, dict(zip(baselines, marks, strict=True))
 
 
-def write_board(out, rows, marks, arenas, contest, unjudged):
+def write_board(out, rows, marks, arenas, contest, unjudged, code=None):
     """Write ``index.html``, ``board.csv``, ``worlds.csv`` and the students' pages.
 
     Parameters
@@ -100,6 +99,7 @@ def write_board(out, rows, marks, arenas, contest, unjudged):
     arenas : list of Arena
     contest : Contest
     unjudged : list of (name, reason)
+    code : dict or None, student to the code that is opened
     """
     families = list(dict.fromkeys(arena.world.family.name for arena in arenas))
     known = {"rows": rows, "marks": marks, "families": families, "contest": contest,
@@ -109,25 +109,10 @@ def write_board(out, rows, marks, arenas, contest, unjudged):
     write_table(out / "worlds.csv", _worlds_table(rows, contest.worlds))
     remove_tree(out / "students")  # whose names may have been other ones
     for row in rows:
-        write_student_page(out, row, arenas, families)
+        write_student_page(out, row, arenas, families, (code or {}).get(row.entry.student))
 
 
-def write_open_board(out, shown, contest):
-    """Write the board of a contest that is open: names and the scores that show, and no more.
-
-    Parameters
-    ----------
-    out : Path
-    shown : dict, name to score
-    contest : Contest
-    """
-    rows = sorted(shown.items(), key=lambda row: (-row[1], row[0]))
-    known = {"rows": rows, "contest": contest, "level": LEVEL, "step": STEP}
-    write_atomically(out / "index.html", TEMPLATES.get_template("open_board.html").render(known))
-    write_table(out / "board.csv", [["name", "score"], *([n, str(score)] for n, score in rows)])
-
-
-def write_student_page(out, row, arenas, families):
+def write_student_page(out, row, arenas, families, code=None):
     """Write a student's page, and the film of the world that cost most.
 
     Of each family the world counts whose points are the median; of these worlds the one with the
@@ -139,6 +124,7 @@ def write_student_page(out, row, arenas, families):
     row : Row
     arenas : list of Arena
     families : list of str
+    code : str or None, the student's, put beside the page as plain text
     """
     results = row.entry.results
     moments = [
@@ -157,8 +143,12 @@ def write_student_page(out, row, arenas, families):
         arenas[shown], row.entry.drives[shown], f"{row.name}: {title}", film.with_suffix(".film")
     )
     write_atomically(film, replay)
+    text = film.with_name(f"{row.slug}-code.txt")
+    if code is not None:
+        write_atomically(text, code)
     page = TEMPLATES.get_template("student.html").render(
         row=row,
+        code=None if code is None else text.name,
         worlds=[
             (result.family, k % worlds + 1, result, moments[k], k // worlds, k % worlds)
             for k, result in enumerate(results)

@@ -218,6 +218,8 @@ def test_without_a_folder_the_command_only_commits(tmp_path, capsys):
     [
         (["--jobs", "0"], "--jobs must be at least 1"),
         (["--again", "{tmp}/nothing"], "--again needs the FOLDER"),
+        (["{tmp}", "--again", "{tmp}/nothing", "--open"], "--open for one that is not"),
+        (["{tmp}", "--open", "--code"], "leave out --open"),
         (["{tmp}/nothing"], "nothing is no folder"),
         (["{tmp}", "--again", "{tmp}/nothing"], "cannot be read"),
     ],
@@ -250,3 +252,16 @@ def test_while_it_is_open_only_scores_leave_and_then_it_closes(held, tmp_path):
     assert len(rows(board, "worlds.csv")) == 9
     with pytest.raises(commitment.ContestError, match="is over"):
         holding.hold_contest(held.contest, found, stays_open=True, **keep)
+
+
+def test_a_second_phase_opens_the_code_of_those_who_were_judged_and_no_other(held, tmp_path):
+    shutil.copytree(held.out, tmp_path / "out")
+    board = tmp_path / "out" / "board"
+    assert not list(board.rglob("*-code.txt"))
+    holding.hold_contest(
+        held.contest, held.found, tmp_path / "out", held.arenas, NOBODY, names=True, code=True
+    )
+    opened = {path.name: path.read_text("utf-8") for path in board.rglob("*-code.txt")}
+    assert set(opened) == {f"{name}-code.txt" for name in ("ada", "bob", "cem", "fox")}
+    assert cheaters.SOLUTION in opened["ada-code.txt"]
+    assert 'href="ada-code.txt"' in (board / "students" / "ada.html").read_text("utf-8")
