@@ -295,10 +295,11 @@ views.explore(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="16-half"
-# The claim may be wrong by a factor of about {= np.sqrt(NEES_BAND[1] / 3):.1f =} before it costs anything: the
-# errors of one drive hang together, so one drive is one draw, and the band from {= NEES_BAND[0]:.2f =} to
-# {= NEES_BAND[1]:.1f =} is where 95 of 100 true claims lie. Who claims nothing loses nothing. Who claims to be
-# exact pays 20 points.
+# A claim costs nothing while σ is stated at most {= np.sqrt(NEES_BAND[1] / 3):.1f =} times too small, or
+# {= np.sqrt(3 / NEES_BAND[0]):.1f =} times too large. The band is wide, from {= NEES_BAND[0]:.2f =} to
+# {= NEES_BAND[1]:.1f =}, because the errors of one drive hang together: it counts as one draw, and 95 of 100 draws
+# of a χ² with three degrees of freedom lie there. Who claims nothing loses nothing. Who claims to be exact
+# pays 20 points.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Where honest doubt comes from
