@@ -10,7 +10,7 @@ import numpy as np
 from slamlab.contest import commitment, scoreboard
 from slamlab.contest.class_judging import Course, entrants, judge_class
 from slamlab.contest.commitment import ContestError
-from slamlab.contest.ladder import LADDER, climb, write_open_board
+from slamlab.contest.open_board import LADDER, climb, write_open_board
 from slamlab.contest.pseudonyms import pseudonyms
 from slamlab.grading.records import write_atomically
 from slamlab.grading.submissions import SubmissionError, read_notebook

@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 
-from slamlab.contest.ladder import STEP, climb, climbs
+from slamlab.contest.open_board import STEP, climb, climbs
 from slamlab.contest.ranking import scores
 
 SHAPE = 7, 5
