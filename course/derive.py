@@ -125,7 +125,7 @@ def _notebook(source, exercise, stubs):
 
 
 def _cell(cell, exercise, stubs):
-    metadata = {k: v for k, v in cell.metadata.items() if k not in ("name", "answers", "minutes")}
+    metadata = {k: v for k, v in cell.metadata.items() if k in ("slideshow", "tags")}
     if cell.minutes:
         metadata |= {"slamlab": {"minutes": cell.minutes}}
     if cell.answers:  # folded until the question is answered
@@ -137,6 +137,9 @@ def _cell(cell, exercise, stubs):
     text = glossary.filled(cell.text)
     if cell.check:
         metadata |= check_metadata(exercise.task(cell.check))
+    elif cell.given is not None:
+        metadata |= solution_metadata(cell.id)
+        text = cell.given if stubs else text
     elif cell.type == "code" and solution_regions(text):
         metadata |= solution_metadata(cell.id)
         text = strip_solutions(text) if stubs else text

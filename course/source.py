@@ -2,7 +2,7 @@
 
 import re
 import unicodedata
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import jupytext
@@ -10,7 +10,7 @@ from nbformat import NotebookNode
 
 ROOT = Path(__file__).resolve().parent.parent
 KINDS = {"lessons": "lesson", "exercises": "exercise"}
-METADATA = ("name", "slideshow", "tags", "answers", "minutes")
+METADATA = ("name", "slideshow", "tags", "answers", "minutes", "solved", "given")
 OPTIONAL = ("## Deeper", "## In print", "## Appendix")
 CHECK = re.compile(r'check\("([^"\\]+)"\)')
 ID = re.compile(r"[a-zA-Z0-9_-]{1,64}")
@@ -44,6 +44,7 @@ class Cell:
     id : str, the name given, else the section's slug and an ordinal
     line : int, line of the cell's marker in the file
     metadata : dict, as written in the marker
+    given : str or None, what is handed out in its place, where all of it is a solution
     """
 
     type: str
@@ -51,6 +52,7 @@ class Cell:
     id: str
     line: int
     metadata: dict
+    given: str | None = None
 
     @property
     def tags(self):
@@ -165,7 +167,7 @@ def read(path):
         raise CourseError([f"{_relative(path)}:1: a source stands in {' or '.join(KINDS)}"])
     ids = _ids(raw)
     cells = [
-        Cell(c.cell_type, c.source, id, line, _metadata(c))
+        _from_files(path, Cell(c.cell_type, c.source, id, line, _metadata(c)))
         for c, id, line in zip(raw, ids, markers, strict=True)
     ]
     return Source(path, KINDS[path.parent.name], cells)
@@ -225,6 +227,21 @@ def _plain(value):
     if isinstance(value, dict):
         return {k: _plain(v) for k, v in value.items()}
     return value
+
+
+def _from_files(path, cell):
+    """A cell that stands in two files of the course, ``solved`` and ``given``; else as it is."""
+    if "solved" not in cell.metadata:
+        return cell
+    files = [path.parents[1] / cell.metadata.get(name, "") for name in ("solved", "given")]
+    missing = [file for file in files if not file.is_file()]
+    if missing:
+        at = f"{_relative(path)}:{cell.line}"
+        raise CourseError(
+            [f"{at}: {_relative(missing[0])} is no file: solved= and given= name two"]
+        )
+    solved, given = (file.read_text(encoding="utf-8").rstrip("\n") for file in files)
+    return replace(cell, text=solved, given=given)
 
 
 def _relative(path):

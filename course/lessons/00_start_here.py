@@ -251,6 +251,7 @@ for theta in (25, 115):
 # | 13 | [Scan matching](13_scan_matching.ipynb) | laying one scan over another until it fits, though nobody knows which points belong together | 95 min | 60 min |
 # | 14 | [The eMIR system](14_the_emir_system.ipynb) | from bytes on a wire to a live map: a real lidar and robot, or their emulators, driven by you | 110 min | 60 min |
 # | 15 | [Closing the loop](15_closing_the_loop.ipynb) | a place seen again mends the whole map: a graph of poses, loops true and false, a real building | 80 min | 60 min |
+# | 16 | [Your own SLAM](16_your_own_slam.ipynb) | how to measure a SLAM of your own, and not be fooled by luck; the project that the course leads to | 52 min | 180 min |
 #
 # They are numbered in the order in which to read them.
 

@@ -1031,7 +1031,8 @@ for name in ("odometry", "icp", "graph"):
 #
 # From wheels that lie (lesson 01) you have come to a map of a real building.
 #
-# **What comes next:** your own logs. `slamlab run` takes files of CARMEN and BreezySLAM, and ROS bags.
+# **What comes next:** in [lesson 16](16_your_own_slam.ipynb) you write a SLAM of your own, and measure it. On your own logs the
+# package's estimators run already: `slamlab run` takes files of CARMEN and BreezySLAM, and ROS bags.
 #
 # The sections below this one are optional.
 #

@@ -38,6 +38,18 @@ def add_parser(subparsers):
         "--names", action="store_true", help="show names instead of pseudonyms; ask the class first"
     )
     parser.add_argument(
+        "--open",
+        action="store_true",
+        help="more may be handed in: the board shows one score of each student, and a new "
+        "one only where it is better beyond doubt. Judge without --open to close the contest",
+    )
+    parser.add_argument(
+        "--code",
+        action="store_true",
+        help="open the code of the notebooks, too, beside the students' pages, as for a second "
+        "contest in which all may build on it; ask the class first",
+    )
+    parser.add_argument(
         "--again",
         metavar="DIR",
         type=Path,
@@ -88,6 +100,10 @@ def _contest(arguments, scratch):
         raise UsageError("--jobs must be at least 1")
     if again and (arguments.folder is None or again.resolve() == out.resolve()):
         raise UsageError("--again needs the FOLDER of the submissions, and another --out")
+    if again and arguments.open:
+        raise UsageError("--again is for a contest that is over, --open for one that is not")
+    if arguments.open and arguments.code:
+        raise UsageError("--code is for a contest that closes: leave out --open")
     contest = holding.contest_again(again) if again else commitment.commit(out)
     if arguments.folder is None:
         file = out / commitment.COMMITMENT
@@ -102,7 +118,7 @@ def _contest(arguments, scratch):
             bar = progress.add_task("", total=readable * len(prepared))
             said = holding.hold_contest(
                 contest, found, out, prepared, workers, jobs=arguments.jobs,
-                names=arguments.names, again=again,
+                names=arguments.names, again=again, stays_open=arguments.open, code=arguments.code,
                 told=lambda name: progress.update(bar, advance=1, description=printable(name)),
             )  # fmt: skip
     print("\n".join(map(printable, said)))

@@ -7,6 +7,7 @@ Read in this order:
 - ``drive_files``: what was driven, kept so that a contest goes on where it was left
 - ``class_judging``: all students in all worlds; ``holding``: a contest from folder to board
 - ``ranking``: scores with intervals, ranks with ties; ``pseudonyms``
+- ``open_board``: what shows while a contest is open, by the Ladder
 - ``moments``: where an estimate left its band; ``pictures``: the map of it, a film
 - ``scoreboard``: the board, its tables, a page a student
 """

@@ -10,11 +10,11 @@ from pathlib import Path
 
 from slamlab.contest.drive_files import late_drive, read_drive, write_drive
 from slamlab.contest.sandbox_judging import drive_in_sandbox
+from slamlab.exercises.drives.student_estimator import GraderFault
 from slamlab.grading.submissions import SubmissionError, read_notebook
 from slamlab.project.driving import Budget, Drive
 from slamlab.project.scores import Arena, Result
 from slamlab.project.streamed_drive import NAME
-from slamlab.project.student_estimator import GraderFault
 
 NOT_THEIRS = "no fault of the student's, run it again"
 _CLASS = re.compile(rf"^class {NAME}\b", re.MULTILINE)

@@ -10,9 +10,10 @@ import numpy as np
 from slamlab.contest import commitment, scoreboard
 from slamlab.contest.class_judging import Course, entrants, judge_class
 from slamlab.contest.commitment import ContestError
+from slamlab.contest.open_board import LADDER, climb, write_open_board
 from slamlab.contest.pseudonyms import pseudonyms
 from slamlab.grading.records import write_atomically
-from slamlab.grading.submissions import SubmissionError
+from slamlab.grading.submissions import SubmissionError, read_notebook
 from slamlab.project.driving import Budget
 from slamlab.project.scores import arenas
 from slamlab.project.world_families import FAMILIES
@@ -38,7 +39,7 @@ def draw_arenas(contest):
 
 
 def hold_contest(contest, found, out, prepared, workers, *, jobs=1, names=False, again=None,
-                 told=None):  # fmt: skip
+                 stays_open=False, code=False, told=None):  # fmt: skip
     """Judge a class, and write the board.
 
     Parameters
@@ -51,6 +52,8 @@ def hold_contest(contest, found, out, prepared, workers, *, jobs=1, names=False,
     jobs : int, students judged at once
     names : bool, whether names are shown instead of pseudonyms
     again : Path or None, the board's folder of the same contest, judged before
+    stays_open : bool, whether more may be handed in: then scores show by the ladder, and no more
+    code : bool, whether the code of those who were judged is opened, too
     told : callable that is given a submission's name after each of its worlds, or None
 
     Returns
@@ -67,14 +70,19 @@ def hold_contest(contest, found, out, prepared, workers, *, jobs=1, names=False,
         raise SubmissionError("there is no notebook to be judged")
     revealed = out / BOARD / commitment.REVEALED
     over = revealed.exists() and again is None
+    if over and stays_open:
+        raise ContestError(f"this contest is over: {revealed} tells its bits")
     carried = late_points(again, contest) if again else {}
     budget = partial(Budget, *[np.inf] * 4) if again else partial(Budget, **contest.budget)
     course = Course(prepared, out / DRIVES, budget, over, carried)
     entries = list(judge_class(found, course, workers, jobs, told))
     shown = _names(out, [entry.student for entry in entries], names)
+    if stays_open:
+        return _open_board(contest, entries, out, shown)
     rows, marks = scoreboard.rank(entries, shown, prepared)
     unjudged = sorted((shown[e.student], e.reason) for e in entries if e.reason is not None)
-    scoreboard.write_board(out / BOARD, rows, marks, prepared, contest, unjudged)
+    opened = _codes(found, entries) if code else None
+    scoreboard.write_board(out / BOARD, rows, marks, prepared, contest, unjudged, opened)
     said = [f"{len(rows)} judged, {len(unjudged)} not: {out / BOARD / 'index.html'}"]
     said += [f"{e.student}: {e.reason}" for e in entries if e.reason is not None]
     if not names:
@@ -84,6 +92,34 @@ def hold_contest(contest, found, out, prepared, workers, *, jobs=1, names=False,
     write_atomically(revealed, contest.text)
     write_atomically(out / BOARD / commitment.COMMITMENT, commitment.commitment_text(contest))
     return said + (_compared(entries, again, contest) if again else [])
+
+
+def _codes(found, entries):
+    """The code cells of each student, of the notebook that was judged."""
+    judged = {entry.student: entry.sha256 for entry in entries if entry.reason is None}
+    codes = {}
+    for submission in found:
+        if submission.student in judged:
+            notebook = read_notebook(submission)
+            if notebook.sha256 == judged[submission.student]:
+                cells = (f"# cell {number}\n{source}\n" for number, source in notebook.cells)
+                codes[submission.student] = "\n".join(cells)
+    return codes
+
+
+def _open_board(contest, entries, out, names):
+    """Write the board of a contest that is open; what there is to tell."""
+    points = {
+        entry.student: np.reshape([r.points for r in entry.results], (-1, contest.worlds))
+        for entry in entries
+        if entry.reason is None
+    }
+    scores = climb(out / LADDER, points)
+    known = {names[student]: score for student, score in scores.items() if student in names}
+    write_open_board(out / BOARD, known, contest)
+    said = [f"{len(points)} judged, {len(entries) - len(points)} not: {out / BOARD / 'index.html'}"]
+    said += [f"{e.student}: {e.reason}" for e in entries if e.reason is not None]
+    return [*said, "the contest is open: nothing is revealed until it is judged without --open"]
 
 
 def contest_again(folder):

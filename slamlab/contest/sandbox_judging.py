@@ -11,38 +11,16 @@ from functools import partial
 import numpy as np
 
 from slamlab.exercises.drives import Drive, StudentError
-from slamlab.exercises.exercise import Exercise
+from slamlab.exercises.drives.student_estimator import GraderFault
+from slamlab.exercises.tasks.ex16 import EXERCISE
 from slamlab.grading.forked_workers import ZygoteError
 from slamlab.grading.worker_client import WorkerClient
 from slamlab.grading.worker_pool import WorkerStartError
 from slamlab.project.driving import drive
 from slamlab.project.reading_arrays import arrays_of
 from slamlab.project.streamed_drive import DRIVES
-from slamlab.project.student_estimator import GraderFault
 
-ALLOWED = (
-    "slamlab.geometry",
-    "slamlab.layers",
-    "slamlab.readings",
-    "slamlab.worlds.ray_casting",
-)
-"""The modules of the course that a student's SLAM may import, besides numpy and scipy."""
-PROJECT = Exercise(
-    id="16",
-    notebook="16_your_own_slam",
-    title="Your own SLAM",
-    tasks=(),
-    drives="slamlab.project.streamed_drive",
-    allows=ALLOWED,
-    answers=(
-        "slamlab.estimators",
-        "slamlab.filters",
-        "slamlab.gridmap",
-        "slamlab.posegraph",
-        "slamlab.scanmatching",
-    ),
-    hides=("filterpy", "gtsam", "open3d", "pykalman", "small_gicp", "probreg"),
-)
+PROJECT = replace(EXERCISE, tasks=(), drives="slamlab.project.streamed_drive")
 """What a worker holds that drives through hidden worlds, and what never."""
 MAX_CELLS = 5  # that failed are told where no estimator could be made
 

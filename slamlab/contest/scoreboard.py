@@ -88,7 +88,7 @@ def rank(entries, names, arenas):
     return rows, dict(zip(baselines, marks, strict=True))
 
 
-def write_board(out, rows, marks, arenas, contest, unjudged):
+def write_board(out, rows, marks, arenas, contest, unjudged, code=None):
     """Write ``index.html``, ``board.csv``, ``worlds.csv`` and the students' pages.
 
     Parameters
@@ -99,6 +99,7 @@ def write_board(out, rows, marks, arenas, contest, unjudged):
     arenas : list of Arena
     contest : Contest
     unjudged : list of (name, reason)
+    code : dict or None, student to the code that is opened
     """
     families = list(dict.fromkeys(arena.world.family.name for arena in arenas))
     known = {"rows": rows, "marks": marks, "families": families, "contest": contest,
@@ -108,10 +109,10 @@ def write_board(out, rows, marks, arenas, contest, unjudged):
     write_table(out / "worlds.csv", _worlds_table(rows, contest.worlds))
     remove_tree(out / "students")  # whose names may have been other ones
     for row in rows:
-        write_student_page(out, row, arenas, families)
+        write_student_page(out, row, arenas, families, (code or {}).get(row.entry.student))
 
 
-def write_student_page(out, row, arenas, families):
+def write_student_page(out, row, arenas, families, code=None):
     """Write a student's page, and the film of the world that cost most.
 
     Of each family the world counts whose points are the median; of these worlds the one with the
@@ -123,6 +124,7 @@ def write_student_page(out, row, arenas, families):
     row : Row
     arenas : list of Arena
     families : list of str
+    code : str or None, the student's, put beside the page as plain text
     """
     results = row.entry.results
     moments = [
@@ -141,8 +143,12 @@ def write_student_page(out, row, arenas, families):
         arenas[shown], row.entry.drives[shown], f"{row.name}: {title}", film.with_suffix(".film")
     )
     write_atomically(film, replay)
+    text = film.with_name(f"{row.slug}-code.txt")
+    if code is not None:
+        write_atomically(text, code)
     page = TEMPLATES.get_template("student.html").render(
         row=row,
+        code=None if code is None else text.name,
         worlds=[
             (result.family, k % worlds + 1, result, moments[k], k // worlds, k % worlds)
             for k, result in enumerate(results)

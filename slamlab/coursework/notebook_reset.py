@@ -111,14 +111,18 @@ def _with_task_reset(path, handed_out, task):
 
 
 def task_cells(cells, task):
-    """The cells with a task's solution: those to fill in between the check before and its own."""
-    found = []
+    """The cells with a task's solution: those to fill in between the check before and its own.
+
+    A task without such cells is solved in those of the task before, as milestones are.
+    """
+    found, before = [], []
     for cell in cells:
         graded = cell["metadata"].get("nbgrader", {})
         if graded.get("solution"):
             found.append(cell)
         elif graded.get("grade"):
+            found = found or before
             if graded["grade_id"] == task:
                 return found
-            found = []
+            found, before = [], found
     return []

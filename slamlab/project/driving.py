@@ -9,7 +9,7 @@ from functools import partial
 import numpy as np
 
 from slamlab.exercises.drives import StudentError
-from slamlab.project.student_estimator import StudentEstimator
+from slamlab.exercises.drives.student_estimator import StudentEstimator
 
 USED_UP = (
     "the {:g} s of CPU for all worlds are used up: what grows with every reading, a map to match "

@@ -6,8 +6,8 @@ Between messages the worker holds the estimator and the readings that have been:
 import numpy as np
 
 from slamlab.exercises.drives import Drive, StudentError
+from slamlab.exercises.drives.student_estimator import StudentEstimator
 from slamlab.project.reading_arrays import reading_of
-from slamlab.project.student_estimator import StudentEstimator
 
 NAME = "MySlam"
 """The class that a student writes."""

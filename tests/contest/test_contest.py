@@ -218,6 +218,8 @@ def test_without_a_folder_the_command_only_commits(tmp_path, capsys):
     [
         (["--jobs", "0"], "--jobs must be at least 1"),
         (["--again", "{tmp}/nothing"], "--again needs the FOLDER"),
+        (["{tmp}", "--again", "{tmp}/nothing", "--open"], "--open for one that is not"),
+        (["{tmp}", "--open", "--code"], "leave out --open"),
         (["{tmp}/nothing"], "nothing is no folder"),
         (["{tmp}", "--again", "{tmp}/nothing"], "cannot be read"),
     ],
@@ -226,3 +228,40 @@ def test_wrong_use_is_told_in_a_line(tmp_path, words, told, capsys):
     words = [word.format(tmp=tmp_path) for word in words]
     assert main(["contest", *words, "--out", str(tmp_path / "out")]) == 2
     assert told in capsys.readouterr().err
+
+
+def test_while_it_is_open_only_scores_leave_and_then_it_closes(held, tmp_path):
+    shutil.copytree(held.out / "drives", tmp_path / "drives")
+    keep = {"workers": NOBODY, "prepared": held.arenas, "out": tmp_path}
+    found = [s for s in held.found if s.name != "fox.ipynb"]
+    said = holding.hold_contest(held.contest, found, stays_open=True, **keep)
+    board = tmp_path / "board"
+    assert {path.name for path in board.rglob("*")} == {"index.html", "board.csv"}
+    given = json.loads((tmp_path / holding.PSEUDONYMS).read_text())
+    shown = {row["name"]: row for row in rows(board)}
+    assert set(shown[given["ada"]]) == {"name", "score"}
+    assert int(shown[given["ada"]]["score"]) > 50
+    assert shown[given["bob"]]["score"] == shown[given["cem"]]["score"] == "0"
+    text = (board / "index.html").read_text("utf-8")
+    assert held.contest.commitment in text
+    assert held.contest.seed not in text
+    assert "ValueError" not in text
+    assert "open" in said[-1]
+    holding.hold_contest(held.contest, found, **keep)
+    assert (board / commitment.REVEALED).exists()
+    assert len(rows(board, "worlds.csv")) == 9
+    with pytest.raises(commitment.ContestError, match="is over"):
+        holding.hold_contest(held.contest, found, stays_open=True, **keep)
+
+
+def test_a_second_phase_opens_the_code_of_those_who_were_judged_and_no_other(held, tmp_path):
+    shutil.copytree(held.out, tmp_path / "out")
+    board = tmp_path / "out" / "board"
+    assert not list(board.rglob("*-code.txt"))
+    holding.hold_contest(
+        held.contest, held.found, tmp_path / "out", held.arenas, NOBODY, names=True, code=True
+    )
+    opened = {path.name: path.read_text("utf-8") for path in board.rglob("*-code.txt")}
+    assert set(opened) == {f"{name}-code.txt" for name in ("ada", "bob", "cem", "fox")}
+    assert cheaters.SOLUTION in opened["ada-code.txt"]
+    assert 'href="ada-code.txt"' in (board / "students" / "ada.html").read_text("utf-8")

@@ -7,14 +7,14 @@ import numpy as np
 import pytest
 
 from course.project.solution import MySlam as Solution
-from slamlab.contest.sandbox_judging import ALLOWED, PROJECT, drive_in_sandbox
+from slamlab.contest.sandbox_judging import PROJECT, drive_in_sandbox
+from slamlab.exercises.drives.student_estimator import GraderFault
 from slamlab.grading.import_closure import closure
 from slamlab.grading.staging import worker_modules
 from slamlab.grading.worker_pool import WorkerStartError
 from slamlab.project.drawing import draw_world
 from slamlab.project.driving import Budget, drive
 from slamlab.project.scores import prepare
-from slamlab.project.student_estimator import GraderFault
 from slamlab.project.world_families import LANDMARKS, Family
 from tests.contest import cheaters
 from tests.grading.conftest import workers
@@ -58,12 +58,12 @@ def test_landmarks_pass_the_pipe_too():
 
 def test_a_worker_holds_what_is_allowed_and_nothing_that_draws_or_judges():
     held = set(worker_modules(PROJECT))
-    assert held >= set(ALLOWED)
+    assert held >= set(PROJECT.allows)
     assert not held & {f"slamlab.project.{name}" for name in JUDGES}
     answers = [name for name in held if name.startswith(PROJECT.answers)]
     assert not answers
-    assert not held & (set(closure(["slamlab.project.scores"])) - set(closure(ALLOWED)) - {
-        "slamlab.project", "slamlab.project.student_estimator", "slamlab.exercises",
+    assert not held & (set(closure(["slamlab.project.scores"])) - set(closure(PROJECT.allows)) - {
+        "slamlab.project", "slamlab.exercises.drives.student_estimator", "slamlab.exercises",
         "slamlab.exercises.drives", "slamlab.exercises.drives.arguments",
     })  # fmt: skip
 

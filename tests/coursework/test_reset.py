@@ -276,3 +276,13 @@ def test_the_commands_say_what_they_did_and_what_is_wrong(course, monkeypatch, c
     for words in (["reset", "04"], ["update", "x.zip"], ["progress"]):
         assert main(words) == 2
         assert "course's folder" in capsys.readouterr().err
+
+
+def test_a_milestone_without_cells_of_its_own_has_those_of_the_task_before():
+    cells = handed_out()["cells"]
+    cells.insert(4, code("04-a-too", 'check("04-a-too")', grade=True, points=1))
+    of = {
+        task: [cell["id"] for cell in notebook_reset.task_cells(cells, task)]
+        for task in ("04-a", "04-a-too", "04-b", "04-none")
+    }
+    assert of == {"04-a": ["a", "a2"], "04-a-too": ["a", "a2"], "04-b": ["b"], "04-none": []}

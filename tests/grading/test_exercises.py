@@ -2,6 +2,7 @@
 
 import ast
 import json
+import re
 from pathlib import Path
 
 import numpy as np
@@ -62,7 +63,10 @@ def test_the_same_number_everywhere_solves_no_task(id, rows):
 def without(function):
     def change(cells):
         return [
-            (number, source.replace(f"def {function}(", f"def not_{function}("))
+            (
+                number,
+                re.sub(rf"^(def|class) {function}\b", rf"\1 not_{function}", source, flags=re.M),
+            )
             for number, source in cells
         ]
 
@@ -73,7 +77,8 @@ def defined_in(id):
     path = ROOT / "solutions" / catalogue.exercise(id).file
     cells = json.loads(path.read_text("utf-8"))["cells"]
     code = "\n".join("".join(c["source"]) for c in cells if c["cell_type"] == "code")
-    return {node.name for node in ast.parse(code).body if isinstance(node, ast.FunctionDef)}
+    made = ast.FunctionDef | ast.ClassDef
+    return {node.name for node in ast.parse(code).body if isinstance(node, made)}
 
 
 @pytest.mark.parametrize("id", EXERCISES)

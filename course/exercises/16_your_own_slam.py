@@ -1,0 +1,127 @@
+# %% [markdown]
+# # Exercise 16 · Your own SLAM
+#
+# **You will be able to** write a SLAM that is yours from the first line to the last, drive it through
+# buildings that it has never seen, and say by numbers whether a change has made it better.
+#
+# **180 minutes for the three milestones, and as much more as you like. Before:** lesson
+# [16 · Your own SLAM](../notebooks/16_your_own_slam.ipynb).
+#
+# Below stands a class `MySlam`. It drives already, but it believes the wheels, and so it scores 0.
+# Make it better. You may change all of it, and write as many functions and cells as you need; the
+# class has to keep its name and what it offers:
+#
+# | | |
+# | --- | --- |
+# | `step(reading)` | is called for each reading, about every 0.4 m. `reading.odometry` is the motion since the last one as the wheels tell it, `[x, y, θ]` in the frame of the pose before; `reading.scan` is a lidar scan, whose `points()` are (n, 2) in the robot's frame. In a scan that was lost no beam has a range |
+# | `pose` | where it believes to be now, `[x, y, θ]`, in a frame of its choice |
+# | `trajectory()` | all poses as it believes them *now*, (n, 3). It is asked for at the end |
+# | `map()` | points on the walls, (n, 2), in the same frame as `trajectory()` |
+# | `covariance` | how sure it is of `pose`, (3, 3), or `None` for no claim |
+#
+# You may import numpy, scipy, and of the course `slamlab.geometry`, `slamlab.layers`,
+# `slamlab.readings` and `slamlab.worlds.ray_casting`. The course's filters, matchers and graphs are not there
+# when your SLAM is judged; what you wrote in the exercises is yours to use. All worlds of a contest
+# together may take 50 s of CPU, a single reading 1 s. Lengths are in metres and angles in radians.
+
+# %%
+from slamlab.checks import attempt, check
+
+# %% name="my-slam" solved="project/solution.py" given="project/template.py"
+# course/project/solution.py, handed out as course/project/template.py
+
+# %% [markdown]
+# ## Drive it
+#
+# This cell drives your SLAM through a practice world: a furnished floor that nobody has drawn, with
+# doors, corridors and loops. Black is where the robot drove, orange what the wheels alone believe,
+# blue what your SLAM says. **Before you run it the first time:** how far will blue be from orange?
+
+
+# %% name="drive"
+@attempt
+def _():
+    from slamlab import views
+    from slamlab.project.practice import practise, table
+
+    trials = practise(MySlam, ["plain"], seed=1)
+    fig, _ = views.side_by_side({"a plain world": trials[0].layers()}, size=(8, 6))
+    points = trials[0].result.points
+    views.show(
+        fig,
+        alt=f"A floor plan, the true track, odometry's and the estimate's: {points:.0f} points.",
+    )
+    print(table(trials))
+
+
+# %% [markdown]
+# The errors are those of pieces of the drive, 1 m, 5 m and 20 m long, as lesson 16 explains. 0 points
+# are worth what the wheels alone do, 55 what the package's `icp` does on the same drive, 85 what its `graph`
+# does. Other values of `seed` give other worlds, and other families are `symmetric`, `corridor`,
+# `kidnapped`, `range-bias`, `people` and `dropouts`.
+
+# %% [markdown]
+# ## 1 · It survives a corridor
+#
+# The first milestone is a corridor, 9 m long, with a few niches and a cheap lidar of 120 beams. The
+# wheels go astray by half a metre and more. At the end your poses have to be at most half as far
+# off as those of the wheels; the better half of the points is for 0.3 m. Two drives are tried, each
+# with a new `MySlam()`, and two more in which a scan is lost.
+#
+# What lesson 13 teaches is enough: match each scan with what was seen lately, beginning where the
+# wheels say. Who has solved exercise 13 holds all the pieces.
+
+# %%
+check("16-corridor")
+
+# %% [markdown]
+# ## 2 · It closes a loop
+#
+# Now the robot drives once round a block and 3 m farther, so that it sees its beginning again. On
+# the way, at a corner, six scans are lost, and the wheels turn a tenth of a radian too much there. No
+# matching of neighbours can know of it. Back at the start, the poses have to be off by less
+# than 0.1 m. `trajectory()` is asked for at the end, and all its poses together have to be off by less
+# than 0.12 m: who closes a loop learns something about the poses before, too.
+#
+# Lesson 15 has the way: look for an old pose near the present one, match with the scans round it, and let a
+# graph share out the error. A map of the whole drive against which each scan is matched may do as well.
+
+# %%
+check("16-loop")
+
+# %% [markdown]
+# ## 3 · It says how sure it is
+#
+# The corridor again, and this time `covariance` is asked for after each reading. For six readings no
+# scan arrives. Meanwhile σ of the place has to grow, by a factor of 1.3 at least, and the mean NEES of
+# the poses that you give on the way has to lie between 0.05 and 20. It is 3 where the claims are true;
+# the band is wide, because few drives are tried and the errors of neighbouring readings hang together.
+# In a contest it is narrower, and a false claim costs up to 20 points, while no claim costs nothing.
+
+# %%
+check("16-sure")
+
+# %% [markdown]
+# ## How good is it?
+#
+# Milestones are passed or not; a SLAM is more or less good. This cell drives through one world of three
+# families. Before you believe that a change has helped, try it in more worlds than one, the *same* ones
+# for both versions, as lesson 16 shows. `worlds=5` and all seven families are what a contest drives.
+
+
+# %% name="families"
+@attempt
+def _():
+    from slamlab.project.practice import practise, table
+
+    print(table(practise(MySlam, ["corridor", "people", "dropouts"], seed=2)))
+
+
+# %% [markdown]
+# Ideas that have helped others, in no order: give each point the normal of its wall; throw out pairs that
+# lie too far apart, and tighten that round by round; keep a keyframe every 0.8 m instead of every
+# scan; do not believe a match that fits too few points; weigh down a loop that contradicts the rest;
+# after the robot has been carried to another place, look for it in the whole map. And measure where the time
+# goes: what grows with every reading will cost you the last worlds.
+#
+# To hand in, save this notebook and give it away as it is. Nothing else of this folder travels with it.
