@@ -157,8 +157,8 @@ views.explore(
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="14-node"
 # One bit was flipped on its way, and the point has jumped to the other side of the robot. The last bit of the angle would
-# hardly have mattered, and neither would a bit of the quality. A flipped check bit is noticed, and so is an angle beyond 360°;
-# in all other cases a wrong point goes into the map.
+# hardly have mattered. A flipped check bit is noticed, and so is an angle beyond 360°. Any other flipped bit of the angle or
+# the distance brings a wrong point into the map.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* Give the class three minutes with the first node. Then let somebody choose the bit that does the
@@ -241,8 +241,8 @@ for count in (1, 2, 3):
     print(f"{count} capsules received: {len(found)} points known")
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="14-capsule"
-# A capsule carries a checksum, too: the exclusive or of bytes 2 to 83. A lost byte is noticed with certainty in most cases, not in
-# three of four. (Slamtec's document and Slamtec's program disagree about (14.3). A *Deeper* section at the end settles it.)
+# A capsule carries a checksum, too: the exclusive or of bytes 2 to 83. Chance fits it once in 256 times, not once in four.
+# (Slamtec's document and Slamtec's program disagree about (14.3). A *Deeper* section at the end settles it.)
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=4
 # ## Clockwise
@@ -335,15 +335,17 @@ views.explore(
 # *straight ahead*, and both signs fit. Then move the front, and see that no front can make up for the wrong sign.
 
 # %% slideshow={"slide_type": "subslide"} answers="14-experiment"
-fronts = np.arange(-180, 181, 5)
+fronts, arc = np.arange(-180, 181, 5), looks["an arc"]
 misfits = {
-    name: [looks["an arc"].misfit(name == "clockwise", front) for front in fronts]
-    for name in ("clockwise", "counter-clockwise")
+    "clockwise": [arc.misfit(True, front) for front in fronts],
+    "counter-clockwise": [arc.misfit(False, front) for front in fronts],
 }
-fig, _ = views.curves(fronts, misfits, "front of the lidar at [°]", "misfit [cm]", size=(8, 3.6))
 best = {name: min(each) for name, each in misfits.items()}
 notch = fronts[np.argmin(misfits["clockwise"])]
 assert notch == 0 and best["clockwise"] < 1 < 10 < best["counter-clockwise"]
+
+# %% slideshow={"slide_type": "fragment"} answers="14-experiment"
+fig, _ = views.curves(fronts, misfits, "front of the lidar at [°]", "misfit [cm]", size=(8, 3.6))
 views.show(
     fig,
     f"Read as clockwise, the misfit falls to {best['clockwise']:.1f} cm at {notch}°; "
@@ -415,9 +417,9 @@ print(f"{len(understood)} of {len(every)} commands are understood")
 # byte 15 counts the turn, about 2° a count. Both are **signed bytes**. We drive along a corridor at half speed, and look once a second:
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
-half_speed, _ = trials.statuses_of([(20, 50, 0)], worlds.corridor())
+half_speed, _ = trials.statuses_of([(16, 50, 0)], worlds.corridor())
 path = [status.path for status in half_speed]
-print("path:", *path[:160:10])
+print("path:", *path[::10])
 
 # %% slideshow={"slide_type": "subslide"}
 ask(
@@ -454,7 +456,7 @@ def way(values):
     return np.cumsum([counter.advance(value) for value in values])
 
 
-print("way:", *way(path)[:160:10])
+print("way:", *way(path)[::10])
 print("from 120 to −116:", way([120, -116])[-1])
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="14-ring"
@@ -490,20 +492,18 @@ ask(
 )
 
 # %% slideshow={"slide_type": "subslide"} answers="14-pause"
-full_speed, _ = trials.statuses_of([(20, 100, 0)], worlds.corridor())
+full_speed, _ = trials.statuses_of([(16, 100, 0)], worlds.corridor())
 PATHS = {"100 %": [status.path for status in full_speed], "50 %": path}
 
 
 def seldom(pause, speed):
     tenths = max(round(10 * pause), 1)
-    bytes_seen = PATHS[speed][::tenths]
-    time = 0.1 * tenths * np.arange(len(bytes_seen))
-    seen = {
-        "unwrapped": way(bytes_seen),
-        "as sent": bytes_seen,
-        "really": way(PATHS[speed])[::tenths],
-    }
-    fig, _ = views.curves(time, seen, "time [s]", "path [counts]", size=(8, 4))
+    sent = PATHS[speed][::tenths]
+    seen = {"unwrapped": way(sent), "as sent": sent, "truth": way(PATHS[speed])[::tenths]}
+    time = 0.1 * tenths * np.arange(len(sent))
+    fig, ax = views.curves(time, seen, "time [s]", "path [counts]", size=(8, 4))
+    ax.lines[2].set_color(views.COLOURS["truth"])
+    views.legend(ax, loc="upper left")
     return fig
 
 
@@ -523,7 +523,7 @@ views.explore(
 # works, first at full and then at half speed. For the turn, too, a machine can find it:
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"] answers="14-pause"
-spinning, _ = trials.statuses_of([(20, 0, 100)], worlds.room())
+spinning, _ = trials.statuses_of([(16, 0, 100)], worlds.room())
 readings = {"path": PATHS["100 %"], "turn": [status.angle for status in spinning]}
 limits = dict(zip(readings, 128 * np.array(COUNT_SIZE) / TOP_SPEEDS, strict=True))
 for name, values in readings.items():
@@ -561,7 +561,7 @@ trip, room = trials.round_trip(seed=5), worlds.room()
 
 def by_the_counters(path_cm, turn_degrees):
     track = trip.track(path_cm, turn_degrees)
-    off = 100 * np.hypot(*between(trip.true[-1], track[-1])[:2])
+    off = trip.error(path_cm, turn_degrees)
     fig, ax = views.axes(f"at the end {off:.0f} cm off", size=(8, 5.4))
     views.draw(ax, Segments("walls", room.outline()))
     views.draw(ax, Poses("truth", trip.true))
@@ -575,7 +575,7 @@ views.explore(
     by_the_counters,
     lambda path_cm, turn_degrees: (
         f"A room with a table and the true track round it; by counts of {path_cm:.2f} cm and {turn_degrees:.2f}° the track "
-        f"ends {100 * np.hypot(*between(trip.true[-1], trip.track(path_cm, turn_degrees)[-1])[:2]):.0f} cm off."
+        f"ends {trip.error(path_cm, turn_degrees):.0f} cm off."
     ),
     path_cm=(0.95, 1.10, 1.0),
     turn_degrees=(1.9, 2.3, 2.0),
@@ -588,19 +588,14 @@ views.explore(
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"] answers="14-harm"
 PAIRS = {"thesis": (1, 2), "path mended": (1.03, 2), "turn mended": (1, 2.14), "both": (1.03, 2.14)}
 trips = [trials.round_trip(seed) for seed in range(10)]
-off = {
-    name: np.array([100 * np.hypot(*between(t.true[-1], t.track(*pair)[-1])[:2]) for t in trips])
-    for name, pair in PAIRS.items()
-}
+off = {name: np.array([each.error(*pair) for each in trips]) for name, pair in PAIRS.items()}
+nearer = {name: np.sum(each < off["thesis"]) for name, each in off.items()}
 for name, each in off.items():
-    nearer = np.sum(each < off["thesis"])
-    print(
-        f"{name:>12}: {np.median(each):4.0f} cm off (median), nearer than by the thesis in {nearer:2}"
-    )
+    print(f"{name:>12}: {np.median(each):4.0f} cm off in the median")
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="14-harm"
-# The mended turn brings the robot nearer in {= np.sum(off["turn mended"] < off["thesis"]) =} of the ten drives, the mended path in
-# {= np.sum(off["path mended"] < off["thesis"]) =}. The {= np.median(off["both"]):.0f =} cm that are left with both right are slip, and no number mends
+# The mended turn brings the robot nearer in {= nearer["turn mended"] =} of the ten drives, the mended path in
+# {= nearer["path mended"] =}. The {= np.median(off["both"]):.0f =} cm that are left with both right are slip, and no number mends
 # slip. (A path of the wrong scale is not harmless: it draws the whole map in the wrong size. A round trip cannot show that.)
 
 # %% [markdown] slideshow={"slide_type": "notes"}
@@ -609,8 +604,8 @@ for name, each in off.items():
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## Your robot
 #
-# From here on there are drivers. A driver has a thread that listens to a device all the time, so that nothing piles up while your program thinks,
-# and it survives ports that vanish. Two names decide on which robot all that follows runs. As they stand, each cell starts emulators and opens
+# From here on there are drivers. A driver has a thread that listens to a device all the time, so that nothing piles up while your program thinks.
+# Two names decide on which robot all that follows runs. As they stand, each cell starts emulators and opens
 # them through pseudo-terminals, as if cables hung there (on Windows through TCP):
 
 # %% slideshow={"slide_type": "fragment"}
@@ -760,31 +755,24 @@ played = {
     "A robot, calibrated": partial(robot, calibration=calibrated),
 }
 
-
-def told(pair):
-    off = trials.errors(pair)
-    return "" if off is None else "naive {:.0f} cm, corrected {:.0f} cm off".format(*(100 * off))
-
-
 # %% slideshow={"slide_type": "slide"} answers="14-live"
 seen_live = views.live(
     played,
     views.apart(partial(estimators.make, "icp"), naive=(-8.5, 0)),
     "Left the naive map, its walls fanned out; right the corrected map, one sharp room.",
     steps=350,
-    note=told,
+    note=trials.errors_now,
     truth=False,
     title="eMIR: naive map on the left, corrected map on the right",
     speed=20,
     tops=(0.3, 0.6),
     size=(860, 400),
 )
-poses = seen_live.pair.estimator.naive_pose, seen_live.pair.estimator.pose
-final = [np.hypot(*between(true.poses[-1], pose)[:2]) for pose in poses]
+naive_off, corrected_off = trials.errors(seen_live.pair.estimator, true.poses[-1])
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="14-live"
 # After one round of the table the naive map shows each wall several times, fanned out like cards, and most of all the far ones. In the corrected map every wall is one
-# line. Both maps come from the same bytes. At the end of this simulated drive the naive pose was {= 100 * final[0]:.0f =} cm off, and the corrected one {= 100 * final[1]:.0f =} cm.
+# line. Both maps come from the same bytes. At the end of this simulated drive the naive pose was {= naive_off:.0f =} cm off, and the corrected one {= corrected_off:.0f =} cm.
 
 # %% [markdown] slideshow={"slide_type": "subslide"} answers="14-live"
 # ### Drive it yourself
@@ -868,7 +856,7 @@ views.show(
 #
 # | place | printed | right | harm |
 # | --- | --- | --- | --- |
-# | `move` | checksum $256 - 1 - T - R$ of bytes | (14.6) | half of all commands are malformed |
+# | `move` | checksum 256 − 1 − speed − turn, of bytes | (14.6) | half of all commands are malformed |
 # | odometry | read the counters, then reset them | differences, (14.7) | the way between the two is lost |
 # | every write | `flushOutput()` right after it | leave it out | throws away what has not yet left |
 # | `main` | neither `start()` nor `robot_control()` is called | call both | nothing happens |
@@ -906,7 +894,7 @@ print("called by main:", printed.main().called)
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # | place | printed | right | harm |
 # | --- | --- | --- | --- |
-# | `transformation_is_zero` | the entries of $T$ add to 0 | $T$ is the identity | standing still is never noticed |
+# | `transformation_is_zero` | the entries of `T` add to 0 | `T` is the identity | standing still is never noticed |
 # | sensors | number `> 0` | `>= 0` | sensor 0 is never returned |
 # | sensors | all 17 bytes are signed | six of them | a compass at 300° says −212° |
 # | bad frame | returns an empty list | skip it and count | unpacking fails in the caller |
@@ -919,6 +907,8 @@ print("standing still is zero:", printed.transformation_is_zero(np.eye(3)))
 text = Status(proximity=(35, 80, 80, 80, 62, 41), azimuth=150, path=-3, angle=7).pack().decode()
 print("sensors 0, 14, 15:", printed.values_for_sensors(text, [0, 14, 15]))
 print("compass:", 2 * printed.values_for_sensors(text, [13])[0], "degrees")
+
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 rng = np.random.default_rng(5)
 scans = [[] if rng.random() < 0.02 else [1] for _ in range(1000)]
 empty = sum(not points for points in scans)
@@ -938,7 +928,7 @@ print("turns:", *printed.turns_asked_for(readings, 3))
 # | place | printed | right | harm |
 # | --- | --- | --- | --- |
 # | ARRAY_TO_HOMOGENEOUS | the third coordinate is never set | set it to 1 | no point is ever shifted |
-# | DotProduct(points, $T$) | $T$ on the right | on the left of columns | shapes do not fit |
+# | DotProduct(points, T) | `T` on the right | on the left of columns | shapes do not fit |
 # | SLAM_ROUTINE | `while is_running is not True` | `while is_running` | the loop never begins |
 # | START | `is not None` | `is None` | opens a lidar just when scans are handed in |
 # | SLAM_ROUTINE | asks the lidar for a method of the app | ask the app | fails at once |

@@ -171,6 +171,11 @@ class CountedDrive:
             [odometry.advance(*n, PERIOD * k) for k, n in enumerate(self.counts.tolist())]
         )
 
+    def error(self, path_cm, turn_degrees):
+        """How far the last of these poses is from the true one [cm]."""
+        last = self.track(path_cm, turn_degrees)[-1]
+        return 100 * float(np.hypot(*between(self.true[-1], last)[:2]))
+
 
 def round_trip(seed):
     """A drive round the table, told by the counters alone: no lidar looks.
@@ -195,8 +200,24 @@ def round_trip(seed):
     return CountedDrive(np.array(counts).astype(int).astype(np.int8), np.array(true))
 
 
-def errors(pair):
-    """How far the naive and the corrected pose of a live view are from the truth.
+def errors(estimator, true):
+    """How far the naive and the corrected pose of an estimator are from the true one.
+
+    Parameters
+    ----------
+    estimator : Estimator
+    true : (3,) [m, m, rad]
+
+    Returns
+    -------
+    (2,) [cm]
+    """
+    poses = estimator.naive_pose, estimator.pose
+    return np.array([100 * np.hypot(*between(true, pose)[:2]) for pose in poses])
+
+
+def errors_now(pair):
+    """The same of a live view, in words; empty where nobody knows the truth.
 
     Parameters
     ----------
@@ -204,10 +225,9 @@ def errors(pair):
 
     Returns
     -------
-    (2,) [m], or None where nobody knows the truth
+    str
     """
     if not getattr(pair.source, "bench", None) or not len(pair.source.truth):
-        return None
-    now = pair.source.truth.poses[: pair.count][-1]
-    poses = pair.estimator.naive_pose, pair.estimator.pose
-    return np.array([np.hypot(*between(now, pose)[:2]) for pose in poses])
+        return ""
+    off = errors(pair.estimator, pair.source.truth.poses[: pair.count][-1])
+    return "naive {:.0f} cm, corrected {:.0f} cm off".format(*off)
