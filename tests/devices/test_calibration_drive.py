@@ -1,12 +1,14 @@
 """Calibration drive: counts that, by what was measured, give the size of a count."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
 from slamlab import worlds
 from slamlab.devices.clock import SimulatedClock
-from slamlab.devices.emir import commands
 from slamlab.devices.emir.calibration_drive import calibration_drive
+from slamlab.devices.emir.status import Status
 from slamlab.devices.emulator.robot_body import COUNT_SIZE
 from slamlab.devices.errors import DeviceNotResponding
 from slamlab.geometry import between
@@ -28,7 +30,7 @@ def test_way_and_turn_over_their_counts_are_the_size_of_a_count(devices):
     np.testing.assert_allclose(measured / counts, COUNT_SIZE, rtol=0.05)
 
 
-def test_a_robot_that_falls_silent_is_told_of(devices):
-    devices.bench["emir"].feed(commands.power_off(), devices.bench.clock.now())
+def test_a_robot_that_is_closed_meanwhile_is_told_of():
+    closed = SimpleNamespace(status=Status(), translate=lambda *_: None, wait=lambda: None)
     with pytest.raises(DeviceNotResponding, match="eMIR says no more"):
-        calibration_drive(devices.emir)
+        calibration_drive(closed)
