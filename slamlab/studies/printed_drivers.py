@@ -155,6 +155,8 @@ def slam_routine_rounds():
 def as_documented(capsule, following):
     """A capsule's points as Slamtec's document has them: an offset has a sign, k begins at 1.
 
+    Equation (14.9).
+
     Parameters
     ----------
     capsule, following : bytes, 84 each
