@@ -1,12 +1,15 @@
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=1
 # # 14 · The eMIR system
 #
-# **You will be able to** read a lidar's bytes, find a wrong sign without knowing the room, send commands
-# that a robot does not drop, add up its way from counters that overflow, calibrate it with a tape, record a
-# drive and play it again, and drive a robot through a room while its map grows before your eyes.
+# **You will be able to** read a lidar's bytes, find a wrong sign without knowing the room, send commands that a
+# robot does not drop, add up its way from counters that overflow, calibrate it with a tape, record a drive and
+# play it again, and drive a robot through a room while its map grows before your eyes.
 #
 # **100 minutes**, in two parts: from bytes to points and commands (47), and from counters to a live map (53).
 # **Before:** lesson [01](01_why_slam.ipynb) for poses, lesson [13](13_scan_matching.ipynb) for scan matching.
+#
+# eMIR is a small wheeled robot in Zagreb. Tuček's thesis puts a lidar on it, drives it by typed commands, and
+# draws two maps while it drives. We build this system anew, from its bytes up.
 #
 # *Key:* between the world and the mathematics there are bytes. One wrong shift, sign or overflow there, and the
 # best filter maps a room that does not exist.
@@ -55,8 +58,8 @@ from slamlab.studies import printed_drivers as printed
 # The RPLIDAR A2 is a motor with a laser, at the end of a serial port. We send it a request of two bytes, `a5 20`,
 # which means *scan*. It answers with seven bytes that say what will follow. Then it sends points, without end.
 #
-# The lidar below is emulated: a small machine that is fed bytes and the time, and gives back bytes. It needs no port,
-# and nobody has to wait. It stands in the polygon of cardboard that Tuček built for his thesis.
+# The lidar below is emulated: a small machine that is fed bytes and the time, and gives back bytes. It needs no
+# port, and nobody has to wait. It stands in Tuček's polygon of cardboard, which you know from lesson 13.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 polygon = worlds.polygon()
@@ -68,8 +71,8 @@ for at in range(7, 22, 5):
     print("       ", scan[at : at + 5].hex(" "))
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# The answer begins with `a5 5a`, as all answers do. Then it says: packets of `05` bytes, without end (`40`), of the kind
-# `81`. A packet of five bytes is one point, and is called a **node**.
+# The answer begins with `a5 5a`, as all answers do. Then it says: packets of `05` bytes, without end (`40`), of
+# the kind `81`. A packet of five bytes is one point, and is called a **node**.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=9
 # ## Reading a node
@@ -86,12 +89,13 @@ for at in range(7, 22, 5):
 # | 3, 4 | 0–15 | distance, in units of 1/4 mm; 0 if nothing came back |
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
-# A number that does not fit into one byte takes two. The RPLIDAR sends the **low byte first** (this is called *little endian*), so
+# A number that does not fit into one byte takes two. The RPLIDAR sends the **low byte first** (this is called
+# *little endian*), so
 #
 # $$\text{word} = \text{low} + 256 \cdot \text{high}. \tag{14.1}$$
 #
-# Bit 0 of the first word is C and does not belong to the angle. To drop it, we halve the word and forget the rest.
-# With $\psi$ for the angle that the lidar counts, and $r$ for the distance,
+# Bit 0 of the first word is C and does not belong to the angle. To drop it, we halve the word and forget the
+# rest. With $\psi$ for the angle that the lidar counts, and $r$ for the distance,
 #
 # $$\psi = \frac{1}{64} \left\lfloor \frac{\text{word}_{1,2}}{2} \right\rfloor \text{degrees}, \qquad
 # r = \frac{\text{word}_{3,4}}{4} \text{ mm}. \tag{14.2}$$
@@ -156,19 +160,20 @@ views.explore(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="14-node"
-# One bit was flipped on its way, and the point has jumped to the other side of the robot. The last bit of the angle would
-# hardly have mattered. A flipped check bit is noticed, and so is an angle beyond 360°. Any other flipped bit of the angle or
-# the distance brings a wrong point into the map.
+# One bit was flipped on its way, and the point has jumped to the other side of the robot. The last bit of the
+# angle would hardly have mattered. A flipped check bit is noticed, and so is an angle beyond 360°. Any other
+# flipped bit of the angle or the distance brings a wrong point into the map.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* Give the class three minutes with the first node. Then let somebody choose the bit that does the
-# most harm, and the one that does the least.
+# *For the lecturer:* Give the class three minutes with the first node. Then let somebody choose the bit that does
+# the most harm, and the one that does the least.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=4
 # ## When a byte is lost
 #
-# Worse than a flipped bit is a lost byte. From then on every node is read one byte too early, and all of them are wrong. The
-# three check bits are there to notice: S must differ from its contrary, and C must be 1. How often does chance pass this test?
+# Worse than a flipped bit is a lost byte. From then on every node is read one byte too early, and all of them are
+# wrong. The three check bits are there to notice: S must differ from its contrary, and C must be 1. How often
+# does chance pass this test?
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 combinations = [(S, contrary, C) for S in (0, 1) for contrary in (0, 1) for C in (0, 1)]
@@ -176,8 +181,9 @@ passing = [bits for bits in combinations if bits[0] != bits[1] and bits[2] == 1]
 print(f"{len(passing)} of {len(combinations)} combinations pass")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# A quarter of all nonsense looks like a node. So one good node proves nothing. A decoder that has lost its step should
-# trust only several nodes in a row whose angles advance. The package's waits for four. We lose one byte in a thousand:
+# A quarter of all nonsense looks like a node. So one good node proves nothing. A decoder that has lost its step
+# should trust only several nodes in a row whose angles advance. The package's waits for four. We lose one byte in
+# a thousand:
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 lost = np.random.default_rng(3).random(len(scan)) < 0.001
@@ -188,14 +194,16 @@ print(f"{lost.sum()} bytes lost, {decoder.damage['resyncs']} times out of step")
 print(f"{len(good)} of {len(nodes)} nodes are left, and no exception was raised")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# {= lost.sum() =} bytes cost {= len(nodes) - len(good) =} nodes of {= len(nodes) =}. A damaged stream is an ordinary thing, so a
-# decoder counts the damage and goes on. An exception would end the map for the sake of one byte.
+# {= lost.sum() =} bytes cost {= len(nodes) - len(good) =} nodes of {= len(nodes) =}. A damaged stream is an
+# ordinary thing, so a decoder counts the damage and goes on. An exception would end the map for the sake of one
+# byte.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=8
 # ## More points in fewer bytes
 #
-# The line carries 115 200 bits a second. With its start bit and its stop bit a byte takes ten of them, so 2304 nodes a second
-# are the most. But the lidar can measure a point every 254 µs, that is 3937 times a second. They do not fit.
+# The line carries 115 200 bits a second. With its start bit and its stop bit a byte takes ten of them, so 2304
+# nodes a second are the most. But the lidar can measure a point every 254 µs, that is 3937 times a second. They
+# do not fit.
 #
 # So there is another format, the **capsule**. It packs 32 points into 84 bytes:
 
@@ -205,8 +213,9 @@ for name, size, points in (("nodes", 5, 1), ("capsules", 84, 32)):
     print(f"{name:>8}: {size / points:.2f} bytes a point, at most {most:.0f} points a second")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# Room is saved on the angles: a capsule holds 32 distances, and *one* angle $\psi$, that of its beginning. Each point brings only
-# a small offset $\delta_k$, up to 8°, for the optics look a little behind the place where the motor stands.
+# Room is saved on the angles: a capsule holds 32 distances, and *one* angle $\psi$, that of its beginning. Each
+# point brings only a small offset $\delta_k$, up to 8°, for the optics look a little behind the place where the
+# motor stands.
 
 # %% slideshow={"slide_type": "subslide"}
 ask(
@@ -224,13 +233,13 @@ ask(
 )
 
 # %% [markdown] slideshow={"slide_type": "subslide"} answers="14-capsule"
-# The next capsule tells how far the lidar has turned meanwhile. The points are taken at a steady pace, so they lie evenly
-# between the two beginnings, $\psi$ and $\psi'$. Point $k$ is
+# The next capsule tells how far the lidar has turned meanwhile. The points are taken at a steady pace, so they
+# lie evenly between the two beginnings, $\psi$ and $\psi'$. Point $k$ is
 #
 # $$\psi_k = \psi + \frac{k}{32}\,\bigl((\psi' - \psi) \bmod 360°\bigr) - \delta_k, \qquad k = 0, \dots, 31. \tag{14.3}$$
 #
-# The remainder keeps the difference positive where the lidar passes 360°. The price is a delay: the last capsule cannot be read
-# before the next one has come.
+# The remainder keeps the difference positive where the lidar passes 360°. The price is a delay: the last capsule
+# cannot be read before the next one has come.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="14-capsule"
 lidar = trials.lidar_on(RobotBody(polygon, np.random.default_rng(0)))
@@ -241,14 +250,15 @@ for count in (1, 2, 3):
     print(f"{count} capsules received: {len(found)} points known")
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="14-capsule"
-# A capsule carries a checksum, too: the exclusive or of bytes 2 to 83. Chance fits it once in 256 times, not once in four.
-# (Slamtec's document and Slamtec's program disagree about (14.3). A *Deeper* section at the end settles it.)
+# A capsule carries a checksum, too: the exclusive or of bytes 2 to 83. Chance fits it once in 256 times, not once
+# in four. (Slamtec's document and Slamtec's program disagree about (14.3). A *Deeper* section at the end settles
+# it.)
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=4
 # ## Clockwise
 #
-# An angle and a distance are not yet a point. The RPLIDAR counts its angles **clockwise**, seen from above, from its front.
-# Our poses count counter-clockwise. So a lidar whose front is the robot's front sees its point at
+# An angle and a distance are not yet a point. The RPLIDAR counts its angles **clockwise**, seen from above, from
+# its front. Our poses count counter-clockwise. So a lidar whose front is the robot's front sees its point at
 #
 # $$x = r \cos\psi, \qquad y = -r \sin\psi. \tag{14.4}$$
 #
@@ -271,14 +281,16 @@ views.show(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# Two rooms, both with sharp walls, and both could exist. Whoever does not know the room cannot tell from *one* scan which of them
-# is real. And yet a robot that believes the mirror image will never build a map, as we shall see.
+# Two rooms, both with sharp walls, and both could exist. Whoever does not know the room cannot tell from *one*
+# scan which of them is real. And yet a robot that believes the mirror image will never build a map, as we shall
+# see.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=10
 # ## The experiment that finds a wrong sign
 #
-# You do not know the room. But you may move the robot, and its wheels tell how it moved. So let it look, move it, let it look
-# again, and lay the second look over the first by what the wheels have told. If the sign is right, the walls coincide.
+# You do not know the room. But you may move the robot, and its wheels tell how it moved. So let it look, move it,
+# let it look again, and lay the second look over the first by what the wheels have told. If the sign is right,
+# the walls coincide.
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
@@ -296,17 +308,19 @@ ask(
 # %% [markdown] slideshow={"slide_type": "subslide"} answers="14-experiment"
 # ### Why a turn tells
 #
-# A wall's point that is at $p'$ for the second look was at $p = \mathrm{Rot}(\theta)\, p' + t$ for the first one, where the wheels know
-# $\theta$ and $t$. Whoever forgets the minus sees $M p$ and $M p'$, where $M$ is the mirror that changes the sign of $y$. How do
-# these two belong together? A mirror turns a rotation round:
+# A wall's point that is at $p'$ for the second look was at $p = \mathrm{Rot}(\theta)\, p' + t$ for the first one,
+# where the wheels know $\theta$ and $t$. Whoever forgets the minus sees $M p$ and $M p'$, where $M$ is the mirror
+# that changes the sign of $y$. How do these two belong together? A mirror turns a rotation round:
 #
 # $$M\,\mathrm{Rot}(\theta) = \mathrm{Rot}(-\theta)\,M, \qquad \text{so} \quad M p = \mathrm{Rot}(-\theta)\,M p' + M t. \tag{14.5}$$
 
 # %% [markdown] slideshow={"slide_type": "subslide"} answers="14-experiment"
-# The wheels say $\mathrm{Rot}(\theta)$ where $\mathrm{Rot}(-\theta)$ would be needed: the second look comes out turned by $2\theta$. If the
-# robot drives straight ahead, $\theta$ is 0, and $t$ lies on the $x$ axis, which the mirror leaves alone. Then everything fits.
+# The wheels say $\mathrm{Rot}(\theta)$ where $\mathrm{Rot}(-\theta)$ would be needed: the second look comes out
+# turned by $2\theta$. If the robot drives straight ahead, $\theta$ is 0, and $t$ lies on the $x$ axis, which the
+# mirror leaves alone. Then everything fits.
 #
-# In the same way a turn on the spot tells nothing about where the lidar's front is, but a drive does. So we drive an **arc**, which is both.
+# In the same way a turn on the spot tells nothing about where the lidar's front is, but a drive does. So we drive
+# an **arc**, which is both.
 
 
 # %% slideshow={"slide_type": "fragment"} answers="14-experiment"
@@ -331,8 +345,9 @@ views.explore(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="14-experiment"
-# Read counter-clockwise, the second look lies turned across the first one. Choose *clockwise*, and the walls coincide. Choose
-# *straight ahead*, and both signs fit. Then move the front, and see that no front can make up for the wrong sign.
+# Read counter-clockwise, the second look lies turned across the first one. Choose *clockwise*, and the walls
+# coincide. Choose *straight ahead*, and both signs fit. Then move the front, and see that no front can make up
+# for the wrong sign.
 
 # %% slideshow={"slide_type": "subslide"} answers="14-experiment"
 fronts, arc = np.arange(-180, 181, 5), looks["an arc"]
@@ -353,21 +368,24 @@ views.show(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="14-experiment"
-# One sign and one front fit, to {= best["clockwise"]:.1f =} cm; with the wrong sign the best is {= best["counter-clockwise"]:.0f =} cm.
-# Nobody had to know the room. As an `assert`, this is a test for any robot that can drive an arc.
+# One sign and one front fit, to {= best["clockwise"]:.1f =} cm; with the wrong sign the best is {=
+# best["counter-clockwise"]:.0f =} cm. Nobody had to know the room. As an `assert`, this is a test for any robot
+# that can drive an arc.
 #
-# **One trap is left.** If the wheels, too, counted the wrong way round, the mirrored scan would fit, and the whole map would be a mirror
-# image. So settle one sign by eye: turn the robot to the left by hand, and see whether its count of the angle grows.
+# **One trap is left.** If the wheels, too, counted the wrong way round, the mirrored scan would fit, and the
+# whole map would be a mirror image. So settle one sign by eye: turn the robot to the left by hand, and see
+# whether its count of the angle grows.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* Let the class vote before the picture, and defend "straight ahead": it is the answer of most. A
-# volunteer who turns on the spot in front of the class, and says which way the room turns, settles it.
+# *For the lecturer:* Let the class vote before the picture, and let each side defend its answer. A volunteer can
+# play the robot in front of the class, and say what the room does while moving.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=8
 # ## A command, and its checksum
 #
-# eMIR, the robot, speaks text: a `#`, then four bytes as two hexadecimal digits each, then a `/`. The four are an opcode, two arguments, and
-# a checksum. A negative argument goes as its *two's complement*, which is the number plus 256. Here are three frames that work:
+# eMIR, the robot, speaks text: a `#`, then four bytes as two hexadecimal digits each, then a `/`. The four are an
+# opcode, two arguments, and a checksum. A negative argument goes as its *two's complement*, which is the number
+# plus 256. Here are three frames that work:
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 for what, text in (("send", "#100100EF/"), ("halt", "#010000FF/"), ("reset", "#150000EB/")):
@@ -392,12 +410,14 @@ ask(
 )
 
 # %% [markdown] slideshow={"slide_type": "subslide"} answers="14-checksum"
-# A robot that adds bytes in a byte knows their sum only up to multiples of 256. So the rule that all frames share is
+# A robot that adds bytes in a byte knows their sum only up to multiples of 256. So the rule that all frames share
+# is
 #
 # $$(\text{opcode} + \text{speed} + \text{turn} + \text{checksum}) \bmod 256 = 0. \tag{14.6}$$
 #
-# For two positive arguments "256 less the rest" gives the same, and that is how mistakes survive: whoever tests only ahead and to the left
-# never notices. There are no more than 201 · 201 commands to drive. So we test all of them with the robot's own framer:
+# For two positive arguments "256 less the rest" gives the same, and that is how mistakes survive: whoever tests
+# only ahead and to the left never notices. There are no more than 201 · 201 commands to drive. So we test all of
+# them with the robot's own framer:
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="14-checksum"
 print("speed −1, turn −1:", commands.move(-1, -1).decode())
@@ -407,14 +427,15 @@ understood = robot_ear.feed(b"".join(commands.move(v, omega) for v, omega in eve
 print(f"{len(understood)} of {len(every)} commands are understood")
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="14-checksum"
-# A robot drops a frame whose checksum is wrong, and says nothing. It goes on with the *former* command. (How many commands a printed driver
-# loses in this way stands in the section *In print*.)
+# A robot drops a frame whose checksum is wrong, and says nothing. It goes on with the *former* command. (How many
+# commands a printed driver loses in this way stands in the section *In print*.)
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=8
 # ## Part two: a counter that overflows
 #
-# eMIR answers. Ours does so ten times a second, with a `*`, 17 bytes as digits, and a `/`. Byte 14 counts the path, about a centimetre a count, and
-# byte 15 counts the turn, about 2° a count. Both are **signed bytes**. We drive along a corridor at half speed, and look once a second:
+# eMIR answers. Ours does so ten times a second, with a `*`, 17 bytes as digits, and a `/`. Byte 14 counts the
+# path, about a centimetre a count, and byte 15 counts the turn, about 2° a count. Both are **signed bytes**. We
+# drive along a corridor at half speed, and look once a second:
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 half_speed, _ = trials.statuses_of([(16, 50, 0)], worlds.corridor())
@@ -440,9 +461,9 @@ ask(
 # %% [markdown] slideshow={"slide_type": "subslide"} answers="14-ring"
 # ### The shorter way round
 #
-# The counter lives on a ring of 256 values. From two readings $n_k$ and $n_{k+1}$ nobody can know how many *whole rounds* lie
-# between them. So the step $\Delta_k$ is known up to multiples of 256. Exactly one of the possible steps lies in a byte's own range, and it is the
-# shorter way round the ring:
+# The counter lives on a ring of 256 values. From two readings $n_k$ and $n_{k+1}$ nobody can know how many *whole
+# rounds* lie between them. So the step $\Delta_k$ is known up to multiples of 256. Exactly one of the possible
+# steps lies in a byte's own range, and it is the shorter way round the ring:
 #
 # $$\Delta_k \equiv n_{k+1} - n_k \pmod{256}, \qquad -128 \le \Delta_k \le 127. \tag{14.7}$$
 #
@@ -460,12 +481,12 @@ print("way:", *way(path)[::10])
 print("from 120 to −116:", way([120, -116])[-1])
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="14-ring"
-# The overflow is gone, and the same rule works backwards, for "shorter" does not care about a direction. It asks for one thing only: that the
-# robot goes less than half a ring between two readings.
+# The overflow is gone, and the same rule works backwards, for "shorter" does not care about a direction. It asks
+# for one thing only: that the robot goes less than half a ring between two readings.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* Draw the ring of 256 values on the board, with 127 and −128 side by side. Offers for the rule will be: add 256 when the
-# step is negative (fails backwards), and add 256 when it is below −128 (forgets the overflow back).
+# *For the lecturer:* Draw the ring of 256 values on the board, with 127 and −128 side by side. Collect rules for
+# the step, and try each of them on a robot that drives back.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=7
 # ## How seldom may one look?
@@ -474,7 +495,8 @@ print("from 120 to −116:", way([120, -116])[-1])
 #
 # $$\text{pause} < \frac{128 \cdot \text{size of a count}}{\text{speed}}. \tag{14.8}$$
 #
-# Our emulated robot counts 1.03 cm of path and 2.14° of turn. At full speed it drives 40 cm/s, or turns by 100° a second.
+# Our emulated robot counts 1.03 cm of path and 2.14° of turn. At full speed it drives 40 cm/s, or turns by 100° a
+# second.
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
@@ -519,8 +541,8 @@ views.explore(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="14-pause"
-# With a look every 3.5 s a robot that drives ahead seems to drive back, and no reading looks suspicious. Find the longest pause that
-# works, first at full and then at half speed. For the turn, too, a machine can find it:
+# With a look every 3.5 s a robot that drives ahead seems to drive back, and no reading looks suspicious. Find the
+# longest pause that works, first at full and then at half speed. For the turn, too, a machine can find it:
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"] answers="14-pause"
 spinning, _ = trials.statuses_of([(16, 0, 100)], worlds.room())
@@ -532,15 +554,15 @@ for name, values in readings.items():
     print(f"{name}: right up to a look every {fine[-1] / 10} s; by (14.8) {limits[name]:.2f} s")
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="14-pause"
-# So the path allows {= limits["path"]:.1f =} s, and the turn {= limits["turn"]:.1f =} s: the more impatient of the two counters sets the pace.
-# eMIR's ten statuses a second leave room for a few that are lost.
+# So the path allows {= limits["path"]:.1f =} s, and the turn {= limits["turn"]:.1f =} s: the more impatient of
+# the two counters sets the pace. eMIR's ten statuses a second leave room for a few that are lost.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=9
 # ## What is a count?
 #
-# How long is a count? Tuček's thesis takes 1 cm and 2°. Another program for robots of the same kind takes 1.03 cm and 2.14°. Neither says where
-# it has its numbers from. Our emulated robot is built to the second pair, so whoever believes the first is off by 3 % in the path and by 7 % in
-# the turn.
+# How long is a count? Tuček's thesis takes 1 cm and 2°. Another program for robots of the same kind takes 1.03 cm
+# and 2.14°. Neither says where it has its numbers from. Our emulated robot is built to the second pair, so
+# whoever believes the first is off by 3 % in the path and by 7 % in the turn.
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
@@ -582,8 +604,9 @@ views.explore(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="14-harm"
-# With the thesis' numbers each corner is 6° short, and the round does not close. Move `path_cm`: the track grows, and its end hardly comes nearer.
-# Move `turn_degrees` to 2.14, and the round closes. Is that so for other drives, too? The wheels slip at random, so we take ten:
+# With the thesis' numbers each corner is 6° short, and the round does not close. Move `path_cm`: the track grows,
+# and its end hardly comes nearer. Move `turn_degrees` to 2.14, and the round closes. Is that so for other drives,
+# too? The wheels slip at random, so we take ten:
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"] answers="14-harm"
 PAIRS = {"thesis": (1, 2), "path mended": (1.03, 2), "turn mended": (1, 2.14), "both": (1.03, 2.14)}
@@ -594,19 +617,21 @@ for name, each in off.items():
     print(f"{name:>12}: {np.median(each):4.0f} cm off in the median")
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="14-harm"
-# The mended turn brings the robot nearer in {= nearer["turn mended"] =} of the ten drives, the mended path in
-# {= nearer["path mended"] =}. The {= np.median(off["both"]):.0f =} cm that are left with both right are slip, and no number mends
-# slip. (A path of the wrong scale is not harmless: it draws the whole map in the wrong size. A round trip cannot show that.)
+# The mended turn brings the robot nearer in {= nearer["turn mended"] =} of the ten drives, the mended path in {=
+# nearer["path mended"] =}. The {= np.median(off["both"]):.0f =} cm that are left with both right are slip, and no
+# number mends slip. (A path of the wrong scale is not harmless: it draws the whole map in the wrong size. A round
+# trip cannot show that.)
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* Ask which drive would show the wrong path best, and which the wrong turn. That is how one calibrates; "Calibrate it" does both.
+# *For the lecturer:* Ask which drive would show the wrong path best, and which the wrong turn. That is how one
+# calibrates; "Calibrate it" does both.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## Your robot
 #
-# From here on there are drivers. A driver has a thread that listens to a device all the time, so that nothing piles up while your program thinks.
-# Two names decide on which robot all that follows runs. As they stand, each cell starts emulators and opens
-# them through pseudo-terminals, as if cables hung there (on Windows through TCP):
+# From here on there are drivers. A driver has a thread that listens to a device all the time, so that nothing
+# piles up while your program thinks. Two names decide on which robot all that follows runs. As they stand, each
+# cell starts emulators and opens them through pseudo-terminals, as if cables hung there (on Windows through TCP):
 
 # %% slideshow={"slide_type": "fragment"}
 LIDAR_PORT = None  # such as "/dev/ttyUSB0" or "COM3"
@@ -621,8 +646,8 @@ def robot(rng, calibration=None, clock=None):
 
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# If a port cannot be opened, a sentence says so, with its likely cause and the next step. (If the notch of your own lidar is not at 0°, hand its place as
-# `front=` to `devices`.)
+# If a port cannot be opened, a sentence says so, with its likely cause and the next step. (If the notch of your
+# own lidar is not at 0°, hand its place as `front=` to `devices`.)
 
 # %% slideshow={"slide_type": "subslide"}
 try:
@@ -633,7 +658,8 @@ except sources.SourceError as trouble:
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### And when the program ends?
 #
-# A robot obeys its last command until the next one comes. So what does it do when your program has ended, perhaps by an exception?
+# A robot obeys its last command until the next one comes. So what does it do when your program has ended, perhaps
+# by an exception?
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 body = RobotBody(worlds.corridor(), np.random.default_rng(1))
@@ -645,14 +671,17 @@ emir.feed(b"", 6.0)
 print(f"five seconds later the robot is {body.pose[0] - ended_at:.1f} m further")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# It drives on, until it meets a wall. The package's drivers therefore stop robot and motor when they are closed, also when the program ends by an error,
-# and they stop a robot for which nobody has asked for two seconds. Only a program that is killed cannot do this any more.
+# It drives on, until it meets a wall. The package's drivers therefore stop robot and motor when they are closed,
+# also when the program ends by an error. And a watchdog ends a motion that no program has asked for within two
+# seconds. Only a program that is killed cannot do this any more.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## Calibrate it
 #
-# 1. Mark where the robot stands, and run the next cell. It drives what it takes for one metre, and then makes four quarter turns, all by *its* count.
-# 2. Measure the way with a tape, and the turn with a protractor: what the four quarters make more (or, with a minus, less) than a full turn.
+# 1. Mark where the robot stands, and run the next cell. It drives what it takes for one metre, and then makes
+#    four quarter turns, all by *its* count.
+# 2. Measure the way with a tape, and the turn with a protractor: what the four quarters make more (or, with a
+#    minus, less) than a full turn.
 # 3. Write both into the cell after it, and run that cell. (With `None`, the emulator says what it knows.)
 
 # %% slideshow={"slide_type": "fragment"}
@@ -678,14 +707,14 @@ print(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# The simulated robot was built with 1.03 cm and 2.14°. One count more or less is 1 % of a metre, so a longer drive gives a better number. If the turn comes out
-# negative, your robot counts clockwise: keep the sign.
+# The simulated robot was built with 1.03 cm and 2.14°. One count more or less is 1 % of a metre, so a longer
+# drive gives a better number. If the turn comes out negative, your robot counts clockwise: keep the sign.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=6
 # ## Record it, play it again
 #
-# A robot's day cannot be repeated, but its bytes can. A recording keeps every piece that was read or written, with its time and a checksum, and nothing that was
-# derived from it. We record a simulated drive round the table:
+# A robot's day cannot be repeated, but its bytes can. A recording keeps every piece that was read or written,
+# with its time and a checksum, and nothing that was derived from it. We record a simulated drive round the table:
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 folder = tempfile.TemporaryDirectory()
@@ -701,7 +730,8 @@ print(f"{recording.seconds:.0f} s, {received} pieces received, {len(whole)} turn
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### What a recording must stand
 #
-# A battery dies in the middle of a sentence, so the file may be cut off anywhere. And in which *pieces* bytes arrive differs from machine to machine, so that must not matter either.
+# A battery dies in the middle of a sentence, so the file may be cut off anywhere. And in which *pieces* bytes
+# arrive differs from machine to machine, so that must not matter either.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 left = list(turns(parse(raw[: len(raw) * 3 // 5 + 1], "table.rec")))
@@ -724,17 +754,20 @@ print(f"of 20 ways to cut the bytes into pieces, {differ} gave other points")
 # slamlab run my.rec                             # or straight into a SLAM
 # ```
 #
-# So a class of forty needs one robot and one drive. For every estimator of this course, `sources.open("my.rec")` is a source like any other.
+# So a class of forty needs one robot and one drive. For every estimator of this course, `sources.open("my.rec")`
+# is a source like any other.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* Record your own drive with the class in the room; next year it is played again. With the two ports of `slamlab replay` in LIDAR_PORT and EMIR_PORT,
-# the cells below run on that drive through the real drivers. The robot of a replay goes its recorded way, whatever it is told.
+# *For the lecturer:* Record your own drive with the class in the room; next year it is played again. With the two
+# ports of `slamlab replay` in LIDAR_PORT and EMIR_PORT, the cells below run on that drive through the real
+# drivers. The robot of a replay goes its recorded way, whatever it is told.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=12
 # ## Live
 #
-# Now all of it together, as in Tuček's program: two maps grow side by side. The **naive** map believes the wheels alone. The **corrected** one lays each scan over the
-# former ones by the scan matching of lesson 13. Both take a count for 1 cm and 2°, as the thesis does.
+# Now all of it together, as in Tuček's program: two maps grow side by side. The **naive** map believes the wheels
+# alone. The **corrected** one lays each scan over the former ones by the scan matching of lesson 13. Both take a
+# count for 1 cm and 2°, as the thesis does.
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
@@ -771,60 +804,71 @@ seen_live = views.live(
 naive_off, corrected_off = trials.errors(seen_live.pair.estimator, true.poses[-1])
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="14-live"
-# After one round of the table the naive map shows each wall several times, fanned out like cards, and most of all the far ones. In the corrected map every wall is one
-# line. Both maps come from the same bytes. At the end of this simulated drive the naive pose was {= naive_off:.0f =} cm off, and the corrected one {= corrected_off:.0f =} cm.
+# After one round of the table the naive map shows each wall several times, fanned out like cards, and most of all
+# the far ones. In the corrected map every wall is one line. Both maps come from the same bytes. At the end of
+# this simulated drive the naive pose was {= naive_off:.0f =} cm off, and the corrected one {= corrected_off:.0f
+# =} cm.
 
 # %% [markdown] slideshow={"slide_type": "subslide"} answers="14-live"
 # ### Drive it yourself
 #
 # - **A recording** needs no robot: press *reset* and *run*.
-# - **A robot**: press it, then *run*. Drive by the buttons, or click the picture and use the arrow keys (space stops). Or type as in the thesis: `distance, angle`, `reset`,
-#   `exit`. A way of `0.5, 30` is a turn by 30° and then half a metre, by the corrected pose.
-# - **A robot, calibrated** is the same with your own scale factors. The naive map gets better, too, but the wheels still slip.
+# - **A robot**: press it, then *run*. Drive by the buttons, or click the picture and use the arrow keys (space
+#   stops). Or type as in the thesis: `distance, angle`, `reset`, `exit`. A way of `0.5, 30` is a turn by 30° and
+#   then half a metre, by the corrected pose.
+# - **A robot, calibrated** is the same with your own scale factors. The naive map gets better, too, but the
+#   wheels still slip.
 #
 # *pause*, *exit*, running the cell again, or ending the kernel stops the robot.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* Pull the plug while it runs: on a real robot the USB cable, on the emulated one by
-# `seen_live.pair.source.bench["lidar"].faults.unplugged = True` in a new cell. Within a second a sentence stands below the picture; *reset* begins again. A class without
-# robots opens your drive: `lambda rng: sources.open("my.rec")` behind the first button.
+# `seen_live.pair.source.bench["lidar"].faults.unplugged = True` in a new cell. Within a second a sentence stands
+# below the picture; *reset* begins again. A class without robots opens your drive: `lambda rng:
+# sources.open("my.rec")` behind the first button.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Literature
 #
-# Tuček, master's thesis, Zagreb, 2022: the system that this lesson follows, from the bytes to the live map, with its listing.
+# Tuček, master's thesis, Zagreb, 2022: the system that this lesson follows, from the bytes to the live map, with
+# its listing.
 #
 # Slamtec, *RPLIDAR Interface Protocol and Application Notes*: nodes, capsules, requests.
 #
-# J. Borenstein and L. Feng, "Measurement and correction of systematic odometry errors in mobile robots", *IEEE Transactions on Robotics and Automation* 12(6), 1996: scale
-# factors of wheels, found by driving a square both ways round.
+# J. Borenstein and L. Feng, "Measurement and correction of systematic odometry errors in mobile robots", *IEEE
+# Transactions on Robotics and Automation* 12(6), 1996: scale factors of wheels, found by driving a square both
+# ways round.
 #
-# T. C. Maxino and P. J. Koopman, "The effectiveness of checksums for embedded control networks", *IEEE Transactions on Dependable and Secure Computing* 6(1), 2009: what a
-# sum or an exclusive or misses.
+# T. C. Maxino and P. J. Koopman, "The effectiveness of checksums for embedded control networks", *IEEE
+# Transactions on Dependable and Secure Computing* 6(1), 2009: what a sum or an exclusive or misses.
 #
 # **Read next:** Borenstein and Feng. It is short, and you can repeat it on any floor.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=1
 # ## What you can do now
 #
-# You can read a device's bytes, test for a wrong sign, send commands that arrive, unwrap counters, calibrate, record and replay, and drive a robot through a growing map.
+# You can read a device's bytes, test for a wrong sign, send commands that arrive, unwrap counters, calibrate,
+# record and replay, and drive a robot through a growing map.
 #
-# **What comes next:** the corrected map is sharp after one round. In a larger building small errors add up, and where the robot comes back, walls stand twice. Lesson
-# [15](15_closing_the_loop.ipynb) recognises places and closes the loop.
+# **What comes next:** the corrected map is sharp after one round. In a larger building small errors add up, and
+# where the robot comes back, walls stand twice. Lesson [15](15_closing_the_loop.ipynb) recognises places and
+# closes the loop.
 #
 # The sections below this one are optional.
 #
-# **Exercise:** [14 · The eMIR system](../exercises/ex14_the_emir_system.ipynb). You decode this lidar and one that you have never seen, write commands, unwrap counters, and find the
-# faults of drivers that others wrote.
+# **Exercise:** [14 · The eMIR system](../exercises/ex14_the_emir_system.ipynb). You decode this lidar and one
+# that you have never seen, write commands, unwrap counters, and find the faults of drivers that others wrote.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Deeper: the document or the program?
 #
-# Slamtec's *document* reads a capsule in another way than Slamtec's *program* does. By the document the top bit of an offset is a sign, and $k$ runs from 1 to 32:
+# Slamtec's *document* reads a capsule in another way than Slamtec's *program* does. By the document the top bit
+# of an offset is a sign, and $k$ runs from 1 to 32:
 #
-# $$\psi_k = \psi + \frac{k}{32}\,\bigl((\psi' - \psi) \bmod 360°\bigr) \mp |\delta_k|, \qquad k = 1, \dots, 32. \tag{14.9}$$
+# $$\psi_k = \psi + \frac{k}{32}\,\bigl((\psi' - \psi) \bmod 360°\bigr) - \delta_k, \qquad k = 1, \dots, 32. \tag{14.9}$$
 #
-# Offsets are nearly always above 4°, where the top bit is set. So one of the two readings turns nearly every point of the room.
+# Here $\delta_k$ is what the five lower bits say, with a minus if the top bit is set. Offsets are nearly always
+# above 4°, where the top bit is set. So one of the two readings turns nearly every point of the room.
 
 # %% slideshow={"slide_type": "subslide"}
 pairs = list(pairwise(capsules[16:31]))
@@ -846,8 +890,9 @@ views.show(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# As the document has it, the room is turned clockwise by {= turned:.0f =}°. Our emulator sends what the *program* expects, so this picture shows how much the two differ, and not who is
-# right. On a real A2 the arc decides: right is the reading whose notch lies where the front really is.
+# As the document has it, the room is turned clockwise by {= turned:.0f =}°. Our emulator sends what the *program*
+# expects, so this picture shows how much the two differ, and not who is right. On a real A2 the arc decides:
+# right is the reading whose notch lies where the front really is.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## In print: the listing
@@ -871,8 +916,8 @@ both = sum(v < 0 and omega < 0 for v, omega in dropped)
 print(f"both negative: {both}; one negative: {len(dropped) - both}")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# Ahead and to the left all is well. With two negative arguments no command arrives, and with one of them about half do: those in which the positive argument is smaller than the size
-# of the negative one.
+# Ahead and to the left all is well. With two negative arguments no command arrives, and with one of them about
+# half do: those in which the positive argument is smaller than the size of the negative one.
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
 body = RobotBody(worlds.corridor(), np.random.default_rng(1))
@@ -888,8 +933,10 @@ for milliseconds in (0.1, 1, 2):
 print("called by main:", printed.main().called)
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# `flushOutput` sounds like "send it now", but it *discards* what waits to be sent. At 57 600 bits a second a byte takes 174 µs, so a flush that follows at once can throw away the whole
-# command. How much really survives depends on the buffers of the system and is a race: with some systems and ports the robot never moves, with others it mostly does.
+# `flushOutput` sounds like "send it now", but it *discards* what waits to be sent. At 57 600 bits a second a byte
+# takes 174 µs, so a flush that follows at once can throw away the whole command. How much really survives depends
+# on the buffers of the system and is a race: with some systems and ports the robot never moves, with others it
+# mostly does.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # | place | printed | right | harm |
@@ -919,8 +966,9 @@ readings = iter([(k % 5 == 0, k) for k in range(20)])  # turns of five readings
 print("turns:", *printed.turns_asked_for(readings, 3))
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# "No motion" is the identity, whose entries add up to 3. Sensor 0 is missing. The first empty scan ends the map. Of the turns, the readings 5 and 10 are lost: each generator has taken the one
-# that begins the next turn, and dies with it. Every one of these is found by a test of one line that says what the code *claims*.
+# "No motion" is the identity, whose entries add up to 3. Sensor 0 is missing. The first empty scan ends the map.
+# Of the turns, the readings 5 and 10 are lost: each generator has taken the one that begins the next turn, and
+# dies with it. Every one of these is found by a test of one line that says what the code *claims*.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## In print: the pseudo-code
