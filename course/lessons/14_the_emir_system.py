@@ -120,9 +120,7 @@ low, high = scan[8], scan[9]
 word = low + 256 * high
 print(f"word {word}, half of it {word // 2}, angle {word // 2 / 64:.2f}°")
 nodes = ScanDecoder().feed(scan[7:])
-print(
-    f"the decoder of the package: {nodes['angle_q6'][0] / 64:.2f}°, {len(nodes)} nodes in a second"
-)
+print(f"the package's decoder: {nodes['angle_q6'][0] / 64:.2f}°, {len(nodes)} nodes a second")
 
 # %% slideshow={"slide_type": "fragment"} answers="14-node"
 FIELDS = {
@@ -236,9 +234,9 @@ ask(
 # The next capsule tells how far the lidar has turned meanwhile. The points are taken at a steady pace, so they
 # lie evenly between the two beginnings, $\psi$ and $\psi'$. Point $k$ is
 #
-# $$\psi_k = \psi + \frac{k}{32}\,\bigl((\psi' - \psi) \bmod 360°\bigr) - \delta_k, \qquad k = 0, \dots, 31. \tag{14.3}$$
+# $$\psi_k = \psi + \frac{k}{32}\,\bigl((\psi' - \psi) \bmod 360°\bigr) - \delta_k \tag{14.3}$$
 #
-# The remainder keeps the difference positive where the lidar passes 360°. The price is a delay: the last capsule
+# for $k$ from 0 to 31. The remainder keeps the difference positive where the lidar passes 360°. The price is a delay: the last capsule
 # cannot be read before the next one has come.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="14-capsule"
@@ -359,7 +357,7 @@ best = {name: min(each) for name, each in misfits.items()}
 notch = fronts[np.argmin(misfits["clockwise"])]
 assert notch == 0 and best["clockwise"] < 1 < 10 < best["counter-clockwise"]
 
-# %% slideshow={"slide_type": "fragment"} answers="14-experiment"
+# %% slideshow={"slide_type": "subslide"} answers="14-experiment"
 fig, _ = views.curves(fronts, misfits, "front of the lidar at [°]", "misfit [cm]", size=(8, 3.6))
 views.show(
     fig,
@@ -638,6 +636,7 @@ LIDAR_PORT = None  # such as "/dev/ttyUSB0" or "COM3"
 EMIR_PORT = None  # such as "/dev/rfcomm0" or "COM12"
 
 
+# %% slideshow={"slide_type": "fragment"}
 def robot(rng, calibration=None, clock=None):
     """Lidar and eMIR as a source of readings: yours, or emulated ones in a room."""
     if EMIR_PORT is None:
@@ -842,7 +841,7 @@ naive_off, corrected_off = trials.errors(seen_live.pair.estimator, true.poses[-1
 # T. C. Maxino and P. J. Koopman, "The effectiveness of checksums for embedded control networks", *IEEE
 # Transactions on Dependable and Secure Computing* 6(1), 2009: what a sum or an exclusive or misses.
 #
-# **Read next:** Borenstein and Feng. It is short, and you can repeat it on any floor.
+# **Read next:** Borenstein and Feng. You can repeat their square on any floor.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=1
 # ## What you can do now
@@ -865,9 +864,9 @@ naive_off, corrected_off = trials.errors(seen_live.pair.estimator, true.poses[-1
 # Slamtec's *document* reads a capsule in another way than Slamtec's *program* does. By the document the top bit
 # of an offset is a sign, and $k$ runs from 1 to 32:
 #
-# $$\psi_k = \psi + \frac{k}{32}\,\bigl((\psi' - \psi) \bmod 360°\bigr) - \delta_k, \qquad k = 1, \dots, 32. \tag{14.9}$$
+# $$\psi_k = \psi + \frac{k}{32}\,\bigl((\psi' - \psi) \bmod 360°\bigr) - \delta_k \tag{14.9}$$
 #
-# Here $\delta_k$ is what the five lower bits say, with a minus if the top bit is set. Offsets are nearly always
+# for $k$ from 1 to 32. Here $\delta_k$ is what the five lower bits say, with a minus if the top bit is set. Offsets are nearly always
 # above 4°, where the top bit is set. So one of the two readings turns nearly every point of the room.
 
 # %% slideshow={"slide_type": "subslide"}
@@ -998,6 +997,10 @@ print("SLAM_ROUTINE:", printed.slam_routine_rounds(), "rounds")
 # | listing | two poor scans in a row: ICP on fewer than 3 points | count the points first |
 # | `get_coordinates` | calls `scan()`: endless loop, two readers of a port | wait, with a time limit |
 # | 4.2.5 | "after a gap no overlay is possible" | odometry goes on: match with it |
+
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# | place | printed | right |
+# | --- | --- | --- |
 # | recorded script | true steps are called "simulated error", and the wrong ones run | name them |
 # | chapter 3 | "loop closure" for two scans in a row | it is scan matching; see lesson [15](15_closing_the_loop.ipynb) |
 # | prompt | "distance, angle" are sent as speeds in percent | see "Live" |
