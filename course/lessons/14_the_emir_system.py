@@ -802,7 +802,7 @@ seen_live = views.live(
 )
 naive_off, corrected_off = trials.errors(seen_live.pair.estimator, true.poses[-1])
 
-# %% [markdown] slideshow={"slide_type": "fragment"} answers="14-live"
+# %% [markdown] slideshow={"slide_type": "subslide"} answers="14-live"
 # After one round of the table the naive map shows each wall several times, fanned out like cards, and most of all
 # the far ones. In the corrected map every wall is one line. Both maps come from the same bytes. At the end of
 # this simulated drive the naive pose was {= naive_off:.0f =} cm off, and the corrected one {= corrected_off:.0f
