@@ -628,8 +628,10 @@ for name, each in off.items():
 # ## Your robot
 #
 # From here on there are drivers. A driver has a thread that listens to a device all the time, so that nothing
-# piles up while your program thinks. Two names decide on which robot all that follows runs. As they stand, each
-# cell starts emulators and opens them through pseudo-terminals, as if cables hung there (on Windows through TCP):
+# piles up while your program thinks. Two names decide on which robot all that follows runs.
+#
+# As they stand, each cell starts its own emulators, with our drivers before them. Their time is *simulated*: it
+# passes only while somebody waits for a reading. So nothing gets lost on a busy machine.
 
 # %% slideshow={"slide_type": "fragment"}
 LIDAR_PORT = None  # such as "/dev/ttyUSB0" or "COM3"
@@ -637,10 +639,10 @@ EMIR_PORT = None  # such as "/dev/rfcomm0" or "COM12"
 
 
 # %% slideshow={"slide_type": "fragment"}
-def robot(rng, calibration=None, clock=None):
+def robot(rng, calibration=None):
     """Lidar and eMIR as a source of readings: yours, or emulated ones in a room."""
     if EMIR_PORT is None:
-        return EmulatedDevices(worlds.room(), rng, calibration, clock)
+        return EmulatedDevices(worlds.room(), rng, calibration, SimulatedClock())
     return devices(f"{LIDAR_PORT or ''},{EMIR_PORT}", calibration)
 
 
@@ -684,7 +686,7 @@ print(f"five seconds later the robot is {body.pose[0] - ended_at:.1f} m further"
 # 3. Write both into the cell after it, and run that cell. (With `None`, the emulator says what it knows.)
 
 # %% slideshow={"slide_type": "fragment"}
-with robot(np.random.default_rng(7), clock=SimulatedClock()) as source:
+with robot(np.random.default_rng(7)) as source:
     bench, marks = getattr(source, "bench", None), []
     counts = calibration_drive(source.emir, lambda: marks.append(bench and bench.body.pose))
 
@@ -796,7 +798,7 @@ seen_live = views.live(
     note=trials.errors_now,
     truth=False,
     title="eMIR: naive map on the left, corrected map on the right",
-    speed=20,
+    speed=10,
     tops=(0.3, 0.6),
     size=(860, 400),
 )
@@ -822,7 +824,7 @@ naive_off, corrected_off = trials.errors(seen_live.pair.estimator, true.poses[-1
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* Pull the plug while it runs: on a real robot the USB cable, on the emulated one by
-# `seen_live.pair.source.bench["lidar"].faults.unplugged = True` in a new cell. Within a second a sentence stands
+# `seen_live.pair.source.bench["lidar"].faults.unplugged = True` in a new cell. Soon a sentence stands
 # below the picture; *reset* begins again. A class without robots opens your drive: `lambda rng:
 # sources.open("my.rec")` behind the first button.
 
