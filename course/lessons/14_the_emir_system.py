@@ -234,10 +234,10 @@ ask(
 # The next capsule tells how far the lidar has turned meanwhile. The points are taken at a steady pace, so they
 # lie evenly between the two beginnings, $\psi$ and $\psi'$. Point $k$ is
 #
-# $$\psi_k = \psi + \frac{k}{32}\,\bigl((\psi' - \psi) \bmod 360°\bigr) - \delta_k \tag{14.3}$$
+# $$\psi_k = \psi + \frac{k}{32}\,\bigl((\psi' - \psi) \bmod 360^\circ\bigr) - \delta_k \tag{14.3}$$
 #
-# for $k$ from 0 to 31. The remainder keeps the difference positive where the lidar passes 360°. The price is a delay: the last capsule
-# cannot be read before the next one has come.
+# for $k$ from 0 to 31. The remainder keeps the difference positive where the lidar passes 360°. The price is a
+# delay: the last capsule cannot be read before the next one has come.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="14-capsule"
 lidar = trials.lidar_on(RobotBody(polygon, np.random.default_rng(0)))
@@ -824,9 +824,9 @@ naive_off, corrected_off = trials.errors(seen_live.pair.estimator, true.poses[-1
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* Pull the plug while it runs: on a real robot the USB cable, on the emulated one by
-# `seen_live.pair.source.bench["lidar"].faults.unplugged = True` in a new cell. Soon a sentence stands
-# below the picture; *reset* begins again. A class without robots opens your drive: `lambda rng:
-# sources.open("my.rec")` behind the first button.
+# `seen_live.pair.source.bench["lidar"].faults.unplugged = True` in a new cell. Soon a sentence stands below the
+# picture; *reset* begins again. A class without robots opens your drive: `lambda rng: sources.open("my.rec")`
+# behind the first button.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Literature
@@ -866,10 +866,11 @@ naive_off, corrected_off = trials.errors(seen_live.pair.estimator, true.poses[-1
 # Slamtec's *document* reads a capsule in another way than Slamtec's *program* does. By the document the top bit
 # of an offset is a sign, and $k$ runs from 1 to 32:
 #
-# $$\psi_k = \psi + \frac{k}{32}\,\bigl((\psi' - \psi) \bmod 360°\bigr) - \delta_k \tag{14.9}$$
+# $$\psi_k = \psi + \frac{k}{32}\,\bigl((\psi' - \psi) \bmod 360^\circ\bigr) - \delta_k \tag{14.9}$$
 #
-# for $k$ from 1 to 32. Here $\delta_k$ is what the five lower bits say, with a minus if the top bit is set. Offsets are nearly always
-# above 4°, where the top bit is set. So one of the two readings turns nearly every point of the room.
+# for $k$ from 1 to 32. Here $\delta_k$ is what the five lower bits say, with a minus if the top bit is set.
+# Offsets are nearly always above 4°, where the top bit is set. So one of the two readings turns nearly every
+# point of the room.
 
 # %% slideshow={"slide_type": "subslide"}
 pairs = list(pairwise(capsules[16:31]))
