@@ -326,3 +326,35 @@ def test_unseen_letters_are_shown_and_others_kept():
     assert visible({"a": [kept, 1, None, True]}) == {"a": [kept, 1, None, True]}
     assert visible("a\u202eb\u200bc\x1b[31m\r\nd") == "a⟦202e⟧b⟦200b⟧c⟦001b⟧[31m\nd"
     assert visible("\ud800") == "⟦d800⟧"
+
+
+ALONE = "def f(a, b):\n    c = a + b * 2\n    d = c - a / (b + 1)\n    return d * c + a - b"
+
+
+def test_two_who_share_what_is_rare_stand_side_by_side(state):
+    renamed = ALONE.replace("c", "mine").replace("return", "return  # <b>\u202e") + "\nrest = 1"
+    state.book.add(attempt("s1", 3.5, [(1, HOSTILE), (3, ALONE)], handed_in=LATER))
+    state.book.add(attempt("s2", 1.0, [(4, renamed)], handed_in=LATER))
+    ((_, told), (status, both)) = asked(state, ("/likeness/99", None), ("/likeness/99/0/1", None))
+    assert [pair["rows"] for pair in told["pairs"]] == [[0, 1]] and told["compared"] == 2
+    assert told["not_compared"] == [{"row": 2, "why": "the file is empty"}]
+    (_, left), (right,) = both["sides"]
+    assert status == 200 and (left["number"], right["number"]) == (3, 4)
+    assert [kind for _, kind, _ in left["lines"]] == ["alike"] * 4
+    assert left["lines"][0] == ["def f(a, b):", "alike", "4:1"]
+    assert "⟦202e⟧" in right["lines"][3][0] and right["lines"][4][0] == "rest = 1"
+    state.book.add(attempt("s2", 1.0, [(4, "x = 1")], handed_in=LATER, seen=7))
+    ((_, told), (status, _), (gone, _)) = asked(
+        state, ("/likeness/99", None), ("/likeness/99/0/3", None), ("/likeness/98", None)
+    )
+    assert told["pairs"] == [] and (status, gone) == (404, 404)
+
+
+def test_likeness_is_computed_once_until_another_attempt_counts(state, monkeypatch):
+    before = state.likeness("99")
+    state.book.override_points("s1.ipynb", "99", "99-double", 1, "by hand")
+    state.refresh()
+    assert state.likeness("99") is before
+    state.book.add(attempt("s4", 2.0, [(1, ALONE)]))
+    state.refresh()
+    assert state.likeness("99") is not before and "s4" in state.likeness("99").of_class._cells
