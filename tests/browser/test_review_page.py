@@ -12,7 +12,7 @@ from slamlab.grading.gradebook import Gradebook, default_url
 from slamlab.grading.ledger import contents
 from slamlab.grading.records import Record
 from slamlab.grading.term import term
-from slamlab.reviewing import requests_file
+from slamlab.reviewing import taking_requests
 from slamlab.reviewing.class_state import ClassState
 from slamlab.reviewing.review_routes import serve
 from tests.patience import PATIENCE
@@ -52,7 +52,7 @@ def state(tmp_path):
         opened = ClassState(made, book)
         file = tmp_path / "requests.csv"
         file.write_text(f"student;exercise;request\ns2;04;'{EVIL.replace(chr(34), '')}\n", "utf-8")
-        requests_file.read_requests(opened, file)
+        taking_requests.take_requests(opened, file)
         yield opened
 
 
