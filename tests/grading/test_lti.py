@@ -52,7 +52,7 @@ def released(folder, points=((("s1"), 3.0), ("ben@uni.hr", 1.5))):
     (folder / "results").mkdir(exist_ok=True)
     with Gradebook(default_url(folder / "results")) as book:
         for student, each in points:
-            verdicts = (Verdict("04-h-robot", each, 3.5, diagnosis="a sign"),)
+            verdicts = (Verdict("04-h-robot", each, 3.5, problem="a sign"),)
             book.add(Record(f"{student}.ipynb", student, "04", verdicts=verdicts,
                             sha256=student, seed="b" * 64, titles={"04-h-robot": "H"}))  # fmt: skip
     assert main(["grade", "release", "04"]) == 0
