@@ -17,4 +17,5 @@ Read in this order:
 - ``feedback``, ``redaction``, ``local_times``, ``class_report``, ``hostile_signs``,
   ``likeness``, ``grade_tables``, ``nbgrader_gradebook``: feedback pages, reports, exports
 - ``term``: a course file, a roster, downloads of Moodle and Canvas, releases
+- ``lti``: the roster from an LMS, and grades back into it
 """
