@@ -9,13 +9,17 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from slamlab.cli import main
 from slamlab.coursework import originals
 from slamlab.exercises import catalogue
+from slamlab.grading.gradebook import Gradebook, default_url
+from slamlab.grading.ledger import contents
 from slamlab.grading.likeness import class_likeness, code_tokens
 from slamlab.grading.likeness.class_likeness import ALIKE, GIVEN, OWN, ClassLikeness
-from slamlab.grading.likeness.code_tokens import GRAM, grams, tokens
+from slamlab.grading.likeness.code_tokens import grams, tokens
 from slamlab.grading.likeness.handed_out import handed_out
 from slamlab.grading.notebooks import parse
+from slamlab.grading.records import Record
 from tests.answers import IDS, answers
 
 EXERCISES = Path(__file__).parents[2] / "exercises"
@@ -83,6 +87,24 @@ def test_half_of_a_copy_is_found_among_those_who_wrote_on_their_own():
         members["half"] = submission(id, disguised(mine[0][:3], rng) + mine[-1][3:])
         best = ClassLikeness(members, given(id)).pairs[0]
         assert (best.left, best.right) == ("s0", "half") and 0.2 < best.share < 0.95
+
+
+def test_a_copy_with_lines_that_do_nothing_put_in_between_stands_first():
+    for id in ("04", "06", "10", "15"):
+        rng = np.random.default_rng(1)
+        mine = solutions_of(id, rng, right_only=False)
+        members = {f"s{i}": submission(id, one) for i, one in enumerate(mine)}
+        copy = disguised(mine[0], rng)
+        for at, source in enumerate(copy):
+            lines = source.split("\n")
+            for i in range(len(lines) - 2, 0, -3):
+                if not lines[i].rstrip().endswith((":", ",", "(", "[")):
+                    indent = lines[i][: len(lines[i]) - len(lines[i].lstrip())]
+                    lines.insert(i + 1, f"{indent}idle{i} = {rng.integers(99)}")
+            copy[at] = "\n".join(lines)
+        members["copy"] = submission(id, copy)
+        best = ClassLikeness(members, given(id)).pairs[0]
+        assert (best.left, best.right) == ("s0", "copy") and best.share > 0.3
 
 
 COMMON = "def f(a, b):\n    c = a + b * 2\n    d = c - a / (b + 1)\n    return d * c + a - b\n"
@@ -181,4 +203,21 @@ def test_what_was_handed_out_is_read_from_the_pack_or_is_not_known(tmp_path):
         pack.writestr("notebooks/04_x.ipynb", json.dumps(lesson))
     assert given("04") <= handed_out(tmp_path)
     assert handed_out(tmp_path / "nowhere") is None
-    assert GRAM > 5
+
+
+def test_the_command_lists_pairs_and_who_was_not_compared(tmp_path, capsys):
+    rows = {"s1": RARE, "s2": re.sub(r"\ba\b", "b", RARE), "s3": COMMON, "s4": None}
+    (tmp_path / "out").mkdir()
+    with Gradebook(default_url(tmp_path / "out")) as book:
+        for student, source in rows.items():
+            data = contents.packed(json.dumps([[1, source]]).encode()) if source else None
+            kept = {"cells": contents.name_of(data)} if data else {}
+            held = {kept["cells"]: data} if data else {}
+            book.add(Record(f"{student}.ipynb", student, "04", sha256=student, seed="b" * 64,
+                            kept=kept, contents=held))  # fmt: skip
+    assert main(["grade", "likeness", "4", "--out", str(tmp_path / "out")]) == 0
+    said = capsys.readouterr().out
+    assert "04: 3 submissions compared\n  100%  s1 – s2\n" in said
+    assert "not compared: s4: its cells are not kept" in said and "s3" not in said
+    assert main(["grade", "likeness", "77", "--out", str(tmp_path / "out")]) == 2
+    assert main(["grade", "likeness", "--out", str(tmp_path / "none")]) == 2
