@@ -203,6 +203,8 @@ def test_what_was_handed_out_is_read_from_the_pack_or_is_not_known(tmp_path):
         pack.writestr("notebooks/04_x.ipynb", json.dumps(lesson))
     assert given("04") <= handed_out(tmp_path)
     assert handed_out(tmp_path / "nowhere") is None
+    assert handed_out(EXERCISES / "nothing of the course below a clone") is None
+    assert handed_out(EXERCISES.parent / "docs") is None
 
 
 def test_the_command_lists_pairs_and_who_was_not_compared(tmp_path, capsys):
