@@ -30,7 +30,7 @@ exercises        what each task asks, and the laws its answers are judged by
 project          worlds nobody has seen, and what a student's own SLAM is worth in them
 coursework       a student's folder: progress, reset, update
 parallel         many runs on processes or a Dask cluster
-grading          judge, sandbox, gradebook, late policy, similarity report
+grading          judge, sandbox, gradebook, late policy, likeness
 contest          a class's own SLAMs on the same hidden worlds: a board, a page each
 checks           what notebooks call: ``check``, ``hint``, ``ask``, ``validate``
 lecturing        a lesson's slides rehearsed and printed, in a browser without a window

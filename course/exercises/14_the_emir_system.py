@@ -1,16 +1,16 @@
 # %% [markdown]
 # # Exercise 14 · The eMIR system
 #
-# **You will be able to** read a lidar's bytes, those of a lidar that nobody has shown you, send a
-# robot commands that it does not drop, add up how far it went although its counter overflows, and
-# choose trials that find the faults of programs you have not written.
+# **You will be able to** read a lidar's bytes, and those of a lidar that nobody has shown you; send a robot
+# commands that it does not drop; add up how far it went although its counter overflows; and choose trials that
+# find the faults of programs that you have not written.
 #
 # **60 minutes. Before:** lesson [14 · The eMIR system](../notebooks/14_the_emir_system.ipynb).
 #
-# Replace each `raise NotImplementedError(...)` by your code, run the cell, then run the check below
-# it, as often as you like. A check sends bytes that nobody has seen before and says which law is
-# broken, and what the mistake is where it knows it. No function may change the arrays that it is
-# given: whoever handed them over goes on using them.
+# Replace each `raise NotImplementedError(...)` by your code, run the cell, then run the check below it, as often
+# as you like. A check sends bytes that nobody has seen before. Where a law is broken it shows a small input that
+# breaks it, and `hint("14-nodes")` in a cell of your own leads on. No function may change the arrays that it is
+# given, because whoever called it still needs them.
 
 # %%
 import numpy as np
@@ -27,18 +27,18 @@ from slamlab.layers import Points, Segments
 # | byte | bits | meaning |
 # | --- | --- | --- |
 # | 0 | 0 | S, a turn begins here |
-# | | 1 | not S |
+# | | 1 | the contrary of S |
 # | | 2–7 | quality, 0 to 63 |
 # | 1, 2 | 0 | C, always 1 |
 # | | 1–15 | angle [1/64 degree] |
 # | 3, 4 | 0–15 | distance [1/4 mm], 0 where nothing came back |
 #
-# Words of two bytes are little endian. Some nodes are damaged: S and not S are the same, or C is 0.
-# Leave those out, and no others. (The step is never lost here: every node begins where the one
-# before ended.)
+# Numbers of two bytes send the low byte first, as (14.1) says. Some nodes are damaged: S and its contrary are the
+# same, or C is
+# 0. Leave those out, and no others. (No byte is lost here: every node begins where the one before it ended.)
 #
-# **Predict first.** Read this node with pencil and paper: `3e 01 2d a0 0f`. It has S = 0, quality
-# 15, 90° and 1000 mm. Which byte must change, and to what, for 90.5°?
+# **Predict first.** Read this node with pencil and paper: `3e 01 2d a0 0f`. You should find S = 0, quality 15,
+# 90° and 1000 mm. Which byte must change, and to what, for 90.5°?
 
 
 # %% name="nodes"
@@ -64,8 +64,8 @@ def nodes(data):
 check("14-nodes")
 
 # %% [markdown]
-# Bytes become a map by one function more. Here it is, for a lidar that counts its degrees
-# **clockwise**, seen from above, and whose 0° is the robot's front:
+# One more function turns these rows into a map. Here it is, for a lidar that counts its degrees **clockwise**,
+# seen from above, and whose 0° is the robot's front. It is (14.4):
 
 
 # %% name="points"
@@ -92,9 +92,9 @@ def heard(world, seconds):
 
 
 # %% [markdown]
-# A lidar in Tuček's polygon sends two tenths of a second. **Predict first.** It sends about 2000
-# nodes a second and makes ten turns a second: how many nodes has a turn? And how would a mirrored
-# map show in the picture?
+# A lidar in Tuček's polygon sends for two tenths of a second. **Predict first.** It sends about 2000 nodes a
+# second and makes ten turns a second. How many nodes has a turn? And how would a mirrored map show in the
+# picture?
 
 
 # %% name="polygon"
@@ -112,37 +112,39 @@ def _():
 
 
 # %% [markdown]
-# The points lie on the walls: your decoder has turned bytes into a map.
+# If the points lie on the walls, your decoder has turned bytes into a map.
 
 # %% [markdown]
 # ## 2 · A lidar that the lesson has not seen
 #
-# Another lidar, and no example of its bytes: only what its maker's data sheet says. It sends
-# **packets** of $n$ points, $n$ from 1 to 255, taken while it turned on by less than a full turn:
+# Of another lidar you have no example, but only what its maker's data sheet says. It sends **packets** of $n$
+# points, with $n$ from 1 to 255. While it takes them it turns on, by less than a full turn:
 #
 # | byte | meaning |
 # | --- | --- |
 # | 0 | 0x54, here a packet begins |
 # | 1 | $n$, how many points it holds |
-# | 2, 3 | $\alpha_0$, angle of the first point [1/100 degree], 0 to 35999 |
+# | 2, 3 | $\psi_0$, angle of the first point [1/100 degree], 0 to 35999 |
 # | then three for each point | distance [mm] in two bytes, 0 where nothing came back; strength |
-# | two more | $\alpha_{n-1}$, angle of the last point [1/100 degree], 0 to 35999 |
+# | two more | $\psi_{n-1}$, angle of the last point [1/100 degree], 0 to 35999 |
 # | the last one | sum of all bytes before it, modulo 256 |
 #
-# Words are little endian and have no sign. The lidar turns **clockwise**, and its 0° is the robot's
-# front. The points lie evenly between the first and the last. That is almost the lesson's formula
-# for capsules, but only almost: there the second angle was that of the *next* capsule. Derive the
-# new one. The strength, 0 to 255, is of no interest here.
+# Numbers of two bytes send the low byte first and have no sign. The lidar turns **clockwise**, and its 0° is the
+# robot's front. The strength is of no interest here.
+
+# %% [markdown]
+# The points lie evenly between the first and the last. That is almost the lesson's (14.3), but only almost: there
+# the second angle was that of the *next* capsule. Derive the new formula.
 #
-# A packet is damaged where its first byte is another one, where it is longer or shorter than its
-# $n$ asks for, or where its sum is wrong. For such a packet return `None`, not an empty list.
+# A packet is damaged if its first byte is another one, if it is longer or shorter than its $n$ asks for, or if
+# its sum is wrong. For such a packet return `None`, and not an empty list.
 #
-# What the rest of the course wants of a scan are **rays**: an angle counter-clockwise from the
-# robot's front, in radians (a full turn more or less does not matter), and a range in metres. Leave
-# points out that did not come back. But do not forget that they were there.
+# The rest of the course wants **rays** of a scan: an angle counter-clockwise from the robot's front, in radians
+# (a full turn more or less does not matter), and a range in metres. Leave out the points that did not come back.
+# But do not forget that they were there.
 #
-# **Predict first.** A packet of four points begins at 350° and ends at 20°; its second point did not
-# come back. Which are the angles of the other three?
+# **Predict first.** A packet of four points begins at 350° and ends at 20°, and its second point did not come
+# back. Which are the angles of the other three?
 
 
 # %% name="sweep"
@@ -174,13 +176,13 @@ check("14-sweep")
 # %% [markdown]
 # ## 3 · A command
 #
-# eMIR hears frames of text, `#OOTTRRCC/`: four bytes as two hexadecimal digits each. To drive, the
-# opcode OO is 01; TT is the speed and RR the turn, in percent. What a joystick sends may be any
-# whole number: cut it off at ±100. Negative ones go as two's complement: −50 as 256 − 50. The
-# checksum CC makes **all four bytes add up to 0 modulo 256**.
+# eMIR hears frames of text, `#OOVVTTCC/`: four bytes as two hexadecimal digits each. To drive, the opcode OO is
+# 01. VV is the speed and TT the turn, in percent. A joystick may send any whole number, so cut it off at ±100. A
+# negative number goes as its two's complement, −50 as 256 − 50. The checksum CC makes all four bytes add up to 0
+# modulo 256, as in (14.6).
 #
-# **Predict first.** Which checksum belongs to a speed of −40 and a turn of 39? How many digits would
-# the listing's rule, 256 − 1 − T − R, write there?
+# **Predict first.** Which checksum belongs to a speed of −40 and a turn of 39? What would the rule "256 less the
+# other three bytes" give?
 
 
 # %% name="command"
@@ -199,7 +201,8 @@ def command(speed, turn):
 check("14-command")
 
 # %% [markdown]
-# The robot's own framer judges all 40 401 commands. The thesis' rule gets 20 301 through.
+# Does the robot understand you? Its own framer judges all 40 401 commands. (A printed driver, in the lesson's
+# last sections, gets about half of them through.)
 
 
 # %% name="all-commands"
@@ -215,9 +218,9 @@ def _():
 # %% [markdown]
 # ## 4 · A counter that overflows
 #
-# The robot answers with its path counter, a signed byte: after 127 comes −128. It is read often
-# enough: between two readings the robot goes at most 127 counts, ahead or back, or none. How far is
-# it, at each reading, from where it was at the first?
+# The robot answers with its path counter, a signed byte: after 127 comes −128. It is read often enough. Between
+# two readings the robot goes at most 127 counts, ahead or back, or none. How far is it, at each reading, from
+# where it was at the first? The steps are those of (14.7), and you have to find a way to compute them.
 
 
 # %% name="unwrap"
@@ -236,9 +239,9 @@ def unwrap(values):
 check("14-unwrap")
 
 # %% [markdown]
-# Ten times a second eMIR sends a status: `*`, 17 bytes as hexadecimal digits, `/`. The counter is
-# byte 14. An emulated eMIR drives along a corridor, ahead at 40 cm/s and then back at 20 cm/s, by
-# your `command`. **Predict first.** What will the raw counter look like?
+# Ten times a second eMIR sends a status: a `*`, 17 bytes as hexadecimal digits, and a `/`. The path counter is
+# byte 14. An emulated eMIR drives along a corridor by your `command`, ahead at 40 cm/s and then back at 20 cm/s.
+# **Predict first.** What will the raw counter look like?
 
 
 # %% name="corridor"
@@ -264,37 +267,35 @@ def _():
 
 
 # %% [markdown]
-# The saw-tooth is what the robot sends, the other line is where it was. One count is about 1 cm: it
-# went some 4 m ahead and half of that back.
+# The saw-tooth is what the robot sends, and the other line is where it was. One count is about 1 cm, so it went
+# some 4 m ahead and half of that back.
 
 # %% [markdown]
 # ## 5 · Drivers that others wrote
 #
-# Your `unwrap` is right, a check says so. Most drivers come from others, without a check, and the
-# lesson's listing had a bug in nearly every function. You do not see the code of such a driver. All
-# you can do is hand it readings and compare what it returns with what it should return. Which
-# readings? A drive ahead and back, as above, finds no more than a third of what can be wrong.
+# Your `unwrap` is right, as a check says. Most drivers come from others, and without a check. You do not see
+# their code. All you can do is to hand such a driver readings and to compare what it returns with what it should
+# return. But which readings? A drive ahead and back, as above, finds no more than a third of what can be wrong.
 #
 # This is what a **right driver** promises:
 #
-# - it takes a way, the readings of a counter (signed bytes), and returns for each reading the counts
-#   since the first one, as your `unwrap` does;
-# - a way may have any number of readings, one, or none at all, when nothing comes back;
+# - it takes a way, the readings of a counter (signed bytes), and returns for each reading the counts since the
+#   first one, as your `unwrap` does;
+# - a way may have any number of readings, one, or none at all, and then nothing comes back;
 # - it may begin at any byte;
 # - between two readings there are at most 127 counts, ahead or back, or none;
-# - it may be as long as it likes: a robot drives all day;
+# - it may be as long as it likes, for a robot drives all day;
 # - the same driver is called with one way after the other, and each way begins anew.
+
+# %% [markdown]
+# Write `trials`: ways, each with the counts that a right driver returns. One hundred faulty drivers, each with
+# one fault, are called with your ways in their order. A driver is found if, for at least one way, it returns
+# something else than you expect, or fails. Right drivers must pass. In all your ways together there may be **1000
+# readings at most, and 20 ways at most**: a robot sends ten readings a second, and nobody wants to wait longer.
 #
-# Write `trials`: ways, each with the counts that a right driver returns. One hundred faulty drivers,
-# each with one fault, are called with your ways in their order. A driver is found when, for one way
-# at least, it returns something else than you expect, or fails. Right drivers must pass. In all your
-# ways there may be **1000 readings at most, and 20 ways at most**: a robot sends ten readings a
-# second, and nobody waits longer.
-#
-# The faults are those that programmers make: an edge off by one, one side forgotten, a case that
-# "cannot happen", a number too large for its variable, something kept that should be forgotten. Each
-# promise above is one that somebody has broken. Any method goes. You earn points when 40, 70, 88 and
-# 97 of the hundred are found.
+# The faults are those that programmers make: an edge off by one, one side forgotten, a case that "cannot happen",
+# a number too large for its variable, something kept that should be forgotten. Each promise above is one that
+# somebody has broken. Any method is allowed. You earn points when 40, 70, 88 and 97 of the hundred are found.
 #
 # This makes a way of its steps:
 
@@ -307,8 +308,8 @@ def way(begin, steps):
 
 
 # %% [markdown]
-# **Predict first.** Here are three such drivers and two ways. Which of the drivers does the first way
-# find, which the second?
+# **Predict first.** Here are three such drivers and two ways. Which of the drivers does the first way find, and
+# which does the second?
 
 
 # %% name="three-drivers"
@@ -325,7 +326,7 @@ def _():
 
 
 # %% [markdown]
-# Ahead finds one, back finds two, and no way of seven readings will ever find the third.
+# The way ahead finds one driver, the way back finds two, and no way of seven readings will ever find the third.
 
 
 # %% name="trials"
@@ -352,8 +353,7 @@ def trials():
 check("14-trials")
 
 # %% [markdown]
-# Which of your ways is worth the most? Guess, then leave out one after the other and ask the check
-# again.
+# Which of your ways is worth the most? Guess, then leave out one after the other and ask the check again.
 #
-# **Next:** bytes have become points and ways, and you know what trials can find. Lesson 13 matched
-# such scans, lesson 15 makes a map of them that closes.
+# **Next:** bytes have become points and ways, and you know what trials can find. Lesson 13 matched such scans,
+# and lesson 15 makes a map of them that closes.

@@ -249,7 +249,7 @@ for theta in (25, 115):
 # | 11 | [Samples](11_samples.ipynb) | a cloud of guesses that can say "here or there", which no ellipse can | 90 min | 60 min |
 # | 12 | [Three filters, one robot](12_three_filters.ipynb) | box, ellipse and samples on the same three laps of a small robot, over eighty drives | 90 min | 60 min |
 # | 13 | [Scan matching](13_scan_matching.ipynb) | laying one scan over another until it fits, though nobody knows which points belong together | 95 min | 60 min |
-# | 14 | [The eMIR system](14_the_emir_system.ipynb) | from bytes on a wire to a live map: a real lidar and robot, or their emulators, driven by you | 110 min | 60 min |
+# | 14 | [The eMIR system](14_the_emir_system.ipynb) | from bytes on a wire to a live map: a real lidar and robot, or their emulators, driven by you | 100 min | 60 min |
 # | 15 | [Closing the loop](15_closing_the_loop.ipynb) | a place seen again mends the whole map: a graph of poses, loops true and false, a real building | 80 min | 60 min |
 # | 16 | [Your own SLAM](16_your_own_slam.ipynb) | how to measure a SLAM of your own, and not be fooled by luck; the project that the course leads to | 52 min | 180 min |
 #

@@ -7,8 +7,8 @@ Read in this order:
 - ``emulate``, ``record``, ``replay``: devices
 - ``progress``, ``reset`` (and update): a student's own folder
 - ``check``, ``grade``, ``grade_output``, ``term_verbs`` (init, release), ``gradebook_verbs``
-  (merge, adjust, export), ``ledger_verbs`` (rejudge, verify, forget), ``review``: exercises;
-  ``contest``: students' own SLAMs
+  (merge, adjust, export), ``ledger_verbs`` (rejudge, verify, forget), ``review``,
+  ``likeness``, ``lti``: exercises; ``contest``: students' own SLAMs
 - ``rehearse``, ``print_handout``: a lesson before and after its lecture
 - ``common``: what several share
 
@@ -22,12 +22,14 @@ from importlib import import_module
 from slamlab import __version__
 
 COMMANDS = ("run", "live", "film", "convert", "emulate", "record", "replay", "check", "grade",
-            "term_verbs", "gradebook_verbs", "ledger_verbs", "review", "contest", "progress",
-            "reset", "rehearse", "print_handout")  # fmt: skip
+            "term_verbs", "gradebook_verbs", "ledger_verbs", "review", "likeness", "lti", "contest",
+            "progress", "reset", "rehearse", "print_handout")  # fmt: skip
 SUBCOMMANDS = {
     "grade": (
         "init",
         "review",
+        "likeness",
+        "lti",
         "release",
         "merge",
         "adjust",

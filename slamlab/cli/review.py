@@ -29,9 +29,11 @@ def add_parser(subparsers):
     parser.add_argument("--course", metavar="FILE", type=Path, help=COURSE)
     parser.add_argument(
         "--requests",
-        metavar="FILE",
+        metavar="PLACE",
         type=Path,
-        help="a CSV of requests for another look: student, exercise, request",
+        help="requests for another look: a CSV with the columns student, exercise, request, or a "
+        "folder or zip of notebooks with a text cell that begins with the heading 'Request for "
+        "another look'; nothing in them is run, and they are no attempts",
     )
     add_page_options(parser)
     add_who_option(parser)
@@ -62,13 +64,13 @@ def run(arguments) -> int:
 
 
 def _review(arguments, term, book):
-    from slamlab.reviewing import requests_file
     from slamlab.reviewing.class_state import ClassState
     from slamlab.reviewing.review_routes import serve
+    from slamlab.reviewing.taking_requests import take_requests
 
     state = ClassState(term, book)
     if arguments.requests:
-        print("\n".join(map(printable, requests_file.read_requests(state, arguments.requests))))
+        print("\n".join(map(printable, take_requests(state, arguments.requests))))
 
     def begun(address):
         print(f"open {address}")

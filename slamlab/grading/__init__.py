@@ -14,7 +14,8 @@ Read in this order:
   ``remarks``, ``late_policy``, ``toml_files``: attempts, overrides, late policy
 - ``evidence``, ``course_digests``, ``rejudging``, ``rejudge_report``: judging again, by another
   version, what is kept of an attempt
-- ``feedback``, ``redaction``, ``local_times``, ``class_report``, ``similarity``,
-  ``hostile_signs``, ``grade_tables``, ``nbgrader_gradebook``: feedback pages, reports, exports
+- ``feedback``, ``redaction``, ``local_times``, ``class_report``, ``hostile_signs``,
+  ``likeness``, ``grade_tables``, ``nbgrader_gradebook``: feedback pages, reports, exports
 - ``term``: a course file, a roster, downloads of Moodle and Canvas, releases
+- ``lti``: the roster from an LMS, and grades back into it
 """

@@ -1,11 +1,10 @@
-"""Class report: the scores of each task, the commonest mistakes, the similarity report."""
+"""Class report: the scores of each task, the commonest mistakes, what could not be graded."""
 
 from collections import Counter
 from dataclasses import dataclass
 from statistics import median
 
 from slamlab.exercises import catalogue
-from slamlab.grading import similarity
 from slamlab.grading.feedback import TEMPLATES
 from slamlab.grading.records import write_atomically
 
@@ -56,7 +55,6 @@ def write_report(out, marks):
         exercises=exercises,
         ungraded=[record for record in records if not record.graded],
         levels=sorted({record.isolation for record in graded if record.isolation}),
-        similar=similarity.clusters(graded),
     )
     write_atomically(out / "class.html", page)
 

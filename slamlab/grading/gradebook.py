@@ -8,22 +8,20 @@ rewritten: of the rows of one key the last one holds.
 
 import json
 
-import sqlalchemy as sa
-
 from slamlab.grading import gradebook_rows, older_gradebooks
 from slamlab.grading import remarks as by_hand
-from slamlab.grading.database import Database, GradebookError
+from slamlab.grading.database import GradebookError
 from slamlab.grading.ledger import chain_merging, chains, contents, forgotten_students, sightings
 from slamlab.grading.ledger.chains import LEDGER, Entry
+from slamlab.grading.ledger.ledger_book import LedgerBook
 
 
-class Gradebook:
+class Gradebook(LedgerBook):
     """Attempts and manual overrides in an SQL database.
 
     Parameters
     ----------
-    url : str, such as sqlite:////home/me/grades.db or postgresql+psycopg://me@host/course
-    who : str or None, who acts, as it stands with each row; None: the account
+    url, who : as of :class:`LedgerBook`
 
     Raises
     ------
@@ -31,20 +29,9 @@ class Gradebook:
     """
 
     def __init__(self, url, who=None):
-        self._database = Database(url, gradebook_rows.TABLES)
-        self.who = gradebook_rows.storable(who or self._database.account)[:200]
+        super().__init__(url, who)
         if self._read(older_gradebooks.is_older):
             self._write(lambda connection: older_gradebooks.adopt(connection, self.who))
-
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *_):
-        self.close()
-
-    def close(self):
-        """Close the connections to the database; may be called twice."""
-        self._database.close()
 
     def add(self, record):
         """Store an attempt; one that is there already stays one, and becomes the newest.
@@ -89,19 +76,6 @@ class Gradebook:
 
         return self._write(added)
 
-    def sight(self, found):
-        """Number what was handed in, by the order in which it is seen; see :mod:`sightings`.
-
-        Parameters
-        ----------
-        found : list of (name, hash of its content)
-
-        Returns
-        -------
-        dict, name to number
-        """
-        return self._write(lambda connection: sightings.sight(connection, found))
-
     def merge(self, other):
         """Merge another gradebook into this one: its ledger and its contents.
 
@@ -127,39 +101,6 @@ class Gradebook:
 
         self._write(merged)
         return len(self.attempts()) - before
-
-    def rows(self, after=0, kinds=None):
-        """Rows of the ledger, in order.
-
-        Parameters
-        ----------
-        after : int, the id of a row; those that were stored after it
-        kinds : list of str or None, for all
-
-        Returns
-        -------
-        list of dict
-        """
-        asked = [LEDGER.c.id > after] + ([LEDGER.c.kind.in_(kinds)] if kinds else [])
-        return self._read(lambda connection: chains.rows(connection, *asked))
-
-    def newest_row(self):
-        """The id of the row that was stored last; 0 for none."""
-        last = sa.select(sa.func.coalesce(sa.func.max(LEDGER.c.id), 0))
-        return self._read(lambda connection: connection.execute(last).scalar_one())
-
-    def contents(self, names):
-        """What is kept of attempts, by the hashes that their records name; see :mod:`contents`.
-
-        Parameters
-        ----------
-        names : iterable of str
-
-        Returns
-        -------
-        dict, hash to bytes
-        """
-        return self._read(lambda connection: contents.load(connection, names))
 
     def attempts(self):
         """All attempts.
@@ -215,39 +156,6 @@ class Gradebook:
         """
         return by_hand.of_submissions(*(self.notes(kind) for kind in by_hand.KINDS))
 
-    def note(self, kind, body, submission=None):
-        """Append a row of another kind.
-
-        Parameters
-        ----------
-        kind : str, such as "release"
-        body : dict of plain values
-        submission : str or None, which it is about
-
-        Returns
-        -------
-        dict, the row that is the head of the gradebook's own chain now
-        """
-        if submission is not None:
-            body = body | {"submission": submission}
-        body = gradebook_rows.storable(body)
-        entry = Entry(kind, body, body.get("submission"))
-
-        def noted(connection):
-            chains.append(connection, [entry], self.who)
-            return chains.own_head(connection)
-
-        return self._write(noted)
-
-    def notes(self, kind):
-        """What the rows of a kind say, the oldest first.
-
-        Returns
-        -------
-        list of dict
-        """
-        return self._read(lambda connection: chains.bodies(connection, kind))
-
     def forget(self, student):
         """Delete name and content of a student for good; hashes stay.
 
@@ -261,12 +169,6 @@ class Gradebook:
         """
         told = self._write(lambda c: forgotten_students.forget(c, student, self.who))
         return [gradebook_rows.stored_record(record) for record in told]
-
-    def _read(self, work):
-        return self._database.transact(work)
-
-    def _write(self, work):
-        return self._database.transact(work, writes=True)
 
 
 def _newest_of_each(bodies):

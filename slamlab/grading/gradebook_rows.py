@@ -1,7 +1,7 @@
 """Records as a gradebook stores them: plain values, the key of an attempt, and back."""
 
 import hashlib
-from dataclasses import asdict, replace
+from dataclasses import asdict, fields, replace
 from datetime import UTC, datetime
 
 import sqlalchemy as sa
@@ -12,6 +12,7 @@ from slamlab.grading.records import Record
 TABLES = sa.MetaData()
 """All tables of a gradebook; those of the ledger are told by :mod:`slamlab.grading.ledger`."""
 NOT_STORED = ("contents",)
+_FIELDS = frozenset(field.name for field in fields(Record))
 
 
 def stored(record):
@@ -75,5 +76,7 @@ def stored_record(stored):
         for v in stored["verdicts"]
     )
     cells = {int(cell): problem for cell, problem in stored["cells"].items()}
-    found = Record(**(stored | {"verdicts": verdicts, "cells": cells}))
+    # what an older version stored besides is passed over
+    told = {name: value for name, value in stored.items() if name in _FIELDS}
+    found = Record(**(told | {"verdicts": verdicts, "cells": cells}))
     return replace(found, notes=tuple(found.notes), signs=tuple(found.signs))

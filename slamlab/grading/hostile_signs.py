@@ -7,9 +7,8 @@ A person who looks wants to know where to look.
 import ast
 import re
 
-from slamlab.grading.similarity import MAX_CHARACTERS
-
 MOST = 20  # signs told of one submission
+MAX_CHARACTERS = 100_000  # letters; nobody writes more by hand
 _MODULES = """
 os subprocess socket ctypes signal gc inspect resource fcntl multiprocessing threading shutil glob
 atexit faulthandler builtins importlib mmap pickle pty urllib requests http

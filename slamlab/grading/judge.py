@@ -13,7 +13,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from slamlab import __version__
-from slamlab.grading import course_digests, hostile_signs, similarity, submissions, task_judging
+from slamlab.grading import course_digests, hostile_signs, submissions, task_judging
 from slamlab.grading.evidence import Evidence
 from slamlab.grading.gradebook_rows import attempt_key
 from slamlab.grading.ledger import contents
@@ -87,7 +87,6 @@ def grade_submission(
         if before:
             whose = {name: names[name] for name in ("student", "number", "handed_in")}
             return replace(before, **whose)
-        names["fingerprints"] = similarity.fingerprints(notebook.cells, exercise)
         names["signs"] = hostile_signs.signs(notebook.cells)
         return Record(**names, **judge_notebook(exercise, notebook.cells, seed, workers, stop))
     except SubmissionError as error:

@@ -1,4 +1,4 @@
-"""Parse untrusted Jupyter notebooks (.ipynb): code cells, exercise, checksum."""
+"""Parse untrusted Jupyter notebooks (.ipynb): code cells, exercise, request, checksum."""
 
 import hashlib
 import json
@@ -8,6 +8,9 @@ from dataclasses import dataclass
 MAX_CODE_CELLS = 1000  # of one notebook
 
 # possessive throughout: it must not try a hostile cell's letters in every way there is
+_REQUEST = re.compile(
+    r"\s*+#{1,6}+[ \t]*+request for another look[ \t]*+[:.]?+[ \t]*+(?:\n|\Z)", re.I
+)
 _CHECK = re.compile(r"\s*+(?:check\(\s*+[\"'][^\"']*+[\"']\s*+\)\s*+;?+\s*+)++")
 
 
@@ -25,16 +28,27 @@ class Notebook:
     exercise : str or None, the exercise its metadata names
     sha256 : str, of the file's bytes
     notes : what was odd about the file
+    request : str, for another look: what its text cells under that heading say; empty for none
     """
 
     cells: tuple[tuple[int, str], ...]
     exercise: str | None
     sha256: str
     notes: tuple[str, ...] = ()
+    request: str = ""
 
 
-def parse(data: bytes) -> Notebook:
+def parse(data: bytes, lesson=False) -> Notebook:
     """Parse the bytes of a notebook file.
+
+    Parameters
+    ----------
+    data : bytes
+    lesson : bool, whether it may be a lesson
+
+    Returns
+    -------
+    Notebook
 
     Raises
     ------
@@ -56,16 +70,19 @@ def parse(data: bytes) -> Notebook:
         notes.append("an old notebook format, upgraded")
     if not isinstance(content.get("cells"), list):
         raise SubmissionError("not a notebook: it has no list of cells")
-    if _named(content, "lesson"):
+    if _named(content, "lesson") and not lesson:
         raise SubmissionError("a lesson, not an exercise; those are in the folder exercises")
-    cells = tuple(_code(content["cells"]))
+    cells = tuple(_sources(content["cells"], ("code",)))
     if not cells:
         notes.append("no code cells")
     if len(cells) > MAX_CODE_CELLS:
         raise SubmissionError(f"{len(cells)} cells of code, more than {MAX_CODE_CELLS}")
     own = tuple((number, source) for number, source in cells if not _CHECK.fullmatch(source))
     digest = hashlib.sha256(data).hexdigest()
-    return Notebook(own, _named(content, "exercise"), digest, tuple(notes))
+    texts = (source for _, source in _sources(content["cells"], ("markdown", "raw")))
+    asked = [source[match.end() :].strip() for source in texts if (match := _REQUEST.match(source))]
+    request = "\n\n".join(filter(None, asked))
+    return Notebook(own, _named(content, "exercise"), digest, tuple(notes), request)
 
 
 def _decoded(data):
@@ -90,9 +107,10 @@ def _upgraded(content):
         ) from None
 
 
-def _code(cells):
+def _sources(cells, kinds):
+    """Number and source of the cells of some kinds."""
     for number, cell in enumerate(cells, 1):
-        if not isinstance(cell, dict) or cell.get("cell_type") != "code":
+        if not isinstance(cell, dict) or cell.get("cell_type") not in kinds:
             continue
         source = cell.get("source", "")
         if isinstance(source, list):

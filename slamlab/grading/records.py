@@ -29,7 +29,6 @@ class Record:
     titles : task id to title
     number : str or None, of the student in Moodle or Canvas
     handed_in : str or None, the time in ISO's form
-    fingerprints : task to a hash of its functions, see :mod:`slamlab.grading.similarity`
     failed : bool, whether it was the grader that failed: not kept, but tried again
     policy : the late policy that held, as :meth:`LatePolicy.stored` makes it; None for none
     judges : task to the digest of what judged it, see :mod:`slamlab.grading.course_digests`
@@ -54,7 +53,6 @@ class Record:
     titles: dict[str, str] = field(default_factory=dict)
     number: str | None = None
     handed_in: str | None = None
-    fingerprints: dict[str, str] = field(default_factory=dict)
     failed: bool = False
     policy: dict | None = None
     judges: dict[str, str] = field(default_factory=dict)

@@ -9,6 +9,7 @@ from functools import cached_property
 from slamlab.exercises import catalogue
 from slamlab.grading import class_report, remarks
 from slamlab.grading.ledger import chains
+from slamlab.grading.likeness.kept_submissions import likeness_of
 
 OVERRIDE = "override"
 BY_HAND = (OVERRIDE, *remarks.KINDS)
@@ -30,6 +31,7 @@ class ClassState:
     def __init__(self, term, book):
         self.term, self.book = term, book
         self.students = list(term.roster.students.values())
+        self._likeness = {}  # exercise to the records that were compared, and their likeness
         self._load()
 
     def refresh(self):
@@ -73,6 +75,24 @@ class ClassState:
             records = [s.mark.record for s in standings if s.mark and s.mark.record.graded]
             for task in catalogue.exercise(id).tasks:
                 found[task.id] = class_report.task_report(task, records)
+        return found
+
+    def likeness(self, exercise):
+        """The likeness of the attempts that count; takes seconds, where they are others now.
+
+        Parameters
+        ----------
+        exercise : str
+
+        Returns
+        -------
+        Likeness
+        """
+        records = [s.mark.record for s in self.standings[exercise] if s.mark]
+        before, found = self._likeness.get(exercise, (None, None))
+        if before != records:
+            found = likeness_of(self.book, {record.student: record for record in records})
+            self._likeness[exercise] = records, found
         return found
 
     def requests_of(self, student, exercise):

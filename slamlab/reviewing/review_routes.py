@@ -15,6 +15,7 @@ from slamlab.listening.entrance import Enter
 from slamlab.listening.rates import Rate
 from slamlab.reviewing import hand_changes
 from slamlab.reviewing.class_overview import overview
+from slamlab.reviewing.likeness_view import pair_view, pairs_view
 from slamlab.reviewing.submission_view import submission_view
 from slamlab.reviewing.visible_text import visible
 
@@ -24,6 +25,7 @@ BOUNDS = guard.Bounds(body=65_536, client=Rate(200, 50))
 SHIPPED = {
     "/": ("review.html", "text/html; charset=utf-8"),
     "/review.js": ("review.js", "text/javascript; charset=utf-8"),
+    "/likeness.js": ("likeness.js", "text/javascript; charset=utf-8"),
     "/review.css": ("review.css", "text/css; charset=utf-8"),
     "/favicon.ico": ("mark.svg", "image/svg+xml"),
 }
@@ -111,6 +113,20 @@ class Submission(Asked):
         await self.tell(change)
 
 
+class Likeness(Asked):
+    """The pairs of an exercise that are most alike, or two of them side by side."""
+
+    async def get(self, exercise, *rows):
+        def compared(state):
+            try:
+                view = pair_view if rows else pairs_view
+                return view(state, exercise, *map(int, rows))
+            except KeyError:
+                raise HTTPError(404) from None
+
+        await self.tell(compared)
+
+
 def _standing(state, row, exercise):
     standings = state.standings.get(exercise, [])
     if int(row) >= len(standings):
@@ -139,6 +155,8 @@ def routes(review):
         (r"/enter", Enter),
         (r"/table", Table, known),
         (r"/submission/([0-9]{1,6})/([0-9]{2})", Submission, known),
+        (r"/likeness/([0-9]{2})", Likeness, known),
+        (r"/likeness/([0-9]{2})/([0-9]{1,6})/([0-9]{1,6})", Likeness, known),
     ]
 
 

@@ -17,10 +17,12 @@
 - ``found_walls``: recall and false metres of line extraction, ``walls_on_trial``: which walls enter
   a map, both for lesson 08
 - ``small_errors``: what a Jacobian foretells, and what a wrong one does, in lesson 04
+- ``emir_trials``: bytes, looks and counters of the emulated devices, ``printed_drivers``: drivers
+  as they are printed, both for lesson 14
 - ``wheel_graphs``, ``edge_frames``, ``false_loops``: pose graphs, their edges and their loops on
   trial, for lesson 15
-- ``intel_maps``: the maps of a real log that lessons 01 and 15 show; ``a2_at_rest``: statistics of
-  a real lidar, for lesson 02
+- ``intel_maps``: the maps of a real log that lessons 01, 13 and 15 show; ``a2_at_rest``: statistics
+  of a real lidar, for lesson 02
 - ``arena_logs``: the six data sets as files; ``paired_statistics``, ``study_command``: what they
   share
 """

@@ -8,15 +8,16 @@ Read in this order:
 - ``legends``, ``arrangement``, ``covering``: where legends and titles find room
 - ``figure_faults``: what a machine can see to be wrong with a figure
 - ``showing``, ``figure_words``: how a figure reaches a notebook, and its alternative text
-- ``comparison``, ``box_drawing``, ``heatmap``, ``interval_plot``, ``loglog_plot``, ``matrix_plot``,
-  ``linked_map``, ``scan_overlay``, ``strip_plot``, ``resampling_wheel``, ``frame_sketches``,
-  ``encoder_sketch``: one plot each
+- ``comparison``, ``bit_plot``, ``box_drawing``, ``heatmap``, ``interval_plot``, ``loglog_plot``,
+  ``matrix_plot``, ``linked_map``, ``scan_overlay``, ``strip_plot``, ``resampling_wheel``,
+  ``frame_sketches``, ``encoder_sketch``: one plot each
 - ``sliders``, ``play_button``, ``widget_errors``: interactive figures
 - ``player``: the drawing in a browser, in JavaScript; of what runs and of films
 - ``live``: any source and estimator, live, driven by hand; ``editor``: a world edited by hand
 """
 
 from slamlab.views import box_drawing as boxes
+from slamlab.views.bit_plot import bits
 from slamlab.views.colours import COLOURS, SERIES
 from slamlab.views.comparison import against_band, cloud, curves
 from slamlab.views.encoder_sketch import encoder
@@ -43,6 +44,7 @@ __all__ = [
     "apart",
     "axes",
     "band",
+    "bits",
     "boxes",
     "cells",
     "chart",

@@ -12,11 +12,12 @@ from slamlab.grading.gradebook import Gradebook, default_url
 from slamlab.grading.ledger import contents
 from slamlab.grading.records import Record
 from slamlab.grading.term import term
-from slamlab.reviewing import requests_file
+from slamlab.reviewing import taking_requests
 from slamlab.reviewing.class_state import ClassState
 from slamlab.reviewing.review_routes import serve
 from tests.patience import PATIENCE
 
+ALONE = "def f(a, b):\n    c = a + b * 2\n    d = c - a / (b + 1)\n    return d * c + a - b"
 EVIL = (
     "<img src=http://example.org/x onerror=\"document.title='run'\"><script>document.title='run'"
     "</script><svg onload=\"document.title='run'\"></svg><style>body{display:none}</style>"
@@ -29,7 +30,8 @@ def record(student, exercise, points):
     law = LawResult(EVIL, EVIL, points, 3.5, int(points < 3.5), 20)
     task = {"04": "04-h-robot", "06": "06-update"}[exercise]
     verdict = Verdict(task, points, 3.5, (law,), hint=EVIL)
-    data = contents.packed(json.dumps([[1, EVIL], [2, "import os  # \u202e"]]).encode())
+    cells = [[1, EVIL], [2, "import os  # \u202e"]] + [[3, ALONE + EVIL]] * (exercise == "04")
+    data = contents.packed(json.dumps(cells).encode())
     name = contents.name_of(data)
     return Record(
         f"{student}-{exercise}{EVIL}.ipynb", student, exercise, verdicts=(verdict,),
@@ -50,7 +52,7 @@ def state(tmp_path):
         opened = ClassState(made, book)
         file = tmp_path / "requests.csv"
         file.write_text(f"student;exercise;request\ns2;04;'{EVIL.replace(chr(34), '')}\n", "utf-8")
-        requests_file.read_requests(opened, file)
+        taking_requests.take_requests(opened, file)
         yield opened
 
 
@@ -119,7 +121,11 @@ def test_a_class_is_reviewed_by_keyboard_and_nothing_of_a_student_runs(page, sta
     page.locator("#where", has_text="2 of 3").wait_for()
     page.keyboard.press("j")
     page.locator("#where", has_text="3 of 3").wait_for()
-    assert page.locator("#code pre").all_text_contents() == [EVIL, "import os  # ⟦202e⟧"]
+    assert page.locator("#code pre").all_text_contents() == [
+        EVIL,
+        "import os  # ⟦202e⟧",
+        ALONE + EVIL,
+    ]
     page.get_by_label("answer").fill("it is as it is")
     page.get_by_role("button", name="answer", exact=True).press("Enter")
     page.get_by_text("Asked for another look, answered").wait_for()
@@ -173,3 +179,31 @@ def test_a_change_that_is_refused_keeps_what_was_typed(page, state):
     assert reason.input_value() == "my words"
     reason.press("Enter")
     page.get_by_text("set by hand: my words").wait_for()
+
+
+def test_two_who_are_alike_are_looked_at_by_keyboard_as_text(page, state):
+    page.locator("#compare").press("Enter")
+    page.get_by_text("Choose an exercise first").wait_for()
+    page.keyboard.press("0")  # the field is the select now: 04
+    page.locator("#compare").press("Enter")
+    page.get_by_text("2 submissions compared").wait_for()
+    assert "100 %" in page.evaluate("document.activeElement.textContent")
+    page.keyboard.press("Enter")
+    page.locator("#sides section").nth(1).wait_for()
+    assert page.locator(".line.alike").first.text_content().startswith("<img src=")
+    assert "  ≈ 3:1" in page.locator("#sides").text_content()
+    for scheme in ("light", "dark"):
+        page.emulate_media(color_scheme=scheme)
+        for width in (1300, 390):
+            page.set_viewport_size({"width": width, "height": 800})
+            assert page.evaluate("document.documentElement.scrollWidth <= window.innerWidth")
+            found = Axe().run(page, options={"resultTypes": ["violations"]})
+            assert [each["id"] for each in found.response["violations"]] == []
+    page.get_by_label("Ben Ivo · B: the submission beside its verdict").press("Enter")
+    page.locator("#title", has_text="Ben Ivo").wait_for()
+    page.keyboard.press("Escape")
+    page.locator("#compare").press("Enter")
+    page.locator("#pairs button").first.wait_for()
+    page.keyboard.press("Escape")
+    assert page.locator("#class").is_visible() and page.title() == "Review"
+    assert page.evaluate("document.querySelectorAll('img, main script, main style').length") == 0

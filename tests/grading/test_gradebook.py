@@ -266,3 +266,10 @@ def test_a_grader_killed_at_any_moment_loses_nothing_and_doubles_nothing(tmp_pat
         assert len(opened.attempts()) == len(names)
     assert len((out / "grades.csv").read_text().splitlines()) == len(names) + 1
     assert len(list((out / "feedback").iterdir())) == len(names)
+
+
+def test_what_an_older_version_stored_besides_is_passed_over():
+    stored = gradebook_rows.stored(record())["record"]
+    assert gradebook_rows.stored_record(stored | {"fingerprints": {"99-double": "x"}}) == (
+        gradebook_rows.stored_record(stored)
+    )

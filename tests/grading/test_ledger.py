@@ -116,13 +116,28 @@ def test_two_copies_that_went_on_apart_are_not_merged_in_silence(tmp_path):
     with filled(Gradebook(url(tmp_path, "a"))):
         pass
     (tmp_path / "b.db").write_bytes((tmp_path / "a.db").read_bytes())
-    with Gradebook(url(tmp_path, "a")) as one, Gradebook(url(tmp_path, "b")) as other:
+    words = url(tmp_path, "b"), "Tutor"
+    with Gradebook(url(tmp_path, "a")) as one, Gradebook(*words) as other:
         assert one.merge(other) == 0
         one.add(record("x.ipynb"))
         other.add(record("y.ipynb"))
-        with pytest.raises(GradebookError, match="is another one in the other gradebook"):
+        other.override_points("a.ipynb", "99", "99-double", 1, "by hand")
+        said = "is another one in the other gradebook.*by Tutor: attempt: 1, override: 1"
+        with pytest.raises(GradebookError, match=said):
             one.merge(other)
         assert chain_proof.altered(one.rows()) == []
+
+
+def test_a_copy_that_was_made_by_merging_may_go_on_and_come_back(tmp_path):
+    with filled(Gradebook(url(tmp_path, "a"))) as one, Gradebook(url(tmp_path, "b")) as copy:
+        copy.merge(one)
+        one.add(record("x.ipynb"))
+        copy.add(record("y.ipynb"))
+        assert one.merge(copy) == 1
+        assert copy.merge(one) == 1
+        for opened in (one, copy):
+            assert chain_proof.altered(opened.rows()) == []
+            assert len(opened.attempts()) == 5
 
 
 def test_what_is_forgotten_is_nowhere_in_the_file_and_the_chain_holds(tmp_path):

@@ -9,7 +9,7 @@ import pytest
 
 from slamlab.cli import main
 from slamlab.exercises.verdict import Verdict
-from slamlab.grading import class_report, grade_tables, late_policy, similarity
+from slamlab.grading import class_report, grade_tables, late_policy
 from slamlab.grading.gradebook import Gradebook
 from slamlab.grading.late_policy import LatePolicyError
 from slamlab.grading.marks import mark
@@ -130,37 +130,6 @@ def test_the_median_of_an_even_number_of_totals_is_half_way_between_the_middle_t
     some = [mark(record()), mark(record("b.ipynb", verdicts=VERDICTS[:1]))]  # 4 and 3 points
     class_report.write_report(tmp_path, some)
     assert "median 3.5 of" in (tmp_path / "class.html").read_text("utf-8")
-
-
-LONG = """
-def double(a):
-    '''Doubles.'''
-    total = 0.0  # a comment
-    for step in range(2):
-        total = total + a * (step + 1) / (step + 1)
-    return total
-"""
-
-
-def prints(source):
-    return similarity.fingerprints([(1, source)], fake.EXERCISE).get("99-double")
-
-
-def test_solutions_alike_but_for_names_and_layout_are_found():
-    renamed = LONG.replace("total", "sum_").replace("step", "k").replace("# a comment", "")
-    renamed = renamed.replace("'''Doubles.'''", "'''Mine!'''")
-    assert prints(LONG) == prints(renamed) is not None
-    assert prints(LONG) != prints(LONG.replace("range(2)", "range(3)"))
-    assert prints("def double(a):\n    return 2 * a") is None  # too short to say anything
-    assert prints("def double(") is None
-    assert prints("x = " + "(" * 10_000) is None
-
-
-def test_only_different_students_make_a_cluster():
-    anna, ben = record(fingerprints={"99-double": "x"}), record("ben.ipynb")
-    ben = replace(ben, fingerprints={"99-double": "x"})
-    assert similarity.clusters([anna, ben]) == [("99-double", [anna, ben])]
-    assert similarity.clusters([anna, replace(ben, student="anna")]) == []
 
 
 @pytest.fixture

@@ -3,7 +3,10 @@
 import asyncio
 import contextlib
 import json
+import re
+import shutil
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
@@ -13,8 +16,9 @@ from slamlab.grading.gradebook import Gradebook, default_url
 from slamlab.grading.ledger import chain_proof, contents
 from slamlab.grading.records import Record
 from slamlab.grading.term import term
-from slamlab.reviewing import requests_file, review_routes
+from slamlab.reviewing import review_routes, taking_requests
 from slamlab.reviewing.class_state import ClassState
+from slamlab.reviewing.requests_file import RequestsError
 from slamlab.reviewing.visible_text import visible
 from tests.grading.conftest import know_the_fake
 from tests.listening.client import Client, run
@@ -269,7 +273,7 @@ def test_a_comment_reaches_the_student_and_the_newest_counts(state):
 def csv_of(state, text):
     file = state.term.course.results / "requests.csv"
     file.write_text(text, "utf-8")
-    return requests_file.read_requests(state, file)
+    return taking_requests.take_requests(state, file)
 
 
 def test_a_request_is_read_once_and_answered(state):
@@ -305,8 +309,8 @@ def test_a_file_that_is_no_list_of_requests_is_refused_in_words(state, tmp_path,
     file = tmp_path / "requests.csv"
     if data is not None:
         file.write_bytes(data)
-    with pytest.raises(requests_file.RequestsError, match=r"requests\.csv: "):
-        requests_file.read_requests(state, file)
+    with pytest.raises(RequestsError, match=r"requests\.csv: "):
+        taking_requests.take_requests(state, file)
 
 
 def test_who_is_forgotten_is_forgotten_with_comment_request_and_answer(state):
@@ -326,3 +330,87 @@ def test_unseen_letters_are_shown_and_others_kept():
     assert visible({"a": [kept, 1, None, True]}) == {"a": [kept, 1, None, True]}
     assert visible("a\u202eb\u200bc\x1b[31m\r\nd") == "a⟦202e⟧b⟦200b⟧c⟦001b⟧[31m\nd"
     assert visible("\ud800") == "⟦d800⟧"
+
+
+ALONE = "def f(a, b):\n    c = a + b * 2\n    d = c - a / (b + 1)\n    return d * c + a - b"
+
+
+def test_two_who_share_what_is_rare_stand_side_by_side(state):
+    renamed = ALONE.replace("c", "mine").replace("return", "return  # <b>\u202e") + "\nrest = 1"
+    state.book.add(attempt("s1", 3.5, [(1, HOSTILE), (3, ALONE)], handed_in=LATER))
+    state.book.add(attempt("s2", 1.0, [(4, renamed)], handed_in=LATER))
+    ((_, told), (status, both)) = asked(state, ("/likeness/99", None), ("/likeness/99/0/1", None))
+    assert [pair["rows"] for pair in told["pairs"]] == [[0, 1]] and told["compared"] == 2
+    assert told["not_compared"] == [{"row": 2, "why": "the file is empty"}]
+    (_, left), (right,) = both["sides"]
+    assert status == 200 and (left["number"], right["number"]) == (3, 4)
+    assert [kind for _, kind, _ in left["lines"]] == ["alike"] * 4
+    assert left["lines"][0] == ["def f(a, b):", "alike", "4:1"]
+    assert "⟦202e⟧" in right["lines"][3][0] and right["lines"][4][0] == "rest = 1"
+    state.book.add(attempt("s2", 1.0, [(4, "x = 1")], handed_in=LATER, seen=7))
+    ((_, told), (status, _), (gone, _)) = asked(
+        state, ("/likeness/99", None), ("/likeness/99/0/3", None), ("/likeness/98", None)
+    )
+    assert told["pairs"] == [] and (status, gone) == (404, 404)
+
+
+def test_likeness_is_computed_once_until_another_attempt_counts(state, monkeypatch):
+    before = state.likeness("99")
+    state.book.override_points("s1.ipynb", "99", "99-double", 1, "by hand")
+    state.refresh()
+    assert state.likeness("99") is before
+    state.book.add(attempt("s4", 2.0, [(1, ALONE)]))
+    state.refresh()
+    assert state.likeness("99") is not before and "s4" in state.likeness("99").of_class._cells
+
+
+def mailed(*texts, exercise="99", kind="markdown"):
+    """A notebook that holds these text cells, and code that must not be run."""
+    cells = [{"cell_type": kind, "metadata": {}, "source": text} for text in texts]
+    cells.append({"cell_type": "code", "metadata": {}, "source": "1 / 0", "outputs": []})
+    return json.dumps({"nbformat": 4, "nbformat_minor": 5, "cells": cells,
+                       "metadata": {"slamlab": {"exercise": exercise}}})  # fmt: skip
+
+
+ASKS = "## Request for another look\n"
+
+
+@pytest.mark.parametrize("zipped", [False, True])
+def test_a_request_comes_with_a_notebook_that_is_no_attempt(state, tmp_path, zipped):
+    files = {
+        "s1/99_a.ipynb": mailed("# Title", f"{ASKS}why, {HOSTILE}", f"\n{ASKS.upper()}and this?"),
+        "ben@uni.hr.ipynb": mailed([ASKS, "look"], kind="raw"),
+        "s4.ipynb": mailed(f"{ASKS}I handed in nothing"),
+        "Zed.ipynb": mailed(f"{ASKS}I am nobody"),
+        "s3/a.ipynb": mailed(ASKS, "Request for another look, not a heading"),
+        "s3/b.ipynb": mailed(ASKS + "x" * 5000),
+        "s3/c.ipynb": mailed(ASKS + "x", exercise="98"),
+        "s3/d.ipynb": "{",
+    }
+    folder = tmp_path / "mail"
+    for name, text in files.items():
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_text(text, "utf-8")
+    place = shutil.make_archive(folder, "zip", folder) if zipped else folder
+    attempts = len(state.book.attempts())
+    first, *others = taking_requests.take_requests(state, Path(place))
+    assert "2 new requests, 0 known" in first
+    assert {re.search(r", ([\w/@.]+\.ipynb): not", line)[1] for line in others} == {
+        "s4.ipynb", "Zed.ipynb", "s3/b.ipynb", "s3/c.ipynb", "s3/d.ipynb"
+    }  # fmt: skip
+    assert "0 new requests, 2 known" in taking_requests.take_requests(state, Path(place))[0]
+    assert len(state.book.attempts()) == attempts
+    ((_, told),) = asked(state, ("/submission/0/99", None))
+    (request,) = told["requests"]
+    assert request["text"] == visible(f"why, {HOSTILE}\n\nand this?")
+    change(state, {"request": request["key"], "text": "it is right"})
+    page = feedback.feedback_page(standing(state).mark, "Ana")
+    assert "Answer: it is right" in page and "<script>" not in page
+
+
+def test_a_folder_or_zip_of_nothing_is_refused_in_words(state, tmp_path):
+    (tmp_path / "bad.zip").write_bytes(b"PK")
+    (tmp_path / "empty").mkdir()
+    for name in ("bad.zip", "empty"):
+        with pytest.raises(RequestsError, match=name):
+            taking_requests.take_requests(state, tmp_path / name)

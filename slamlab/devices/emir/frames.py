@@ -15,6 +15,8 @@ END = b"/"  # end mark
 def checksum(data):
     """Checksum of a frame, the byte that makes the sum 0: (−Σ) mod 256.
 
+    Equation (14.6).
+
     Parameters
     ----------
     data : bytes

@@ -67,6 +67,8 @@ class CounterUnwrapper:
     def advance(self, value):
         """Unwrapped increment since the last value; 0 at the first one.
 
+        Equation (14.7).
+
         Parameters
         ----------
         value : int, −128 to 127

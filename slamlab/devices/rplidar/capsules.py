@@ -20,6 +20,8 @@ MAX_STEP_RATIO = 1.3  # of two capsules in a row; beyond it some between were lo
 class CapsuleDecoder(Decoder):
     """Base class of the capsule decoders: finds capsules, checks checksums, decodes them in pairs.
 
+    Equation (14.3).
+
     Subclasses say what ``points`` a capsule holds and how distances are packed.
     """
 

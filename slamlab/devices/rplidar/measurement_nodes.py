@@ -75,6 +75,8 @@ class Decoder:
 class ScanDecoder(Decoder):
     """Decoder of SCAN and FORCE_SCAN: nodes of five bytes, resynchronised after lost bytes.
 
+    Equations (14.1) and (14.2).
+
     The first byte holds S, not S and quality, the next two C = 1 and the angle, the last two the
     distance. A quarter of all random bytes passes those check bits, so that synchronisation once
     lost is found again only where RUN nodes in a row fit and their angles advance a little; and

@@ -16,6 +16,8 @@ MAX_NODES = 1 << 15  # nodes of a turn: more come only from a lidar that does no
 def robot_frame(angle_deg, range_mm, front_deg=0.0):
     """Convert the sensor's clockwise degrees and millimetres to the robot's frame; the only place.
 
+    Equation (14.4).
+
     Parameters
     ----------
     angle_deg : (n,) clockwise from the sensor's front, seen from above [degree]

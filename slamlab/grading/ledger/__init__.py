@@ -7,5 +7,6 @@ Read in this order:
   asks for it
 - ``contents``: notebooks' cells and workers' outputs, kept compressed by their hashes
 - ``sightings``: in which order the judge first saw what was handed in
+- ``ledger_book``: a ledger in a database
 - ``chain_proof``: whether a row was altered; ``score_proof``: whether the judge says the same again
 """

@@ -8,12 +8,13 @@ from zoneinfo import ZoneInfo
 from slamlab.exercises import catalogue
 from slamlab.grading import toml_files
 from slamlab.grading.late_policy import LatePolicy, LatePolicyError, check_penalty
+from slamlab.grading.lti import settings as lti_settings
 from slamlab.grading.sandbox import LEVELS
 
 NAME = "course.toml"
 ATTEMPTS = ("last", "best")
 _TEXTS = ("name", "time_zone", "roster", "results", "secret", "isolation", "attempts", "gradebook")
-_TABLES = ("late", "exercises", "extensions")
+_TABLES = ("late", "exercises", "extensions", "lti")
 _OF_EXERCISE = ("due", "canvas")
 
 
@@ -44,6 +45,7 @@ class Course:
     attempts : str, which attempt counts, one of ATTEMPTS
     gradebook : str or None, the URL of its database
     name : str, of the course
+    lti : lti.settings.Settings or None, where the LMS offers its services
     """
 
     zone: ZoneInfo
@@ -59,6 +61,7 @@ class Course:
     attempts: str = "last"
     gradebook: str | None = None
     name: str = ""
+    lti: lti_settings.Settings | None = None
 
     def policy(self, extensions=None):
         """The late policy, with the extensions of the course file and of the roster.
@@ -139,6 +142,7 @@ def _course(told, file):
         attempts=_one_of("attempts", told.get("attempts", "last"), ATTEMPTS),
         gradebook=told.get("gradebook"),
         name=told.get("name", ""),
+        lti=lti_settings.settings(told["lti"], file.parent) if "lti" in told else None,
     )
 
 

@@ -18,6 +18,7 @@ from slamlab.grading.grade_tables import write_table
 from slamlab.grading.records import write_atomically
 from slamlab.grading.term.course_file import TermError
 from slamlab.grading.term.lms_names import CANVAS, MOODLE
+from slamlab.grading.term.released_scores import write_scores
 from slamlab.grading.term.term_tables import exercise_rows
 
 _OF_CANVAS = ("Student", "ID", "SIS User ID", "SIS Login ID", "Section")
@@ -56,6 +57,7 @@ def release(course, roster, exercise, standings, worksheet=None):
     shutil.rmtree(made, ignore_errors=True)
     made.mkdir(parents=True, mode=0o700)
     write_table(made / "grades.csv", exercise_rows(standings, course.zone))
+    write_scores(made, standings)
     pages = {}
     for standing in handed_in:
         words = standing.mark, standing.student.name, course.zone
