@@ -401,7 +401,7 @@ seen_live = views.live(
     size=(900, 400),
 )
 
-# %% [markdown] slideshow={"slide_type": "fragment"}
+# %% [markdown] slideshow={"slide_type": "subslide"}
 # It is hard to make it unsure here: two walls that are not parallel fix the place, and the heading
 # comes with the first. The next section has a place where that fails.
 

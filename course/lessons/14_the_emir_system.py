@@ -20,7 +20,7 @@
 # section, "Live", stands alone as a demonstration. If time is short, leave out "More points in fewer bytes" and
 # "Record it, play it again". For a poll: the questions on the capsule, the experiment, the checksum, and the map.
 
-# %% slideshow={"slide_type": "skip"}
+# %% slideshow={"slide_type": "skip"} tags=["folded"]
 import tempfile
 from functools import partial
 from itertools import pairwise
@@ -262,7 +262,7 @@ for count in (1, 2, 3):
 #
 # What if somebody forgets the minus?
 
-# %% slideshow={"slide_type": "fragment"}
+# %% slideshow={"slide_type": "fragment"} tags=["folded"]
 looks = {
     "an arc": trials.two_looks(speed=25, turn=25),
     "straight ahead": trials.two_looks(speed=25, turn=0),
@@ -511,7 +511,7 @@ ask(
     },
 )
 
-# %% slideshow={"slide_type": "subslide"} answers="14-pause"
+# %% slideshow={"slide_type": "subslide"} answers="14-pause" tags=["folded"]
 full_speed, _ = trials.statuses_of([(16, 100, 0)], worlds.corridor())
 PATHS = {"100 %": [status.path for status in full_speed], "50 %": path}
 
@@ -575,7 +575,7 @@ ask(
     right="the turn",
 )
 
-# %% slideshow={"slide_type": "subslide"} answers="14-harm"
+# %% slideshow={"slide_type": "subslide"} answers="14-harm" tags=["folded"]
 trip, room = trials.round_trip(seed=5), worlds.room()
 
 
@@ -690,7 +690,7 @@ with robot(np.random.default_rng(7)) as source:
     bench, marks = getattr(source, "bench", None), []
     counts = calibration_drive(source.emir, lambda: marks.append(bench and bench.body.pose))
 
-# %% slideshow={"slide_type": "subslide"}
+# %% slideshow={"slide_type": "subslide"} tags=["code"]
 TAPE, PROTRACTOR = None, None  # [m], [degrees] beyond a full turn
 
 if bench is not None:
@@ -789,7 +789,7 @@ played = {
     "A robot, calibrated": partial(robot, calibration=calibrated),
 }
 
-# %% slideshow={"slide_type": "slide"} answers="14-live"
+# %% slideshow={"slide_type": "slide"} answers="14-live" tags=["folded"]
 seen_live = views.live(
     played,
     views.apart(partial(estimators.make, "icp"), naive=(-8.5, 0)),
@@ -872,7 +872,7 @@ naive_off, corrected_off = trials.errors(seen_live.pair.estimator, true.poses[-1
 # Offsets are nearly always above 4°, where the top bit is set. So one of the two readings turns nearly every
 # point of the room.
 
-# %% slideshow={"slide_type": "subslide"}
+# %% slideshow={"slide_type": "subslide"} tags=["folded"]
 pairs = list(pairwise(capsules[16:31]))
 as_document = np.vstack([printed.as_documented(*two) for two in pairs])
 nodes = ExpressDecoder().feed(b"".join(capsules[16:31]))

@@ -16,7 +16,7 @@
 # one wrong turn, that on the map full of points, and that on fifty versions. `slamlab contest` holds the
 # contest; docs/contest.md says how.
 
-# %% slideshow={"slide_type": "skip"}
+# %% slideshow={"slide_type": "skip"} tags=["folded"]
 import numpy as np
 
 from slamlab import views
@@ -170,7 +170,7 @@ def errors_over(way, name):
     return np.array(found)
 
 
-# %% slideshow={"slide_type": "fragment"} answers="16-lengths"
+# %% slideshow={"slide_type": "fragment"} answers="16-lengths" tags=["folded"]
 lengths = np.array([0.5, 1, 2, 5, 10, 20])
 errors = {
     name: np.array([errors_over(way, name).mean() for way in lengths])
@@ -350,7 +350,7 @@ intervals = {
 for name, (low, high) in intervals.items():
     print(f"{name:>9}: from {low:.3f} to {high:.3f}")
 
-# %% slideshow={"slide_type": "fragment"} answers="16-paired"
+# %% slideshow={"slide_type": "fragment"} answers="16-paired" tags=["folded"]
 number = np.arange(1, len(arenas) + 1)
 pair = {name: e[name] for name in ("graph", "no loops")}
 fig, ax = views.curves(number, pair, "building", "error over 20 m [m]", size=(9, 4))
@@ -423,7 +423,7 @@ ask(
 STUDENTS, SPREAD = 1000, 15.0  # who try; of a version's points between worlds
 
 
-# %% slideshow={"slide_type": "fragment"} answers="16-best"
+# %% slideshow={"slide_type": "fragment"} answers="16-best" tags=["folded"]
 def best_of(versions, worlds):
     """How much better the best of some equally good versions seems to each student."""
     luck = np.random.default_rng(1).standard_normal((STUDENTS, versions))
