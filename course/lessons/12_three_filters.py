@@ -34,24 +34,12 @@ from slamlab.models import g
 from slamlab.simulation import GP2D120, WallFollower
 from slamlab.simulation.differential_drive import arc
 from slamlab.sources.arena_runs import SETS, data_set
-from slamlab.studies.paired_statistics import paired_difference, share_interval
+from slamlab.studies.paired_statistics import cm, paired_difference, percent, share_interval
 from slamlab.studies.study_command import stored
 from slamlab.studies.three import FILTERS, LOST, OWN_NAMES, with_corners
 from slamlab.studies.three_pictures import corner_layers, named, with_changed_corners
 from slamlab.studies.three_records import record, scan_points, summary
 from slamlab.worlds import World
-
-
-def percent(share):
-    """A share with its 95 % interval."""
-    return "–" if share is None else f"{share[0]:.0%} ({share[1]:.0%} to {share[2]:.0%})"
-
-
-def cm(interval, sign=""):
-    """A median [m] with its 95 % interval, in centimetres."""
-    value, low, high = (f"{100 * v:{sign}.1f}" for v in interval)
-    return f"{value} ({low} to {high})"
-
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=6
 # ## A robot for pocket money
@@ -160,7 +148,7 @@ d, turn = sp.symbols("d Delta_theta", positive=True)
 x, y = (sp.integrate(d * part(t * turn), (t, 0, 1)) for part in (sp.cos, sp.sin))
 half = sp.symbols("half", positive=True)  # of the turn
 print("x =", x, "   y =", y)
-print("y/x − tan(Δθ/2) =", sp.simplify((y / x - sp.tan(turn / 2)).subs(turn, 2 * half)))
+print("tan(Δθ/2) − y/x =", sp.simplify((sp.tan(turn / 2) - y / x).subs(turn, 2 * half)))
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="12-chord"
 squared = derive("L^2", x**2 + y**2, "Pythagoras, with (12.3)")

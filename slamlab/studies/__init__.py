@@ -6,7 +6,7 @@
   ``corridor``: walls measured, and feet of walls; ``heard_walls``: walls by ultrasound;
   ``line_truth``: lines against the true walls
 - ``three``: BOR, MAK, Monte Carlo, with ``three_records`` of each drive, ``three_rows`` of its
-  table, ``three_costs``
+  table, ``three_costs``; ``three_pictures``: what lesson 12 shows of a drive
 - ``two_halves``, ``halves_in_turn``, ``agreeing_poses``: the laps of lesson 05, run where they
   stand
 - ``broken_slam``: EKF-SLAM with one thing wrong, for lesson 06; ``broken_bounds``: BOR with a bound
