@@ -155,8 +155,8 @@ squared = derive("L^2", x**2 + y**2, "Pythagoras, with (12.3)")
 squared.step("half angles", (2 * d * sp.sin(turn / 2) / turn) ** 2)
 
 # %% [markdown] slideshow={"slide_type": "subslide"} answers="12-chord"
-# The line points **half** the turn to the side, and the root of the last line is its length $L$. It is shorter than
-# the arc:
+# The line points **half** the turn to the side, and the root of the last line is its length $L$. It is never longer
+# than the arc:
 #
 # $$L = d\, \frac{\sin(\Delta\theta/2)}{\Delta\theta/2}. \tag{12.4}$$
 #
@@ -412,7 +412,7 @@ assert named_box["scans_outside"] == 0 and own_box["runs_outside"] == runs == 80
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="12-promise"
 # These counts are of {= runs =} drives, three laps each, and stored with the course
-# (`python -m slamlab.studies.three` makes them again). With names of its own the honest box breaks its promise in every
+# (`python -m slamlab.studies.three` makes them again). No constant of a filter was chosen on one of them. With names of its own the honest box breaks its promise in every
 # drive, in {= own_box["scans_outside"] / own_box["scans"]:.0% =} of all scans. With MAK's names it broke it in none.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
@@ -596,7 +596,7 @@ Markdown("\n".join([head, "|---" * 6 + "|", *rows]))
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # With $k = 4.5$ the robot was never outside. What does "never in {= runs =} drives" say? That the true share of drives
-# in which it happens is hardly more than {= share_interval(0, runs)[2]:.1% =}; the section on six drives says how one
+# in which it happens is hardly more than {= share_interval(0, runs)[2]:.1% =}; (12.6) will say how one
 # knows. CLAIM-BOUNDS
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
@@ -639,7 +639,7 @@ print(f"reported in {slipped['runs_outside_reported']} of these drives")
 #
 # - a run **strays** where its position is off by more than {= 100 * LOST:.0f =} cm, the robot's own width: it would drive
 #   into the wall;
-# - a run is **lost** if it is off so far at its end. It was lost from where it last went beyond that limit.
+# - a run is **lost** if it is off that far at its end. It was lost from where it last went beyond that limit.
 #
 # Below are the errors of our first drive. Who strays, and who is lost?
 
@@ -658,8 +658,7 @@ views.show(
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # Lost on this drive: {= " and ".join(lost_here) =}. MAK's error grows while no known corner is in sight, and drops when one
-# comes. Odometry has nothing to drop by. Its error
-# falls where a wrong heading happens to lead back, as on the way home of a round trip.
+# comes. Odometry has nothing to drop by. Its error falls where a wrong heading happens to lead back, as on the way home of a round trip.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### The thesis' pictures
@@ -865,7 +864,8 @@ Markdown("\n".join([head, "|---" * 7 + "|", *rows]))
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # - **Odometry** grows: nothing ever takes an error away.
 # - **BOR**, with which the thesis found it: refuted for both kinds of boxes.
-# - **Monte Carlo**: undecided, and if its error grows, then slowly.
+# - **Monte Carlo**: undecided; if its error grows, then hardly by more than
+#   {= 100 * free["Monte Carlo"]["lap_3_minus_lap_1_m"][2]:.1f =} cm.
 # - **MAK, FastSLAM, walls**: the error even falls.
 #
 # Over the whole drive every filter is better than odometry. How much it is worth differs, from
@@ -933,7 +933,7 @@ for n in ("BOR, honest", "BOR, tuned"):
 # %% slideshow={"slide_type": "fragment"}
 lost = {
     kind: {n: rows[n]["lost"] for n in names}
-    for kind, rows in {"free": free, "cable snagged": snagged}.items()
+    for kind, rows in {"as driven": free, "cable snagged": snagged}.items()
 }
 fig, _ = views.shares(lost, f"lost runs of {runs}", size=(8.5, 4.6))
 views.show(
