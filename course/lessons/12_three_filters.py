@@ -171,10 +171,10 @@ def rolled(left, right):
     fig, ax = views.axes(
         f"arc {50 * (left + right):.0f} cm, line {100 * np.hypot(*way[-1, :2]):.0f} cm", (8, 5)
     )
-    views.draw(ax, Poses("truth", way), label="arc of the middle")
-    views.draw(ax, Segments("corrected", [[0, 0, *way[-1, :2]]]), label="from start to end")
-    for pose, label in ((way[0], "robot"), (way[-1], "_end")):
-        views.draw(ax, Poses("robot", pose), label=label)
+    drawn = {"arc of the middle": Poses("truth", way), "robot": Poses("robot", way[0])}
+    drawn["from start to end"] = Segments("corrected", [[0, 0, *way[-1, :2]]])
+    for label, layer in (drawn | {"_end": Poses("robot", way[-1])}).items():
+        views.draw(ax, layer, label=label)
     ax.set(aspect="equal", adjustable="box", xlim=(-0.32, 0.32), ylim=(-0.18, 0.22))
     views.legend(ax, loc="lower left")
     return fig
