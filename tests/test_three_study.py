@@ -100,6 +100,7 @@ def brief(monkeypatch):
     makers = {name: three.FILTERS[name] for name in ("odometry", "Monte Carlo")}
     monkeypatch.setattr(three, "FILTERS", makers)
     monkeypatch.setattr(three, "OWN_NAMES", {"Monte Carlo": three.OWN_NAMES["Monte Carlo"]})
+    monkeypatch.setattr(three, "SIGMAS", ())
     monkeypatch.setattr(three, "SETS", SETS[-2:])
     few = partial(three_costs.scan_costs, ("bor", "mak"), (3, 5))
     monkeypatch.setattr(three, "scan_costs", few)
@@ -172,11 +173,16 @@ def test_the_stored_table_is_of_eighty_runs_and_whole():
     runs = table["seeds"][1] - table["seeds"][0] + 1
     assert runs >= 80
     assert [(line["seed"], line["snagged"]) for line in table["six"]] == list(SETS)
-    assert list(table["many"]) == ["free", "snagged", "own_names"]
-    for kind, rows in table["many"].items():
-        names = ["odometry", *three.OWN_NAMES] if kind == "own_names" else list(three.FILTERS)
-        assert list(rows) == names
+    names = {
+        "free": list(three.FILTERS),
+        "snagged": list(three.FILTERS),
+        "own_names": ["odometry", *three.OWN_NAMES],
+        "bounds": ["odometry", "Monte Carlo", *map(str, three.SIGMAS)],
+    }
+    assert {kind: list(rows) for kind, rows in table["many"].items()} == names
+    for rows in table["many"].values():
         for line in rows.values():
+            assert len(line["rms_each_m"]) == runs
             assert line["runs"] == runs >= line["runs_strayed"] >= line["runs_lost"]
 
 
@@ -190,6 +196,18 @@ def test_the_stored_table_says_that_the_error_does_not_grow_and_the_honest_box_h
     assert rows["odometry"]["lap_3_minus_lap_1_m"][1] > 0
     box = rows["BOR, honest"]["box"]
     assert box["scans_outside"] == 0 and box["widest_m"][0] <= 1.2
+
+
+@pytest.mark.skipif(not TABLE.exists(), reason="the table has not been made")
+def test_the_stored_table_says_that_wider_bounds_make_wider_boxes_that_fail_less_often():
+    many = json.loads(TABLE.read_text())["many"]
+    boxes = [many["bounds"][str(k)]["box"] for k in three.SIGMAS]
+    outside = [box["scans_outside"] for box in boxes]
+    assert outside == sorted(outside, reverse=True) and outside[0] > 0 == outside[-1]
+    assert [box["widest_m"] for box in boxes] == sorted(box["widest_m"] for box in boxes)
+    honest = many["free"]["BOR, honest"]["box"]
+    assert many["bounds"]["4.5"]["box"] == honest
+    assert honest["runs_outside_reported"] <= honest["runs_outside"]
 
 
 @pytest.mark.skipif(not TABLE.exists(), reason="the table has not been made")

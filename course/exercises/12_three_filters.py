@@ -1,19 +1,19 @@
 # %% [markdown]
 # # Exercise 12 · Three filters, one robot
 #
-# **You will be able to** turn the ticks of two encoders into a motion, say from when on a run is
-# lost, say how sure a share of lost runs is, compare two filters drive by drive, and write a filter
-# that notices that it is lost and finds itself again.
+# **You will be able to** turn the ticks of two encoders into a motion, say since when a run is lost
+# and how sure a share of lost runs is, compare two filters drive by drive, and write a filter that
+# notices that it is lost and finds itself again.
 #
 # **60 minutes. Before:** lesson [12 · Three filters, one robot](../notebooks/12_three_filters.ipynb).
 #
 # Replace each `raise NotImplementedError(...)` by your code, run the cell, then run the check below
-# it, as often as you like. A check draws random inputs, tells you which law is broken, and what the
-# mistake is where it knows it. When you are stuck, `hint("12-odometry")` asks a question that leads
-# on.
+# it, as often as you like. A check tries random inputs, and inputs at the edges of what the text
+# promises. Where a law is broken it shows a small input that breaks it, and `hint("12-odometry")` in a
+# cell of your own leads on.
 #
-# Metres and radians; a motion is `[x, y, θ]` in the frame of the pose before it. A function may not
-# change its arguments: whoever called it still needs them.
+# All lengths are in metres, all angles in radians. A motion is `[x, y, θ]` in the frame of the pose
+# before it. No function may change its arguments, because whoever called it still needs them.
 
 # %%
 from itertools import pairwise
@@ -30,17 +30,22 @@ from slamlab.layers import Points, Poses
 # ## 1 · From ticks to a motion
 #
 # The robot has two driven wheels, `base` metres apart, each with an encoder. Both wheels roll
-# evenly: `left` and `right` ticks, each of `tick` metres. Its middle then drives an arc of length
-# $d = (l + r)/2$ and turns by $\Delta\theta = (r - l)/\text{base}$, all the while.
+# evenly, by `left` and `right` ticks of `tick` metres each. So they roll the ways
+# $s_{\mathrm{left}}$ and $s_{\mathrm{right}}$, and the middle of the robot drives an arc of length
+# $d = (s_{\mathrm{left}} + s_{\mathrm{right}})/2$ while the robot turns evenly by
+# $\Delta\theta = (s_{\mathrm{right}} - s_{\mathrm{left}})/\text{base}$.
 #
-# The lesson has the chord of that arc: how long it is, and where it points.
+# The lesson derives how long the straight line from start to end of that arc is, and where it
+# points.
 #
 # **Predict first.** The robot turns by a quarter of a round while it drives one metre. Does it end
-# up one metre from where it was? And what is sin 0 / 0 to your computer, when it drives straight on?
+# up one metre from where it was? And what is $\sin(0)/0$ to your computer, when the robot drives
+# straight on?
 #
-# **Your task.** Where is it at the end, and by how much has it turned? Ticks are whole numbers, negative
-# for a wheel that rolls backwards, and any of them may be zero. One tick more on one side counts. The
-# robot may turn by more than a whole round; whether you wrap θ is up to you.
+# **Your task.** Return where the robot is at the end, and by how much it has turned. Ticks are whole
+# numbers, negative for a wheel that rolls backwards, and any of them may be zero. Even one tick more
+# on one side counts. The robot may turn by more than a whole round; whether you wrap $\theta$ is up
+# to you.
 
 
 # %% name="odometry"
@@ -62,8 +67,8 @@ def odometry(left, right, tick, base):
 check("12-odometry")
 
 # %% [markdown]
-# A robot whose right wheel rolls a little farther with every step. **Before you run it:** what
-# curve will it drive?
+# The next cell drives a robot whose right wheel rolls a little farther with every step. **Before you
+# run it:** what curve will it drive?
 
 
 # %% name="spiral"
@@ -79,20 +84,21 @@ def _():
 
 
 # %% [markdown]
-# It winds itself up to the left: each step turns a little more than the one before.
+# It winds itself up to the left, because each step turns a little more than the one before.
 
 # %% [markdown]
 # ## 2 · Lost, and since when
 #
-# You know how far a filter's position was off, reading by reading. A run **strays** where that is
+# You know how far a filter's position was off at each reading. A run **strays** where this error is
 # beyond a limit; an error that equals the limit is not beyond it. A run is **lost** if it is beyond
-# the limit at the end, and it was lost *from the first reading on from which it never came back*.
+# the limit at its end, and it has been lost since *the first reading from which on it never came
+# back*.
 #
 # **Predict first.** A run strays three times and comes back twice. Which of its readings beyond the
 # limit says since when it is lost?
 #
-# **Your task.** Return the number of that reading, counted from 0, or −1 if the run is not lost. A run
-# has at least one reading.
+# **Your task.** Return the number of that reading, counted from 0, or −1 if the run is not lost. A
+# run has at least one reading.
 
 
 # %% name="lost-since"
@@ -113,7 +119,7 @@ def lost_since(errors, limit):
 check("12-lost")
 
 # %% [markdown]
-# Three made-up runs. **Before you run it:** which of them are lost, and since when?
+# Here are three made-up runs. **Before you run the cell:** which of them are lost, and since when?
 
 
 # %% name="three-runs"
@@ -132,26 +138,28 @@ def _():
 
 
 # %% [markdown]
-# Only the last one is lost. It strays, comes back for some readings, and is lost from the last time
-# on that it crosses the limit.
+# Only the last one is lost. It strays, comes back for some readings, and has been lost since it
+# crossed the limit for the last time.
 
 # %% [markdown]
 # ## 3 · How sure is a share?
 #
-# Of n runs, k were lost. The share k/n is only an estimate of the true share p. Return an interval
-# that holds p in about 95 % of all studies.
+# Of $n$ runs, $k$ were lost. The share $k/n$ is only an estimate of the true share $p$. We want an
+# interval that holds $p$ in about 95 % of all studies.
 #
-# If p is the true share, k/n scatters by $\sqrt{p\,(1-p)/n}$ about it. So hold every p for possible
-# for which k/n is at most z = 1.96 such deviations off:
+# If $p$ is the true share, then $k/n$ scatters about it with the standard deviation
+# $\sqrt{p\,(1-p)/n}$. So we hold every $p$ for possible from which $k/n$ is at most 1.96 such
+# deviations away. Squared, this is the lesson's (12.6), with $k$ lost runs in place of its $m$:
 #
-# $$\Big(\frac kn - p\Big)^2 \le z^2\,\frac{p\,(1-p)}{n}$$
+# $$\left(\frac kn - p\right)^2 \le 1.96^2\,\frac{p\,(1-p)}{n}$$
 #
-# It is a quadratic inequality, and its two ends are what is asked for.
+# The inequality is quadratic in $p$, and it holds between two ends.
 #
-# **Predict first.** None of six runs was lost. Is p = 0 then?
+# **Predict first.** None of six runs was lost. Is $p = 0$ then?
 #
-# **Your task.** The two ends, the lower one first. There is at least one run and there may be hundreds of
-# thousands; none of them may be lost, or all. (Another interval will do as well, if it is as honest.)
+# **Your task.** Return these two ends, the lower one first. There is at least one run, and there may
+# be hundreds of thousands; none of them may be lost, or all. (Another interval will do as well, if it
+# is as honest.)
 
 
 # %% name="interval"
@@ -172,8 +180,8 @@ def interval(k, n):
 check("12-interval")
 
 # %% [markdown]
-# **Before you run it:** the thesis lost one run in six. Between which shares may the true one lie?
-# And what would 13 in 80 say?
+# **Before you run the cell:** the thesis lost one run in six. Between which shares may the true one
+# lie? And what would 13 in 80 say?
 
 
 # %% name="one-in-six"
@@ -186,37 +194,39 @@ def _():
 
 # %% [markdown]
 # "Once in six" may be anything from one in thirty to more than half. That is why the thesis' author
-# says himself that six sets are too few, and why the lesson drives eighty times.
+# himself calls six sets too few, and why the lesson drives eighty times.
 
 # %% [markdown]
 # ## 4 · Two filters on the same drives
 #
-# Which filter is the nearer one? The lesson compares two on the *same* drive until either of them
-# strays, and takes differences. The median of these differences is known as badly as a share is: you
-# have some drives, not all. How sure is it?
+# Which of two filters is nearer to the truth? The lesson compares them on the *same* drives and takes
+# differences. You have some drives, not all, so the median of these differences is uncertain, just as a
+# share is. How uncertain?
 #
-# Take up the idea of task 3. Suppose that the true median is m. Then on each drive the difference
-# falls below m as a coin falls on heads: with probability ½, whatever the differences look like. Of n
-# coins, K are heads, and
+# The idea of task 3 helps again. Suppose that the true median is $\mu$. Then on each drive the
+# difference lies below $\mu$ as a coin falls on heads: with probability ½, whatever the differences
+# look like. Of $n$ coins, the number $K$ of heads is distributed as
 #
-# $$P(K = k) = \binom nk \frac 1{2^n}$$
+# $$\Pr(K = k) = \binom nk \frac 1{2^n}$$
 #
-# Count how many of your n differences lie below m. Hold m for possible unless so few of them, or
-# fewer, happen in at most 2.5 % of all studies, or so many, or more.
+# Now count how many of your $n$ differences lie below $\mu$. We hold $\mu$ for possible, unless a count
+# as small as this or smaller happens in at most 2.5 % of all studies, or a count as large as this or
+# larger does.
 #
-# **Predict first.** Of six differences none lies below m. Is such an m possible? And if one does? As
-# m grows from the smallest difference to the largest, where can the answer change at all?
+# **Predict first.** Of six differences none lies below $\mu$. Is such a $\mu$ possible? And if one does?
+# As $\mu$ grows from the smallest difference to the largest, where can the answer change at all?
 #
-# **Your task.** The ends of all m that are possible, the lower one first.
+# **Your task.** Return the ends of the interval of all $\mu$ that are possible, the lower one first.
 #
 # 1. On each drive, compare both filters up to the reading *before* the first one at which either of
 #    them is beyond the limit (an error that equals it is not). What comes later does not count, even
 #    if they come back.
-# 2. The difference of a drive is the root mean square (RMS) of A's errors in these readings less that
+# 2. The difference of a drive is the root mean square (RMS) of A's errors in these readings, less that
 #    of B's.
-# 3. A drive on which one of them is beyond the limit at the first reading says nothing: leave it out.
+# 3. A drive on which one of them is beyond the limit at the first reading says nothing, so leave it
+#    out.
 #
-# There is at least one reading a drive, and at least six drives are left. No two differences are equal.
+# A drive has at least one reading, and at least six drives are left. No two differences are equal.
 
 
 # %% name="compare"
@@ -243,8 +253,8 @@ def compare(errors_a, errors_b, limit):
 check("12-paired")
 
 # %% [markdown]
-# Two made-up filters on the same drives, some of which are hard for both. **Before you run it:** B is
-# better by 1 cm on a typical drive. How many drives will it take until you can tell?
+# Two made-up filters run on the same drives, some of which are hard for both. **Before you run the
+# cell:** on a typical drive B is better by 1 cm. How many drives will it take until you can tell?
 
 
 # %% name="how-many-drives"
@@ -264,24 +274,24 @@ def _():
 
 
 # %% [markdown]
-# Both errors vary by ten centimetres from drive to drive, but that has dropped out: each drive was
-# hard for both filters, or easy for both.
+# Both errors vary by ten centimetres from drive to drive. This has dropped out of the differences,
+# since each drive was hard for both filters, or easy for both.
 
 # %% [markdown]
 # ## 5 · Make it better: lost, and found again
 #
-# A robot drives through a hall of three bays, 4 m by 4 m each, side by side: the hall is 12 m long
-# and 4 m wide. Each bay has six posts. Five of them stand in the same places in every bay, and look the
-# same from behind (turned by half a round) as well; the sixth is the bay's own. The robot has a map of all
-# 18. It sees posts within 2 m all round, but misses one in five. A sight is a range and a bearing
-# (σ = 0.03 m and 0.02 rad) and has **no name**: it does not say which post it is. Besides, a scan holds
-# 0.7 *phantoms* on average, which are no posts at all. A scan may also be empty.
+# A robot drives through a hall of three bays, 4 m by 4 m each, side by side, so the hall is 12 m long
+# and 4 m wide. Each bay has six posts. Five of them stand in the same places in every bay, and they look
+# the same from behind, turned by half a round. The sixth is the bay's own. The robot has a map of all 18.
+# It sees posts within 2 m all round, but misses one in five. A sight is a range and a bearing, with
+# $\sigma$ = 0.03 m and 0.02 rad, and it has **no name**: it does not say which post it is of. Besides, a
+# scan holds 0.7 *phantoms* on average, which are no posts at all. A scan may also be empty.
 #
-# At some time somebody lifts the robot and sets it down elsewhere in the hall, turned however. The
+# At some time somebody lifts the robot and sets it down elsewhere in the hall, turned by any angle. The
 # wheels notice nothing of it.
 #
-# These tools are ready. They take many poses at once, (n, 3), since who is lost has to look at more
-# than one.
+# These tools are ready for use. They take many poses at once, `(n, 3)`, because a robot that is lost has
+# to consider more than one.
 
 # %% name="tools"
 HALL = np.array([12.0, 4.0])  # [m]
@@ -346,16 +356,17 @@ def track(start, motions, sights, posts):
 
 # %% [markdown]
 # **Predict first.** After the lift, one scan fits a place in the left bay. In how many other places
-# does it fit as well, with which headings? What tells them apart, and when?
+# does it fit as well, and with which headings? What tells these places apart, and when?
 #
-# **Your task.** A filter that notices it and finds itself again, given the pose at the start, which is
-# exact, the motions that the wheels tell, and the scans, each after a motion. Any method goes: try
-# again from many poses, follow several at once, weigh samples, look back.
+# **Your task.** Write a filter that notices the lift and finds itself again. It is given the pose at the
+# start, which is exact, the motions that the wheels tell, and the scans, one after each motion. Any
+# method goes: try again from many poses, follow several at once, weigh samples, look back.
 #
-# The check lets it follow 24 drives of 30 readings in six halls. A reading strays if the position is
-# off by more than 0.3 m. As long as nobody lifts the robot, hardly any reading may stray. After that,
-# readings count from the third sight on of a bay's own post, since nobody can know the bay before; and
-# the fewer of them stray, the more points there are. The numbers of this hall hold in all drives.
+# The check lets your filter follow 24 drives of 30 readings in six halls. A reading strays if the
+# position is off by more than 0.3 m. As long as nobody lifts the robot, hardly any reading may stray.
+# After the lift, readings count from the third sight of a bay's own post, since nobody can know the bay
+# before; the fewer of them stray, the more points there are. The numbers of this hall hold in all
+# drives.
 
 
 # %% name="relocalise"
@@ -395,8 +406,9 @@ def relocalise(start, motions, sights, posts):
 check("12-relocalise")
 
 # %% [markdown]
-# One drive through such a hall, in which the robot is lifted out of the left bay. **Before you run
-# it:** where will the ready `track` believe to be after that, and what will yours do?
+# Here is one drive through such a hall, in which the robot is lifted out of the left bay. **Before you
+# run the cell:** where will the ready filter `track` believe the robot to be after that, and what will
+# yours do?
 
 
 # %% name="lifted"
@@ -435,5 +447,5 @@ def _():
 
 
 # %% [markdown]
-# `track` goes on where nobody is. Yours has to jump, once, and then stay. Slips in the lesson were cured
-# in the same way, by walls that are in sight and samples that are weighed for fifteen scans.
+# `track` goes on where nobody is. Yours has to jump once, and then stay. The lesson's `walls` cured slips
+# in a similar way, with walls that are in sight and samples that are weighed over many scans.

@@ -37,8 +37,9 @@ class BorSlam(Estimator):
 
     Bounds of n steps add up to n times one, errors to √n times. So there is a second prediction:
     the whole way from the start, within ``way_sigmas`` of its own covariance as EKF-SLAM predicts
-    it. The box is the intersection of both. That bound is honest with a probability only: were the
-    pose a Gaussian, each of its numbers would be beyond 3.5 sigmas once in two thousand scans.
+    it. The box is the intersection of both. Equation (12.5). That bound is honest with a
+    probability only: were the pose a Gaussian, each of its numbers would be beyond 3.5 sigmas once
+    in two thousand scans.
 
     Parameters
     ----------

@@ -59,7 +59,7 @@ class DifferentialDrive:
 def arc(left, right, base):
     """Odometry increment of a differential drive (forward kinematics): a circular arc, exact.
 
-    Equation (01.2).
+    Equations (01.2), (12.2) and (12.4).
 
     d = (l+r)/2,  Δθ = (r−l)/base,  chord d·sin(Δθ/2)/(Δθ/2) at bearing Δθ/2
 

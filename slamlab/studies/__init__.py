@@ -6,7 +6,7 @@
   ``corridor``: walls measured, and feet of walls; ``heard_walls``: walls by ultrasound;
   ``line_truth``: lines against the true walls
 - ``three``: BOR, MAK, Monte Carlo, with ``three_records`` of each drive, ``three_rows`` of its
-  table, ``three_costs``
+  table, ``three_costs``; ``three_pictures``: what lesson 12 shows of a drive
 - ``samples``: how many samples find a robot, and maps by samples, with ``sampled_room``,
   ``sampled_rail``, ``sets_apart``, the experiments of lesson 11
 - ``two_halves``, ``halves_in_turn``, ``agreeing_poses``: the laps of lesson 05, run where they

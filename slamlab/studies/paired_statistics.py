@@ -27,7 +27,7 @@ def median_interval(values):
 
 
 def share_interval(count, total):
-    """Share and its 95 % confidence interval by Wilson.
+    """Share and its 95 % confidence interval by Wilson. Equation (12.6).
 
     Parameters
     ----------
@@ -43,6 +43,8 @@ def share_interval(count, total):
 
 def paired_difference(first, second):
     """Median of the differences on the same runs, with its 95 % confidence interval.
+
+    What is common to both drops out. Equation (12.7).
 
     Parameters
     ----------
@@ -71,3 +73,33 @@ def only_one(first, second):
     mine, other = int(np.sum(first & ~second)), int(np.sum(second & ~first))
     p = binomtest(mine, mine + other).pvalue if mine + other else 1.0
     return [mine, other, round(float(p), 4)]
+
+
+def percent(share):
+    """Share with its confidence interval as text, in per cent.
+
+    Parameters
+    ----------
+    share : (share, low, high), or None where there were no runs
+
+    Returns
+    -------
+    str
+    """
+    return "–" if share is None else "{:.0%} ({:.0%} to {:.0%})".format(*share)
+
+
+def cm(interval, sign=""):
+    """Median with its confidence interval as text, in centimetres.
+
+    Parameters
+    ----------
+    interval : (median, low, high) [m]
+    sign : str, "+" for one that is always written
+
+    Returns
+    -------
+    str
+    """
+    value, low, high = (f"{100 * v:{sign}.1f}" for v in interval)
+    return f"{value} ({low} to {high})"

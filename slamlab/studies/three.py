@@ -11,6 +11,7 @@ from functools import partial
 
 import numpy as np
 
+from slamlab.estimators.bor_slam import BorSlam
 from slamlab.estimators.by_name import make
 from slamlab.estimators.landmark_observations import observed_landmarks
 from slamlab.parallel import map_runs
@@ -41,6 +42,12 @@ OWN_NAMES = {
     "FastSLAM": partial(make, "fastslam", names="own"),
 }
 """The same, but each filter does the data association itself."""
+SIGMAS = (1.0, 2.0, 3.0, 4.5, 6.0)  # standard deviations that a bound of a box is taken to be
+
+
+def bounded(sigmas, source):
+    """Maker of a box filter all of whose bounds are so many standard deviations."""
+    return BorSlam(source.robot, source.sensor, sigmas=sigmas, way_sigmas=sigmas, names="mak")
 
 
 def with_corners(source):
@@ -93,17 +100,22 @@ def errors_of(source, readings):
 
 
 def run(seed):
-    """Records of every filter on one drive: "free", "snagged", "own_names"; {kind: {name: Record}}.
+    """Records of every filter on one drive: {kind: {name: Record}}.
 
-    With names of their own the drive is free.
+    The kinds are "free", "snagged", and on the free drive "own_names" and "bounds", boxes of all
+    SIGMAS.
     """
     free = ArenaRun(np.random.default_rng(seed))
     held, readings = free.snagged(), with_corners(free)
     pulled = [replace(r, odometry=h.odometry) for r, h in zip(readings, held, strict=True)]
+    beside, boxes = {"odometry": FILTERS["odometry"]}, {str(k): partial(bounded, k) for k in SIGMAS}
+    found = records_of(free, readings, FILTERS)
     return {
-        "free": records_of(free, readings, FILTERS),
+        "free": found,
         "snagged": records_of(held, pulled, FILTERS),
-        "own_names": records_of(free, readings, {"odometry": FILTERS["odometry"]} | OWN_NAMES),
+        "own_names": records_of(free, readings, beside | OWN_NAMES),
+        "bounds": {name: found[name] for name in ("odometry", "Monte Carlo")}
+        | records_of(free, readings, boxes),
     }
 
 

@@ -24,6 +24,8 @@ class Record:
     duplicates : int, landmarks of a corner that is one already; None as before
     widths : (n,) the robot's box, its wider side [m]; None where there are no boxes
     outside : int, scans with the true pose outside of the robot's box or heading; None as before
+    reported : bool, whether boxes contradicted each other, so that the filter said it is lost;
+        None as before
     """
 
     errors: np.ndarray
@@ -32,6 +34,7 @@ class Record:
     duplicates: int | None = None
     widths: np.ndarray | None = None
     outside: int | None = None
+    reported: bool | None = None
 
 
 def record(slam, source, readings):
@@ -61,6 +64,7 @@ def record(slam, source, readings):
     if boxes:
         told["widths"] = np.array([np.diff(robot)[::2].max() for robot, _, _ in boxes])
         told["outside"] = sum(not holds(*each) for each in boxes)
+        told["reported"] = bool(slam.lost)
     return Record(errors, landmarks, **told)
 
 

@@ -21,7 +21,7 @@ def row(records, odometry, monte_carlo):
 
     Returns
     -------
-    dict of (value, low, high) [m] or shares, and the counts behind the shares
+    dict of (value, low, high) [m] or shares, the counts behind the shares, each drive's RMS error
     """
     found, alone = ([summary(each.errors) for each in runs] for runs in (records, odometry))
     strayed, lost = (sum(each[key] for each in found) for key in ("strayed", "lost"))
@@ -33,6 +33,7 @@ def row(records, odometry, monte_carlo):
         "runs_strayed": strayed,
         "runs_lost": lost,
         "rms_m": median_interval(rms),
+        "rms_each_m": [round(each, 4) for each in rms],
         "before_m": median_interval([each["before_m"] for each in found]),
         "laps_m": [median_interval(lap) for lap in laps],
         "lap_3_minus_lap_1_m": paired_difference(laps[-1], laps[0]),
@@ -74,6 +75,7 @@ def _box(records):
         "scans": sum(len(each.widths) for each in records),
         "scans_outside": sum(each.outside for each in records),
         "runs_outside": sum(each.outside > 0 for each in records),
+        "runs_outside_reported": sum(each.outside > 0 and each.reported for each in records),
         "widest_m": median_interval([float(each.widths.max()) for each in records]),
         "laps_m": [median_interval(end) for end in ends],
     }
