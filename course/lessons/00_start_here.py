@@ -336,6 +336,14 @@ coursework.show_progress()
 # | $\iota$ | angle under which a beam meets a wall |
 # | $U$ | voltage of an infrared sensor |
 # | $\Phi$ | how much contradiction a robust weight allows an edge |
+# | $\Pr$, $\mathrm{Bel}$ | probability, or its density; what is believed of a pose |
+# | $\ell$ | logarithm of a weight that is not yet divided by the sum of all |
+# | $\delta$ | a small step, such as one of Gauss and Newton |
+# | $\psi$ | angle as a lidar counts it, clockwise |
+
+#
+# A few letters serve one derivation only, such as $M$, $U$, $V$ and $\gamma$ in lesson 13 or $\pi$ and $\eta$
+# in lesson 15. They are defined where they stand.
 
 # %% [markdown] slideshow={"slide_type": "skip"} name="notation"
 # ### In the code

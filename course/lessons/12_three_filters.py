@@ -18,7 +18,7 @@
 # filters. If time is short, leave out "Six drives" and "Found again". For a poll: the questions on the
 # chord, on the honest box with names of its own, on the report, and on overlapping intervals.
 
-# %% slideshow={"slide_type": "skip"}
+# %% slideshow={"slide_type": "skip"} tags=["folded"]
 import numpy as np
 import sympy as sp
 from IPython.display import Markdown
@@ -78,7 +78,7 @@ ask(
     },
 )
 
-# %% slideshow={"slide_type": "subslide"} answers="12-noise"
+# %% slideshow={"slide_type": "subslide"} answers="12-noise" tags=["folded"]
 beside, rng = World([[-1.0, 0.06, 1.0, 0.06]]), np.random.default_rng(12)  # a wall to its left
 many = np.array([GP2D120.scan(beside, np.zeros(3), rng).ranges for _ in range(400)])
 whole = np.isfinite(many).all(axis=0)  # beams that always came back
@@ -97,7 +97,7 @@ views.show(
 # At 25 cm the readings scatter by {= 1000 * GP2D120.range_curvature * 0.25**2:.1f =} mm, as (12.1) says. For a
 # sensor of a few euros this is little. The trouble is not its noise but its *reach*.
 
-# %% slideshow={"slide_type": "subslide"}
+# %% slideshow={"slide_type": "subslide"} tags=["folded"]
 drive, rules = data_set(1), WallFollower()
 readings, truth = list(drive), drive.truth.poses
 walls = Segments("walls", drive.world.outline())
@@ -164,7 +164,7 @@ squared.step("half angles", (2 * d * sp.sin(turn / 2) / turn) ** 2)
 # a trap for a program; exercise 12 begins with it.
 
 
-# %% slideshow={"slide_type": "subslide"}
+# %% slideshow={"slide_type": "subslide"} tags=["folded"]
 def rolled(left, right):
     shares = np.linspace(0, 1, 60)
     way = np.array([arc(t * left, t * right, 0.1) for t in shares])
@@ -210,7 +210,7 @@ views.explore(
 # In the next figure the left panel shows the truth: the way so far, and the present scan. The right panel shows what
 # the log alone says. Odometry is summed up, and every scan is drawn where odometry believes the robot was.
 
-# %% slideshow={"slide_type": "fragment"}
+# %% slideshow={"slide_type": "fragment"} tags=["folded"]
 naive = [np.zeros(3)]
 for reading in readings[1:]:
     naive.append(compose(naive[-1], reading.odometry))
@@ -229,7 +229,7 @@ def watched(stop):
     return fig
 
 
-# %% slideshow={"slide_type": "subslide"}
+# %% slideshow={"slide_type": "subslide"} tags=["folded"]
 views.explore(
     watched,
     lambda stop: (
@@ -290,7 +290,7 @@ print(f"the worst of {len(near)} sightings: {near.max():.0f} mm")
 # **bisector**, turns with the corner. And a corner is either *concave*, like that of a room seen from inside, or
 # *convex*, like that of a box seen from outside. Corners that open differently cannot be one and the same.
 
-# %% slideshow={"slide_type": "fragment"}
+# %% slideshow={"slide_type": "fragment"} tags=["folded"]
 shown = {}
 for convex in (False, True):
     k = next(k for k, one in enumerate(found) if k > 20 and len(one.z) and one.convex[0] == convex)
@@ -318,7 +318,7 @@ views.show(fig, "Two scans: a concave corner between its walls, a convex one see
 # We take one drive on which the rule fails. Below are the map that EKF-SLAM (MAK) makes of it, and all scans, drawn where
 # the filter believed the robot was.
 
-# %% slideshow={"slide_type": "fragment"}
+# %% slideshow={"slide_type": "fragment"} tags=["folded"]
 other = data_set(65)
 corners = with_corners(other)
 
@@ -497,7 +497,7 @@ for name, make in FILTERS.items():
 errors = {name: np.hypot(*(poses - truth)[:, :2].T) for name, poses in way.items()}
 
 
-# %% slideshow={"slide_type": "fragment"}
+# %% slideshow={"slide_type": "fragment"} tags=["folded"]
 def at_once(left, right, step):
     fig, all_axes = views.panels([left, right], size=(10.5, 5.2))
     for ax, name in zip(all_axes, (left, right), strict=True):
@@ -510,7 +510,7 @@ def at_once(left, right, step):
     return fig
 
 
-# %% slideshow={"slide_type": "subslide"}
+# %% slideshow={"slide_type": "subslide"} tags=["folded"]
 views.explore(
     at_once,
     lambda left, right, step: (
@@ -544,7 +544,7 @@ views.explore(
 # promised with a probability.
 
 
-# %% slideshow={"slide_type": "subslide"}
+# %% slideshow={"slide_type": "subslide"} tags=["folded"]
 def bounded(k, whole_way):
     slam = BorSlam(drive.robot, drive.sensor, sigmas=k, way_sigmas=k if whole_way else None)
     one = record(slam, drive, told)
@@ -648,7 +648,7 @@ print(f"reported in {slipped['runs_outside_reported']} of these drives")
 #
 # Below are the errors of our first drive. Who strays, and who is lost?
 
-# %% slideshow={"slide_type": "fragment"}
+# %% slideshow={"slide_type": "fragment"} tags=["folded"]
 drawn = ("MAK", "odometry", "BOR, tuned", "Monte Carlo")
 shown = {name: 100 * errors[name] for name in drawn}
 fig, ax = views.curves(np.arange(len(told)), shown, "scan", "position off by [cm]", size=(8.5, 4.4))
@@ -671,7 +671,7 @@ views.show(
 # The thesis shows a filter's work by all scans of three laps, drawn where it believed the robot was: raw, by BOR, and
 # by Monte Carlo. Here are these three for our drive, and `walls`.
 
-# %% slideshow={"slide_type": "fragment"}
+# %% slideshow={"slide_type": "fragment"} tags=["folded"]
 fig, all_axes = views.panels(("odometry", "BOR, tuned", "Monte Carlo", "walls"), size=(12.5, 4.2))
 for ax in all_axes:
     for layer in (walls, Points("scan", scan_points(readings, way[ax.get_title()]))):
@@ -800,7 +800,7 @@ assert box[2] > alone[1] and less[2] < 0  # they overlap, and it is better all t
 # the difference leaves out zero. Better, that is, by little.
 
 
-# %% slideshow={"slide_type": "subslide"}
+# %% slideshow={"slide_type": "subslide"} tags=["folded"]
 def paired(filter, against, drives):
     x, y = (np.array(free[name]["rms_each_m"][:drives]) for name in (against, filter))
     title = f"{filter} less {against}: {cm(paired_difference(y, x), '+')} cm"
@@ -821,7 +821,7 @@ def paired(filter, against, drives):
     return fig
 
 
-# %% slideshow={"slide_type": "fragment"}
+# %% slideshow={"slide_type": "fragment"} tags=["folded"]
 views.explore(
     paired,
     lambda filter, against, drives: (
@@ -935,7 +935,7 @@ for n in ("BOR, honest", "BOR, tuned"):
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Finding 4: "samples get lost only by the cable"
 
-# %% slideshow={"slide_type": "fragment"}
+# %% slideshow={"slide_type": "fragment"} tags=["folded"]
 lost = {
     kind: {n: rows[n]["lost"] for n in names}
     for kind, rows in {"as driven": free, "cable snagged": snagged}.items()
@@ -993,7 +993,7 @@ for k, reading in enumerate(again):
 #
 # Every verdict is computed from the stored table.
 
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+# %% slideshow={"slide_type": "fragment"} tags=["folded", "nbval-check-output"]
 said = {"grows": "refuted", "falls": "confirmed", "nearer": "confirmed", "farther": "refuted"}
 boxes = ("BOR, honest", "BOR, tuned")
 judged = [
@@ -1085,7 +1085,7 @@ assert verdict(freezing, 0, "worse", "better") == "undecided"
 # One corner is in sight, $N$ are in the map, and none has a name, so each filter has to pair it first. The study measured processor
 # times, in units of BOR's for the smallest map.
 
-# %% slideshow={"slide_type": "fragment"}
+# %% slideshow={"slide_type": "fragment"} tags=["folded"]
 cost = table["cost"]
 N = np.array(cost["sizes"])
 called = {"bor": "BOR", "mak": "MAK", "montecarlo": "Monte Carlo"}
@@ -1119,7 +1119,7 @@ assert 2 * cost["over_bor"]["mak"] < cost["over_bor"]["montecarlo"]
 # | 3, 6 | the model of a steered robot, for two wheels | distance and turn | stands where it should turn |
 # | 8 | "got lost", without a definition | a limit, and since when | nobody can count again |
 
-# %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
+# %% slideshow={"slide_type": "subslide"} tags=["code", "nbval-check-output"]
 listing = """
 for(;;){ pp.SetSpeed(0,0,0); robot.Read(); ir.scan();
   for (unsigned int i=0;i<sp.GetCount();i++) { std::cout << sp[i] << ";"; }
