@@ -340,7 +340,6 @@ coursework.show_progress()
 # | $\ell$ | logarithm of a weight that is not yet divided by the sum of all |
 # | $\delta$ | a small step, such as one of Gauss and Newton |
 # | $\psi$ | angle as a lidar counts it, clockwise |
-
 #
 # A few letters serve one derivation only, such as $M$, $U$, $V$ and $\gamma$ in lesson 13 or $\pi$ and $\eta$
 # in lesson 15. They are defined where they stand.
