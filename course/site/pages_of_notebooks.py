@@ -14,6 +14,7 @@ _LINK = re.compile(r"\]\((?:\.\./)?(?:(notebooks|exercises)/)?((?:ex)?\d\d_\w+)\
 _WITHIN = re.compile(r"\]\((#[^)]+)\)")
 _LESSON = re.compile(r"(?<!\[)\b([Ll]essons?) (\d\d)\b(?![^\[]*\])(?! ?[:·])")
 _GUIDE = re.compile(r"\]\(\.\./docs/(\w+)\.md")
+_BESIDE = re.compile(r"(?<!!)\[([^\]]+)\]\(\.\./(?:exercises|guides)/[^)]*\)")
 _H1 = re.compile(r"^# (?=\S)", re.MULTILINE)
 
 
@@ -48,6 +49,18 @@ def page(notebook, files, moving=None, folder=""):
             if asks(cell.source):  # the code tells the answer
                 cell.metadata.tags.append("remove-input")
     return shown
+
+
+def without_links(notebook):
+    """Make names of a page's links to exercises and guides, where there are no pages of these.
+
+    Parameters
+    ----------
+    notebook : NotebookNode, changed
+    """
+    for cell in notebook.cells:
+        if cell.cell_type == "markdown":
+            cell.source = _BESIDE.sub(r"\1", cell.source)
 
 
 def _is_for_lecturers(cell):
