@@ -6,7 +6,7 @@ import pytest
 
 from course.site import gathered, looking, rendering
 from course.site.moving_pictures import values_of
-from course.site.pages_of_notebooks import page
+from course.site.pages_of_notebooks import page, without_links
 from course.site.questions import question
 from course.site.symbols import plain_forms
 from slamlab.views.sliders import _control
@@ -53,6 +53,14 @@ def test_a_page_has_one_heading_of_the_first_level():
 )
 def test_links_lead_to_pages(before, after):
     assert shown(text(before))[0].source == after
+
+
+def test_where_only_lessons_are_pages_other_links_become_names():
+    cell = text(
+        "[a](../exercises/ex04_m.ipynb#p), [*b*](../guides/live.md), [c](../notebooks/n.ipynb)"
+    )
+    without_links(nbformat.v4.new_notebook(cells=[cell]))
+    assert cell.source == "a, *b*, [c](../notebooks/n.ipynb)"
 
 
 def test_a_question_unfolds_choice_by_choice_and_its_code_is_not_shown():
