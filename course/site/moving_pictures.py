@@ -95,6 +95,7 @@ class Renderer:
         said = alt(**chosen) if callable(alt) else alt
         file = self._folder / f"{self._stem()}-{number}.webp"
         arrange(fig)
+        fig.set_layout_engine("none")  # all has its place
         drawn = io.BytesIO()
         # the notebook's are drawn for screens of two pixels; of so many pictures one has to do
         fig.savefig(drawn, format="png", dpi=fig.dpi, pil_kwargs={"compress_level": 0})
