@@ -3,7 +3,7 @@
 import copy
 import re
 
-from course.site.moving_outputs import with_moving
+from course.site.moving_outputs import STILL, tell, with_moving
 from course.asking import asks
 from course.site.questions import question
 
@@ -43,9 +43,11 @@ def page(notebook, files, moving=None, folder=""):
         elif found := question(cell.source):
             shown.cells[k] = found.as_cell(cell.id)
         else:
-            _tidy(cell)
+            has_controls = _tidy(cell)
             if told := (moving or {}).get(cell.id):
                 with_moving(cell, told, folder)
+            elif has_controls:
+                tell(cell, STILL)
             if asks(cell.source):  # the code tells the answer
                 cell.metadata.tags.append("remove-input")
     return shown
@@ -101,11 +103,13 @@ def _anchor(part):
 
 
 def _tidy(cell):
-    """Fold what answers a question; drop the words that stand in a widget's place."""
+    """Fold what answers a question; drop the words in a widget's place, and tell if that has controls."""
     tags = cell.metadata.setdefault("tags", [])
     if _answers(cell):
         tags.append("hide-cell")
-    cell.outputs = [output for output in cell.outputs if not _is_placeholder(output)]
+    widgets = [output for output in cell.outputs if _is_placeholder(output)]
+    cell.outputs = [output for output in cell.outputs if output not in widgets]
+    return any("its controls" in output.data.get("text/plain", "") for output in widgets)
 
 
 def _answers(cell):

@@ -108,7 +108,7 @@ def test_a_page_is_sound_fits_and_can_be_read_by_all(look, name):
     assert serious == []
 
 
-@pytest.mark.parametrize("words", ["Jacobian", "ψ"])
+@pytest.mark.parametrize("words", ["Jacobian", "ψ", "P_ri"])
 def test_the_search_finds(look, words):
     page = look("search.html", f"?q={words}")
     page.locator("#search-results li").first.wait_for()

@@ -88,7 +88,9 @@ def test_what_answers_a_question_is_folded_and_words_for_widgets_are_dropped():
         code("draw()", controls, picture, slamlab={"answers": "05-a"}), code("1", picture)
     )
     assert "hide-cell" in answering.metadata.tags and "hide-cell" not in other.metadata.tags
-    assert [output.data for output in answering.outputs] == [picture]
+    assert [output.data for output in other.outputs] == [picture]
+    still, told = (output.data for output in answering.outputs)
+    assert still == picture and "in the notebook it has controls" in told["text/html"]
 
 
 def test_text_that_explains_an_answer_is_folded_too():
@@ -179,6 +181,8 @@ def test_what_moves_is_rendered_once_and_stands_on_the_page(tmp_path):
     sliders, live = page(notebook, {}, told, folder.name).cells[2:4]
     assert "slamlab-sliders" in sliders.outputs[0].data["text/html"]
     assert film["film"] in live.outputs[0].data["text/html"]
+    assert "it runs live" in live.outputs[-1].data["text/html"]
+    assert not any("stands still" in output.data["text/html"] for output in sliders.outputs)
     notebook.cells[2].source += "\n1 / 0"
     nbformat.write(notebook, path)
     with pytest.raises(rendering.RenderingError, match="ZeroDivisionError"):
