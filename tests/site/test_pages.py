@@ -71,6 +71,11 @@ def test_a_question_unfolds_choice_by_choice_and_its_code_is_not_shown():
     assert "**✓ Right:** yes." in cell.source and "**✗ Not so:** no, *since*." in cell.source
 
 
+def test_a_formula_in_a_choice_stays_a_formula():
+    asked = r'ask("05-a", "Why?", {r"at $r < r_0$": "no.", "C": "yes."}, right="C")'
+    assert "<summary>\n\nat $r < r_0$\n\n</summary>" in question(asked).as_cell("a").source
+
+
 def test_a_number_that_is_asked_for_stands_among_those_one_may_have():
     asked = 'ask("05-n", "How many?", right=-2, unit="m", reason="so", wrong={10: "no", -7: "no"})'
     assert list(question(asked).choices) == ["-7 m", "-2 m", "10 m"]
