@@ -93,14 +93,23 @@ def test_nothing_is_wrong_with_any_page(site):
 
 @pytest.mark.parametrize("name", PAGES)
 def test_a_page_is_sound_fits_and_can_be_read_by_all(look, name):
-    page = look(f"{name}.html")
-    assert page.evaluate("document.documentElement.scrollWidth <= window.innerWidth")
+    check(look(f"{name}.html"))
+
+
+@pytest.mark.soak
+def test_every_page_is_sound_fits_and_can_be_read_by_all(look, site):
+    for path in sorted(site.rglob("*.html")):
+        check(look(path.relative_to(site)))
+
+
+def check(page):
+    assert page.evaluate("document.documentElement.scrollWidth <= window.innerWidth"), page.url
     # the spans of a formula are hidden from screen readers, which get its MathML
     formulas = {"exclude": [[".katex-html"]]}
     options = {"resultTypes": ["violations"], "preload": False}
     found = Axe().run(page, context=formulas, options=options)
     serious = [
-        f"{broken['id']}: {node['html'][:150]}"
+        f"{page.url}: {broken['id']}: {node['html'][:150]}"
         for broken in found.response["violations"]
         if broken["impact"] in ("serious", "critical")
         for node in broken["nodes"]
