@@ -123,12 +123,14 @@ def test_looking_finds_what_is_wrong_with_a_site(tmp_path):
         '<p id="here"><a href="b.html#there">b</a><a href="b.html#gone">b</a><a href="c.html">c</a>'
         '<a href="../out.html">o</a><a href="https://doi.org/1">d</a><img src="p.png">'
         '<script src="//cdn.example/x.js"></script>For the lecturer'
+        r"<p>at $\psi$<pre>$\phi$</pre>"
     )
     (tmp_path / "b.html").write_text('<p id="there"><a href="a.html#here">a</a>')
     (tmp_path / "p.png").touch()
     found = looking.problems(tmp_path)
     wanted = [
         "says 'For",
+        r"not set: $\psi$",
         "another machine",
         "#gone",
         "link c.html",
