@@ -68,7 +68,7 @@ def _set_derivations(app, doctree, _):
 
     def formula(found):
         made = app.env.katex_html.get(_key(html.unescape(found[1]), False), found[0])
-        return f"{_OPEN}{made}</div>"
+        return f"{_OPEN}{made}</div>" if found[1].startswith(r"\displaystyle") else made
 
     for node in doctree.findall(_is_derivation):
         node[0] = nodes.Text(_BETWEEN_DOLLARS.sub(formula, node.astext()))
