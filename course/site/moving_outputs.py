@@ -29,6 +29,20 @@ def with_moving(cell, told, folder):
         tell(cell, FILMED)
 
 
+def films_alone(told):
+    """What was rendered of a lesson's live views, without its sliders.
+
+    Parameters
+    ----------
+    told : dict, by a cell's id list of dict, see :class:`course.site.moving_pictures.Renderer`
+
+    Returns
+    -------
+    dict
+    """
+    return {id: each for id, each in told.items() if all("film" in what for what in each)}
+
+
 def tell(cell, words):
     """Say below a cell's outputs what they are on a page, and what they are in the notebook.
 

@@ -9,6 +9,7 @@ import nbformat
 
 from course.pack import without_notes
 from course.site import formula_index, gathered, rendering, start_film
+from course.site.moving_outputs import films_alone
 from course.site.pages_of_notebooks import page, without_links
 from course.source import KINDS, ROOT, file_name, sources
 from slamlab.views.player import library
@@ -34,7 +35,7 @@ def prepare(folder, cache, lessons_rendered=None, whole=True):
     -------
     list of str, which lessons could not be rendered, and why: they keep their still pictures
     """
-    moving, failed = _moving(cache, lessons_rendered)
+    moving, failed = _moving(cache, lessons_rendered, whole)
     files = {"index.md": _start("index" if whole else "pack")} | start_film.files(cache)
     files |= {f"_static/{path.name}": path.read_bytes() for path in (HERE / "static").iterdir()}
     player = library.script(library.FILM, HERE / "static" / "films_on_page.js")
@@ -74,9 +75,11 @@ def _start(page_name):
     return text
 
 
-def _moving(cache, wanted):
+def _moving(cache, wanted, whole):
     """What was rendered of each notebook (its stem to told and folder), and what could not be."""
     names = [stem for number, stem in lessons().items() if wanted is None or number in wanted]
+    if not whole:  # pictures of sliders would double the pack
+        names = [name for name in names if _has_film(name)]
 
     def render(name):
         try:
@@ -90,6 +93,10 @@ def _moving(cache, wanted):
     return {name: each for name, each in found.items() if not isinstance(each, str)}, failed
 
 
+def _has_film(name):
+    return "views.live(" in (ROOT / "notebooks" / f"{name}.ipynb").read_text(encoding="utf-8")
+
+
 def _notebooks(kind, moving, whole):
     """The pages of all lessons, or of all exercises as they are handed out."""
     files, known = {}, lessons()
@@ -98,10 +105,12 @@ def _notebooks(kind, moving, whole):
             name = f"{FOLDERS[kind]}/{file_name(path)}"
             notebook = nbformat.read(ROOT / name, as_version=4)
             told, made = moving.get(Path(name).stem, ({}, None))
+            if not whole:
+                told = films_alone(told)
             shown = page(notebook, known, told, made.name if made else "")
             if told:
                 for file in made.iterdir():
-                    if file.suffix in (".webp", ".js"):
+                    if file.suffix in (".webp", ".js") if whole else file.suffix == ".js":
                         files[f"_static/rendered/{made.name}/{file.name}"] = file.read_bytes()
             if whole:
                 files[f"_static/{name}"] = without_notes((ROOT / name).read_bytes())

@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 
 from course.site import gathered, looking, rendering
+from course.site.moving_outputs import films_alone
 from course.site.moving_pictures import values_of
 from course.site.pages_of_notebooks import page, without_links
 from course.site.questions import question
@@ -190,6 +191,7 @@ def test_what_moves_is_rendered_once_and_stands_on_the_page(tmp_path):
     assert film["film"] in live.outputs[0].data["text/html"]
     assert "it runs live" in live.outputs[-1].data["text/html"]
     assert not any("stands still" in output.data["text/html"] for output in sliders.outputs)
+    assert list(films_alone(told)) == [notebook.cells[3].id]
     notebook.cells[2].source += "\n1 / 0"
     nbformat.write(notebook, path)
     with pytest.raises(rendering.RenderingError, match="ZeroDivisionError"):
