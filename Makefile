@@ -53,7 +53,7 @@ notebooks: env  ## Derive notebooks/, exercises/ and solutions/ from course/
 site: env  ## Build the course's site into site/; needs Node.js for the formulas
 	$(RUN) course.site
 
-student: env  ## Pack what students get into slam-course.zip: no solutions
+student: env  ## Pack what students get into slam-course.zip: no solutions; needs Node.js for the lessons' pages
 	$(RUN) course.pack
 
 lecturer: env  ## Pack what lecturers get into slam-course-lecturer.zip: solutions and notes

@@ -1,5 +1,6 @@
 """Pack the course: for students (``make student``), without solutions, or for lecturers."""
 
+import argparse
 import io
 import json
 import re
@@ -18,6 +19,7 @@ FILES = ("LICENSE", "lab.py", "pyproject.toml", "environment.yml", "requirements
 LECTURERS_FOLDERS = (*FOLDERS, "solutions", "docs", "course")
 LECTURERS_FILES = (*FILES[:-1], "README.md", "Makefile", "CONTRIBUTING.md",
                    "requirements-test.lock")  # fmt: skip
+LARGEST = 25e6  # [bytes] of what students get
 EXCLUDED = ("__pycache__", ".ipynb_checkpoints")
 INK = ".ink"  # in the name of what was drawn in a lecture: the lecturer's own
 TOP = "slam-course"
@@ -26,12 +28,13 @@ LECTURER = {"notes", "lecturer"}  # slide type or tag of cells that students do 
 _PICTURE = re.compile(r"!\[[^]]*\]\(([^)]+)\)")
 
 
-def contents(root=ROOT):
+def contents(root=ROOT, pages=None):
     """List what students get.
 
     Parameters
     ----------
     root : Path, of the project
+    pages : dict or None, name to bytes of the lessons as pages (:mod:`course.site.in_pack`)
 
     Returns
     -------
@@ -48,6 +51,7 @@ def contents(root=ROOT):
     notebooks = {name: data for name, data in found.items() if name.endswith(".ipynb")}
     archive = io.BytesIO()
     write_zip(archive, notebooks)
+    found |= pages or {}
     return dict(sorted((found | {originals.ARCHIVE: archive.getvalue()}).items()))
 
 
@@ -125,9 +129,32 @@ def marks(cell):
     return {metadata.get("slideshow", {}).get("slide_type"), *metadata.get("tags", [])}
 
 
+def main(argv=None):
+    """Run the command line; returns its exit code."""
+    parser = argparse.ArgumentParser(prog="python -m course.pack", description=__doc__)
+    parser.add_argument("--lecturer", action="store_true", help="with solutions and notes")
+    parser.add_argument("--no-pages", action="store_true", help="without the lessons as pages")
+    options = parser.parse_args(argv)
+    target = Path(f"{TOP}-lecturer.zip" if options.lecturer else f"{TOP}.zip")
+    if options.lecturer:
+        files, said = lecturers_contents(), "with solutions and notes: not for students"
+    else:
+        from course.site import building, in_pack  # which need what packing alone does not
+
+        try:
+            pages = {} if options.no_pages else in_pack.pages()
+        except building.SiteError as error:
+            print(f"{error}\n--no-pages packs without the lessons' pages", file=sys.stderr)
+            return 1
+        files, said = contents(pages=pages), "without solutions"
+    pack(target, files)
+    size = target.stat().st_size
+    print(f"{target}: {size / 1e6:.1f} MB, {said}")
+    if not options.lecturer and size > LARGEST:
+        print(f"more than {LARGEST / 1e6:.0f} MB: too much to hand out", file=sys.stderr)
+        return 1
+    return 0
+
+
 if __name__ == "__main__":
-    for_lecturers = "--lecturer" in sys.argv
-    to = Path(f"{TOP}-lecturer.zip" if for_lecturers else f"{TOP}.zip")
-    pack(to, lecturers_contents() if for_lecturers else contents())
-    said = "with solutions and notes: not for students" if for_lecturers else "without solutions"
-    print(f"{to}: {to.stat().st_size / 2**20:.1f} MB, {said}")
+    sys.exit(main())

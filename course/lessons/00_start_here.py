@@ -336,7 +336,7 @@ coursework.show_progress()
 # | $\iota$ | angle under which a beam meets a wall |
 # | $U$ | voltage of an infrared sensor |
 # | $\Phi$ | how much contradiction a robust weight allows an edge |
-# | $\Pr$, $\mathrm{Bel}$ | probability, or its density; what is believed of a pose |
+# | $\Pr$ | probability, or its density; $\mathrm{Bel}$ is that of a pose, after all that was seen |
 # | $\ell$ | logarithm of a weight that is not yet divided by the sum of all |
 # | $\delta$ | a small step, such as one of Gauss and Newton |
 # | $\psi$ | angle as a lidar counts it, clockwise |

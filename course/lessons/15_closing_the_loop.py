@@ -56,7 +56,7 @@ def slider(name, options, first):
 #
 # A robot drives once round a corridor, 42 m, and ends where it began. We let three estimators draw the map
 # from the same simulated readings: the wheels alone; `icp`, lesson 13's careful matcher, which lays each scan over
-# the ones just before it; and `graph`, which this lesson builds.
+# a *submap* of the ones just before it; and `graph`, which this lesson builds.
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
@@ -250,7 +250,7 @@ for k, J in enumerate((J_i, J_j)):
 # \end{aligned} \tag{15.5}$$
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
-# Then we move the poses by $\delta$, and begin again, until $\delta$ is small.
+# These are the **normal equations**. We move the poses by $\delta$, and begin again, until $\delta$ is small.
 #
 # $\Lambda_x$ is what all edges together know of all poses: their information matrix, as $\Lambda$ is that of one edge.
 # Information *adds up*. The inverse of $\Lambda_x$ is the covariance of all poses.
@@ -490,7 +490,7 @@ views.explore(
 # ## One handshake
 #
 # Back to the corridor, with the worst track, that of the wheels alone, and a single loop: the last scan laid over the first.
-# We take a pose at every second reading.
+# We take a pose at every second reading, a **keyframe**.
 
 # %% slideshow={"slide_type": "fragment"}
 keys = np.arange(0, len(readings), 2)
@@ -575,7 +575,8 @@ views.explore(
 # then. The robot of the handshake is {= off["wheels"][-1]:.1f =} m beside itself. If it asks only within 1.5 m, it does not
 # find its start.
 #
-# *Verify:* lay the new scan over the old one, and ask lesson 13's matcher for its verdict. How many points lie on old walls?
+# *Verify* (the field says geometric verification): lay the new scan over the old one, and ask lesson 13's matcher for its
+# verdict. How many points lie on old walls?
 # Does anything contradict? Do the walls fix all three numbers?
 
 # %% [markdown] slideshow={"slide_type": "subslide"}

@@ -17,7 +17,7 @@ class SiteError(Exception):
     """The site cannot be built; the text says why and what to do."""
 
 
-def build(out, work=WORK, rendered=None):
+def build(out, work=WORK, rendered=None, whole=True):
     """Build the site from what notebooks store; only what moves is run, and kept for the next time.
 
     Parameters
@@ -25,6 +25,7 @@ def build(out, work=WORK, rendered=None):
     out : Path, folder to be written; what stood there goes
     work : Path, folder for what the next build takes over: formulas, pages read, films
     rendered : collection of str or None, numbers of the lessons whose films and sliders are wanted
+    whole : bool, False for the lessons alone, as the students' pack has them
 
     Returns
     -------
@@ -35,24 +36,25 @@ def build(out, work=WORK, rendered=None):
     SiteError : no KaTeX, or Sphinx warns of something
     """
     modules = katex_modules(work)
-    source = work / "source"
-    failed = preparing.prepare(source, work / "rendered", rendered)
+    place = work / ("site" if whole else "pack")
+    source, html = place / "source", place / "html"
+    failed = preparing.prepare(source, work / "rendered", rendered, whole)
     _ship_katex(modules, source / "_static" / "katex")
-    shutil.rmtree(work / "html", ignore_errors=True)  # pages whose source is gone would stay
+    shutil.rmtree(html, ignore_errors=True)  # pages whose source is gone would stay
     done = subprocess.run(
         [
             *(sys.executable, "-m", "sphinx", "--quiet", "--fail-on-warning", "--keep-going"),
-            *("-b", "html", "-c", str(HERE), "-d", str(work / "doctrees")),
+            *("-b", "html", "-c", str(HERE), "-d", str(place / "doctrees")),
             *("-D", f"katex_modules={modules}", "-D", f"html_static_path={source / '_static'}"),
-            *(str(source), str(work / "html")),
+            *(str(source), str(html)),
         ],
         cwd=ROOT,
     )
     if done.returncode:
         raise SiteError("Sphinx has something to say: see above")
-    _level_captions(work / "html")
+    _level_captions(html)
     shutil.rmtree(out, ignore_errors=True)
-    shutil.copytree(work / "html", out, ignore=shutil.ignore_patterns(".buildinfo*", "objects.inv"))
+    shutil.copytree(html, out, ignore=shutil.ignore_patterns(".buildinfo*", "objects.inv"))
     (out / ".nojekyll").touch()  # GitHub Pages leaves folders with _ away otherwise
     return failed
 

@@ -4,7 +4,9 @@ A page then needs no JavaScript for them; MathML goes along, for screen readers.
 """
 
 import hashlib
+import html
 import json
+import re
 import subprocess
 from pathlib import Path
 
@@ -13,6 +15,9 @@ from sphinx.errors import ExtensionError
 from sphinx.util import logging
 
 HERE = Path(__file__).parent
+DERIVATION = 'class="slamlab-derivation"'  # an output in HTML, its formulas between dollars
+_OPEN = '<div class="formula" role="group" aria-label="Formula">'
+_BETWEEN_DOLLARS = re.compile(r"\$([^$]+)\$")
 _logger = logging.getLogger(__name__)
 
 
@@ -21,6 +26,7 @@ def setup(app):
     app.add_config_value("katex_modules", None, "", types=str)
     app.add_html_math_renderer("katex", (_visit_inline, None), (_visit_block, None))
     app.connect("env-updated", _typeset_all)
+    app.connect("doctree-resolved", _set_derivations)
     return {"parallel_read_safe": True, "version": "1"}
 
 
@@ -29,9 +35,8 @@ def _typeset_all(app, env):
     known = _read(app)
     wanted = {}
     for name in env.found_docs:
-        for node in env.get_doctree(name).findall(_is_formula):
-            formula = (node.astext(), isinstance(node, nodes.math_block))
-            wanted.setdefault(_key(*formula), (formula, (name, node.line)))
+        for formula, line in _formulas(env.get_doctree(name)):
+            wanted.setdefault(_key(*formula), (formula, (name, line)))
     missing = {key: found for key, found in wanted.items() if key not in known}
     if missing:
         results = _typeset([formula for formula, _ in missing.values()], app.config.katex_modules)
@@ -45,8 +50,28 @@ def _typeset_all(app, env):
     return []
 
 
-def _is_formula(node):
-    return isinstance(node, nodes.math | nodes.math_block)
+def _formulas(doctree):
+    """Each formula of a page, (LaTeX, whether displayed), and its line."""
+    for node in doctree.findall(lambda node: isinstance(node, nodes.math | nodes.math_block)):
+        yield (node.astext(), isinstance(node, nodes.math_block)), node.line
+    for node in doctree.findall(_is_derivation):
+        for latex in _BETWEEN_DOLLARS.findall(node.astext()):
+            yield (html.unescape(latex), False), node.line
+
+
+def _is_derivation(node):
+    return isinstance(node, nodes.raw) and DERIVATION in node.astext()
+
+
+def _set_derivations(app, doctree, _):
+    """Put formulas in place of the LaTeX of derivations, which notebooks store as HTML."""
+
+    def formula(found):
+        made = app.env.katex_html.get(_key(html.unescape(found[1]), False), found[0])
+        return f"{_OPEN}{made}</div>" if found[1].startswith(r"\displaystyle") else made
+
+    for node in doctree.findall(_is_derivation):
+        node[0] = nodes.Text(_BETWEEN_DOLLARS.sub(formula, node.astext()))
 
 
 def _typeset(formulas, modules):
@@ -86,7 +111,7 @@ def _visit_inline(visitor, node):
 
 
 def _visit_block(visitor, node):
-    visitor.body.append('<div class="formula" role="group" aria-label="Formula">')
+    visitor.body.append(_OPEN)
     visitor.body.append(_html(visitor, node))
     visitor.body.append("</div>\n")
     raise nodes.SkipNode

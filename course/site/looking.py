@@ -6,6 +6,8 @@ from urllib.parse import unquote, urlsplit
 
 LARGEST = 60e6  # [bytes] of a site
 FORBIDDEN = ("For the lecturer", "### BEGIN SOLUTION")
+_SET_OTHERWISE = re.compile(r"<(pre|code|script|annotation)\b.*?</\1>", re.DOTALL)
+_LATEX = re.compile(r"\$[^$\n]*\\[A-Za-z]+[^$\n]*\$")
 _LOADS = {"script": "src", "img": "src", "link": "href", "iframe": "src", "source": "src"}
 
 
@@ -47,6 +49,7 @@ def problems(site):
     for path, page in pages.items():
         name = path.relative_to(site).as_posix()
         found += [f"{name}: says {words!r}" for words in FORBIDDEN if words in texts[path]]
+        found += [f"{name}: a formula that is not set: {latex}" for latex in _unset(texts[path])]
         found += [f"{name}: loads {url} of another machine" for url in _foreign(page.loaded)]
         found += [f"{name}: dead link {link}" for link in _dead(site, path, page.links, pages)]
         found += [f"{name}: dead file {link}" for link in _dead(site, path, page.loaded, pages)]
@@ -59,6 +62,11 @@ def problems(site):
 def size(site):
     """How large a site is [bytes]."""
     return sum(path.stat().st_size for path in site.rglob("*") if path.is_file())
+
+
+def _unset(text):
+    """LaTeX that a reader would see as such."""
+    return _LATEX.findall(re.sub(r"<[^>]+>", "", _SET_OTHERWISE.sub("", text)))
 
 
 def _foreign(urls):

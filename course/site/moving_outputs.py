@@ -6,6 +6,8 @@ import re
 
 import nbformat
 
+FILMED = "Here this is a film; in the notebook it runs live."
+STILL = "Here this stands still; in the notebook it has controls."
 STATIC = "../_static/rendered/"  # from a page of a notebook
 
 
@@ -24,6 +26,32 @@ def with_moving(cell, told, folder):
     if "film" in told[0]:  # one picture stands for the films of all sources
         kept = [each for each in told[1:] if "film" in each]
         cell.outputs += [_shown(_moving(each, "", folder)) for each in kept]
+        tell(cell, FILMED)
+
+
+def films_alone(told):
+    """What was rendered of a lesson's live views, without its sliders.
+
+    Parameters
+    ----------
+    told : dict, by a cell's id list of dict, see :class:`course.site.moving_pictures.Renderer`
+
+    Returns
+    -------
+    dict
+    """
+    return {id: each for id, each in told.items() if all("film" in what for what in each)}
+
+
+def tell(cell, words):
+    """Say below a cell's outputs what they are on a page, and what they are in the notebook.
+
+    Parameters
+    ----------
+    cell : NotebookNode, changed
+    words : str
+    """
+    cell.outputs.append(_shown(f'<p class="slamlab-told">{words}</p>'))
 
 
 def _html(output):

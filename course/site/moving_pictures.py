@@ -9,14 +9,15 @@ from PIL import Image
 
 from slamlab import films
 from slamlab.views import sliders
+from slamlab.views.arrangement import arrange
 from slamlab.views.figure_words import words
 from slamlab.views.live.drive_commands import velocities
 from slamlab.views.live.stepper import Stepper
-from slamlab.views.showing import png
 
 MOST_VALUES = 21  # of a slider
 MOST_OF_SEVERAL = 13  # of each, where there are several
 MOST_PLAYED = 49  # of one that is played like a film
+PALETTE = 64  # colours of a picture
 MOST_FRAMES = 300  # of a film
 MOST_STEPS = 1000
 
@@ -92,14 +93,14 @@ class Renderer:
     def _picture(self, fig, alt, chosen, number):
         """A figure as a lossless WebP, and its alternative text."""
         said = alt(**chosen) if callable(alt) else alt
-        wide = round(fig.get_figwidth() * fig.dpi)
         file = self._folder / f"{self._stem()}-{number}.webp"
-        picture = Image.open(io.BytesIO(png(fig))).convert("RGB")
-        high = round(picture.height * wide / picture.width)
-        # drawn for screens of two pixels; of so many pictures one pixel has to do
-        small = picture.resize((wide, high), Image.Resampling.LANCZOS)
-        small = small.quantize(64, dither=Image.Dither.NONE).convert("RGB")
-        small.save(file, "WEBP", lossless=True, quality=100, method=4)
+        arrange(fig)
+        fig.set_layout_engine("none")  # all has its place
+        drawn = io.BytesIO()
+        # the notebook's are drawn for screens of two pixels; of so many pictures one has to do
+        fig.savefig(drawn, format="png", dpi=fig.dpi, pil_kwargs={"compress_level": 0})
+        picture = Image.open(drawn).convert("RGB").quantize(PALETTE, dither=Image.Dither.NONE)
+        picture.convert("RGB").save(file, "WEBP", lossless=True, quality=75, method=4)
         return file.name, f"{words(fig)} {said.strip()}"
 
     def _stem(self):

@@ -3,7 +3,7 @@
 import copy
 import re
 
-from course.site.moving_outputs import with_moving
+from course.site.moving_outputs import STILL, tell, with_moving
 from course.asking import asks
 from course.site.questions import question
 
@@ -14,6 +14,7 @@ _LINK = re.compile(r"\]\((?:\.\./)?(?:(notebooks|exercises)/)?((?:ex)?\d\d_\w+)\
 _WITHIN = re.compile(r"\]\((#[^)]+)\)")
 _LESSON = re.compile(r"(?<!\[)\b([Ll]essons?) (\d\d)\b(?![^\[]*\])(?! ?[:·])")
 _GUIDE = re.compile(r"\]\(\.\./docs/(\w+)\.md")
+_BESIDE = re.compile(r"(?<!!)\[([^\]]+)\]\(\.\./(?:exercises|guides)/[^)]*\)")
 _H1 = re.compile(r"^# (?=\S)", re.MULTILINE)
 
 
@@ -42,12 +43,26 @@ def page(notebook, files, moving=None, folder=""):
         elif found := question(cell.source):
             shown.cells[k] = found.as_cell(cell.id)
         else:
-            _tidy(cell)
+            has_controls = _tidy(cell)
             if told := (moving or {}).get(cell.id):
                 with_moving(cell, told, folder)
+            elif has_controls:
+                tell(cell, STILL)
             if asks(cell.source):  # the code tells the answer
                 cell.metadata.tags.append("remove-input")
     return shown
+
+
+def without_links(notebook):
+    """Make names of a page's links to exercises and guides, where there are no pages of these.
+
+    Parameters
+    ----------
+    notebook : NotebookNode, changed
+    """
+    for cell in notebook.cells:
+        if cell.cell_type == "markdown":
+            cell.source = _BESIDE.sub(r"\1", cell.source)
 
 
 def _is_for_lecturers(cell):
@@ -88,11 +103,13 @@ def _anchor(part):
 
 
 def _tidy(cell):
-    """Fold what answers a question; drop the words that stand in a widget's place."""
+    """Fold what answers a question; drop the words in a widget's place, and tell if that has controls."""
     tags = cell.metadata.setdefault("tags", [])
     if _answers(cell):
         tags.append("hide-cell")
-    cell.outputs = [output for output in cell.outputs if not _is_placeholder(output)]
+    widgets = [output for output in cell.outputs if _is_placeholder(output)]
+    cell.outputs = [output for output in cell.outputs if output not in widgets]
+    return any("its controls" in output.data.get("text/plain", "") for output in widgets)
 
 
 def _answers(cell):

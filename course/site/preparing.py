@@ -7,8 +7,10 @@ from pathlib import Path
 
 import nbformat
 
+from course.pack import without_notes
 from course.site import formula_index, gathered, rendering, start_film
-from course.site.pages_of_notebooks import page
+from course.site.moving_outputs import films_alone
+from course.site.pages_of_notebooks import page, without_links
 from course.source import KINDS, ROOT, file_name, sources
 from slamlab.views.player import library
 
@@ -18,7 +20,7 @@ FOLDERS = {"lessons": "notebooks", "exercises": "exercises"}
 _INTO_PROJECT = re.compile(r"(?<!!)\[([^\]]+)\]\(\.\./[^)]*\)")  # a link to a file of the project
 
 
-def prepare(folder, cache, lessons_rendered=None):
+def prepare(folder, cache, lessons_rendered=None, whole=True):
     """Write all pages into a folder; what is as it was stays untouched, what is gone goes.
 
     Parameters
@@ -27,23 +29,23 @@ def prepare(folder, cache, lessons_rendered=None):
     cache : Path, what was rendered before
     lessons_rendered : collection of str or None, numbers of the lessons whose films and sliders are
         wanted; None for all
+    whole : bool, False for the lessons alone, as the students' pack has them
 
     Returns
     -------
     list of str, which lessons could not be rendered, and why: they keep their still pictures
     """
-    moving, failed = _moving(cache, lessons_rendered)
-    files = {"index.md": _start()} | start_film.files(cache)
+    moving, failed = _moving(cache, lessons_rendered, whole)
+    files = {"index.md": _start("index" if whole else "pack")} | start_film.files(cache)
     files |= {f"_static/{path.name}": path.read_bytes() for path in (HERE / "static").iterdir()}
     player = library.script(library.FILM, HERE / "static" / "films_on_page.js")
     files["_static/films_on_page.js"] = player.encode()
     files["_static/player.css"] = library.styles().encode()
-    for kind in KINDS:
-        files |= _notebooks(kind, moving)
-    files |= _guides()
-    files["formulas.md"] = formula_index.page()
-    files |= {f"{kind}.md": gathered.page(kind, _lessons_shown()) for kind in gathered.HEADS}
-    files |= _modules()
+    files |= _notebooks("lessons", moving, whole)
+    if whole:
+        files |= _notebooks("exercises", {}, whole) | _guides() | _modules()
+        files["formulas.md"] = formula_index.page()
+        files |= {f"{kind}.md": gathered.page(kind, _lessons_shown()) for kind in gathered.HEADS}
     _synchronise(folder, files)
     return failed
 
@@ -59,23 +61,25 @@ def lessons():
     return {path.stem[:2]: Path(file_name(path)).stem for path in paths}
 
 
-def _start():
+def _start(page_name):
     """The first page, with the lists of all others."""
     names = {kind: [] for kind in KINDS}
     for path in sources():
         kind = path.parent.name
         names[kind].append(f"{FOLDERS[kind]}/{Path(file_name(path)).stem}")
     names["guides"] = [f"guides/{name}" for name in GUIDES]
-    text = (HERE / "pages" / "index.md").read_text(encoding="utf-8")
+    text = (HERE / "pages" / f"{page_name}.md").read_text(encoding="utf-8")
     text = text.replace("{{film}}", start_film.PLACE)
     for kind, listed in names.items():
         text = text.replace(f"{{{{{kind}}}}}", "\n".join(listed))
     return text
 
 
-def _moving(cache, wanted):
+def _moving(cache, wanted, whole):
     """What was rendered of each notebook (its stem to told and folder), and what could not be."""
     names = [stem for number, stem in lessons().items() if wanted is None or number in wanted]
+    if not whole:  # pictures of sliders would double the pack
+        names = [name for name in names if _has_film(name)]
 
     def render(name):
         try:
@@ -89,7 +93,11 @@ def _moving(cache, wanted):
     return {name: each for name, each in found.items() if not isinstance(each, str)}, failed
 
 
-def _notebooks(kind, moving):
+def _has_film(name):
+    return "views.live(" in (ROOT / "notebooks" / f"{name}.ipynb").read_text(encoding="utf-8")
+
+
+def _notebooks(kind, moving, whole):
     """The pages of all lessons, or of all exercises as they are handed out."""
     files, known = {}, lessons()
     for path in sources():
@@ -97,14 +105,19 @@ def _notebooks(kind, moving):
             name = f"{FOLDERS[kind]}/{file_name(path)}"
             notebook = nbformat.read(ROOT / name, as_version=4)
             told, made = moving.get(Path(name).stem, ({}, None))
+            if not whole:
+                told = films_alone(told)
             shown = page(notebook, known, told, made.name if made else "")
             if told:
                 for file in made.iterdir():
-                    if file.suffix in (".webp", ".js"):
+                    if file.suffix in (".webp", ".js") if whole else file.suffix == ".js":
                         files[f"_static/rendered/{made.name}/{file.name}"] = file.read_bytes()
-            shown.cells[0].source += "\n\n" + _ways_to_run(name)
+            if whole:
+                files[f"_static/{name}"] = without_notes((ROOT / name).read_bytes())
+            else:
+                without_links(shown)
+            shown.cells[0].source += "\n\n" + _ways_to_run(name, whole)
             files[name] = nbformat.writes(shown)
-            files[f"_static/{name}"] = (ROOT / name).read_bytes()
     return files
 
 
@@ -118,12 +131,14 @@ def _lessons_shown():
     return found
 
 
-def _ways_to_run(name):
+def _ways_to_run(name, whole):
     """The line that leads from a page to the notebook itself."""
-    lab = f"http://localhost:8888/lab/tree/{name}"
+    lab = f'<a href="http://localhost:8888/lab/tree/{name}">'
+    if not whole:
+        return f"This is `{name}`: {lab}open it in your JupyterLab</a>, where `python lab.py` runs"
     return (
         f'<a href="../_static/{name}" download>Download this notebook</a> · '
-        f'<a href="{lab}">open it in your JupyterLab</a>, where `make lab` runs'
+        f"{lab}open it in your JupyterLab</a>, where `make lab` runs"
     )
 
 

@@ -64,5 +64,7 @@ def _read(told):
 def _fold(choice, said, is_right):
     verdict = "✓ Right" if is_right else "✗ Not so"
     words = f"**{verdict}:** {said}" if said else f"**{verdict}.**"
-    summary = html.escape(choice)
-    return f'<details class="choice"><summary>{summary}</summary>\n\n{words}\n\n</details>'
+    # a formula is left to Markdown as it is
+    summary = choice if "$" in choice else html.escape(choice)
+    head = f'<details class="choice"><summary>\n\n{summary}\n\n</summary>'
+    return f"{head}\n\n{words}\n\n</details>"

@@ -105,6 +105,7 @@ def main(path, folder):
 
     shell, renderer = InteractiveShell.instance(), Renderer(Path(folder))
     views.explore, views.live = renderer.explore, renderer.live
+    views.show = lambda *_, **__: None  # what stands still is stored
     for cell in moving(nbformat.read(path, as_version=4)):
         renderer.cell = cell.id
         shell.run_cell(cell.source).raise_error()

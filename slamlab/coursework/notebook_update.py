@@ -12,7 +12,7 @@ from slamlab.coursework.file_writing import json_bytes, keep_beside, write
 from slamlab.coursework.folder import FOLDERS
 from slamlab.coursework.originals import OriginalError
 
-SWAPPED = ("slamlab", "labextension", "docs")  # folders that nobody writes in
+SWAPPED = ("slamlab", "labextension", "docs", "pages")  # folders that nobody writes in
 
 
 class UpdateError(Exception):

@@ -1,13 +1,18 @@
-"""The site as it is built, opened as files: on a desktop, on a phone, in the dark, searched."""
+"""The site and the pack, opened as files: on a desktop, on a phone, in the dark, searched."""
 
+import html
 import json
+import re
 import shutil
+import zipfile
 
 import pytest
 from axe_playwright_python.sync_playwright import Axe
 
-from course.site import building, looking
+from course import pack
+from course.site import building, in_pack, looking
 from tests.patience import PATIENCE
+from tests.setup.test_pack import all_programs, solutions
 
 pytestmark = pytest.mark.slow
 SCREENS = {"desktop": (1280, "light"), "dark": (1280, "dark"), "phone": (390, "light")}
@@ -24,21 +29,37 @@ LOADED = "document.fonts.ready.then(() => document.readyState == 'complete')"
 
 
 @pytest.fixture(scope="module")
-def site(tmp_path_factory):
-    """The whole site, built from nothing; of the lessons only 01 moves, for each takes a while."""
+def work(tmp_path_factory):
+    """A folder to build in, with KaTeX and nothing else."""
     if not shutil.which("npm"):
         pytest.skip("no npm here: KaTeX, which sets the formulas, cannot be fetched")
-    folder = tmp_path_factory.mktemp("site")
+    folder = tmp_path_factory.mktemp("site") / "work"
     try:
-        building.katex_modules(folder / "work")
+        building.katex_modules(folder)
     except building.SiteError as reason:
         pytest.skip(str(reason))
-    assert building.build(folder / "out", folder / "work", {"01"}) == []
-    return folder / "out"
+    return folder
+
+
+@pytest.fixture(scope="module")
+def site(work):
+    """The whole site, built from nothing; of the lessons only 01 moves, for each takes a while."""
+    assert building.build(work.parent / "out", work, {"01"}) == []
+    return work.parent / "out"
+
+
+@pytest.fixture(scope="module")
+def unpacked(work):
+    """The folder that the students' pack unpacks into."""
+    pages = in_pack.pages(work, {"01"})
+    target = work.parent / "pack.zip"
+    pack.pack(target, pack.contents(pages=pages))
+    zipfile.ZipFile(target).extractall(work.parent)
+    return work.parent / pack.TOP
 
 
 @pytest.fixture(params=SCREENS)
-def look(request, browser, site):
+def visitor(request, browser):
     """Open a page on a screen; what it says of errors, and what it asks of others, is kept."""
     wide, scheme = SCREENS[request.param]
     context = browser.new_context(viewport={"width": wide, "height": 800}, color_scheme=scheme)
@@ -49,9 +70,9 @@ def look(request, browser, site):
         "request", lambda asked: asked.url.startswith(("file:", "data:")) or wrong.append(asked.url)
     )
 
-    def open_page(name, asked=""):
+    def open_page(file, asked=""):
         page.set_default_timeout(1000 * PATIENCE)
-        page.goto((site / name).as_uri() + asked)
+        page.goto(file.as_uri() + asked)
         page.wait_for_function(LOADED)
         return page
 
@@ -60,20 +81,35 @@ def look(request, browser, site):
     assert wrong == []
 
 
+@pytest.fixture
+def look(visitor, site):
+    """Open a page of the site."""
+    return lambda name, asked="": visitor(site / name, asked)
+
+
 def test_nothing_is_wrong_with_any_page(site):
     assert looking.problems(site) == []
 
 
 @pytest.mark.parametrize("name", PAGES)
 def test_a_page_is_sound_fits_and_can_be_read_by_all(look, name):
-    page = look(f"{name}.html")
-    assert page.evaluate("document.documentElement.scrollWidth <= window.innerWidth")
+    check(look(f"{name}.html"))
+
+
+@pytest.mark.soak
+def test_every_page_is_sound_fits_and_can_be_read_by_all(look, site):
+    for path in sorted(site.rglob("*.html")):
+        check(look(path.relative_to(site)))
+
+
+def check(page):
+    assert page.evaluate("document.documentElement.scrollWidth <= window.innerWidth"), page.url
     # the spans of a formula are hidden from screen readers, which get its MathML
     formulas = {"exclude": [[".katex-html"]]}
     options = {"resultTypes": ["violations"], "preload": False}
     found = Axe().run(page, context=formulas, options=options)
     serious = [
-        f"{broken['id']}: {node['html'][:150]}"
+        f"{page.url}: {broken['id']}: {node['html'][:150]}"
         for broken in found.response["violations"]
         if broken["impact"] in ("serious", "critical")
         for node in broken["nodes"]
@@ -81,7 +117,7 @@ def test_a_page_is_sound_fits_and_can_be_read_by_all(look, name):
     assert serious == []
 
 
-@pytest.mark.parametrize("words", ["Jacobian", "ψ"])
+@pytest.mark.parametrize("words", ["Jacobian", "ψ", "P_ri"])
 def test_the_search_finds(look, words):
     page = look("search.html", f"?q={words}")
     page.locator("#search-results li").first.wait_for()
@@ -96,8 +132,11 @@ def test_a_page_that_was_read_is_ticked(look):
 
 
 def test_the_film_of_the_first_page_plays_to_its_end(look):
-    page = look("index.html")
-    place = page.locator(".slamlab-film")
+    watch_first_film(look("index.html"))
+
+
+def watch_first_film(page):
+    place = page.locator(".slamlab-film").first
     place.scroll_into_view_if_needed()
     film = place.locator(".slamlab-live[data-frame]")
     film.wait_for()
@@ -137,3 +176,32 @@ def test_each_value_of_a_slider_has_its_picture_and_its_words(look):
     page.keyboard.press("End")
     assert picture.get_attribute("src").endswith(controls[1]["pictures"][-1])
     assert slider.input_value() == str(controls[0]["first"])  # one moves at a time
+
+
+def test_the_pack_opens_with_its_lessons_and_their_films(visitor, unpacked):
+    page = visitor(unpacked / "index.html")
+    page.wait_for_url("**/pages/index.html")
+    watch_first_film(page)
+    lessons = sorted(path.stem for path in (pack.ROOT / "notebooks").glob("*.ipynb"))
+    page.locator(f'.sidebar-tree a[href$="{lessons[4]}.html"]').dispatch_event("click")
+    page.wait_for_url(f"**/{lessons[4]}.html")
+    page.wait_for_function(LOADED)
+    assert page.locator(".katex").count() > 20
+    assert page.evaluate("document.fonts.check('12px KaTeX_Math')")
+
+
+def test_the_packs_pages_are_its_lessons_and_tell_no_solution(unpacked):
+    pages = unpacked / in_pack.FOLDER
+    assert looking.problems(pages) == []
+    lessons = {path.stem for path in (unpacked / "notebooks").glob("*.ipynb")}
+    assert {path.stem for path in pages.glob("*/*.html")} == lessons
+    for path in pages.rglob("*.html"):
+        said = html.unescape(re.sub(r"<[^>]+>", "", path.read_text(encoding="utf-8")))
+        assert [source for source in solutions() | all_programs() if source in said] == [], path
+
+
+def test_a_pack_that_is_too_large_is_told(monkeypatch, tmp_path, capsys):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(pack, "LARGEST", 1e6)
+    assert pack.main(["--no-pages"]) == 1
+    assert "too much" in capsys.readouterr().err

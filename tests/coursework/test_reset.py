@@ -50,6 +50,7 @@ def make_pack(place, edition=1):
         file_writing.write(place / name, json_bytes(notebook))
     file_writing.write(place / "lab.py", b"edition %d" % edition)
     file_writing.write(place / "slamlab" / "new.py", b"edition %d" % edition)
+    file_writing.write(place / "pages" / f"film-{edition}.js", b"edition %d" % edition)
     (place / originals.ARCHIVE).parent.mkdir(parents=True)
     names = (EXERCISE, LESSON)
     write_zip(place / originals.ARCHIVE, {n: (place / n).read_bytes() for n in names})
@@ -227,6 +228,7 @@ def test_a_new_edition_replaces_what_was_not_touched_and_keeps_answers(course, t
     assert [path.read_bytes() for path in kept(course)] == [before]
     assert (course / "lab.py").read_bytes() == b"edition 2"
     assert (course / "slamlab" / "new.py").read_bytes() == b"edition 2"
+    assert [path.name for path in (course / "pages").iterdir()] == ["film-2.js"]
     assert originals.original(course, EXERCISE) == json_bytes(handed_out(2))
     assert list(course.glob(".update-*")) == []
 

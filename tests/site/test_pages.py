@@ -5,8 +5,9 @@ import numpy as np
 import pytest
 
 from course.site import gathered, looking, rendering
+from course.site.moving_outputs import films_alone
 from course.site.moving_pictures import values_of
-from course.site.pages_of_notebooks import page
+from course.site.pages_of_notebooks import page, without_links
 from course.site.questions import question
 from course.site.symbols import plain_forms
 from slamlab.views.sliders import _control
@@ -55,12 +56,25 @@ def test_links_lead_to_pages(before, after):
     assert shown(text(before))[0].source == after
 
 
+def test_where_only_lessons_are_pages_other_links_become_names():
+    cell = text(
+        "[a](../exercises/ex04_m.ipynb#p), [*b*](../guides/live.md), [c](../notebooks/n.ipynb)"
+    )
+    without_links(nbformat.v4.new_notebook(cells=[cell]))
+    assert cell.source == "a, *b*, [c](../notebooks/n.ipynb)"
+
+
 def test_a_question_unfolds_choice_by_choice_and_its_code_is_not_shown():
     asked = 'ask("05-a", "Why?", {"A < B": "no, *since*.", "C": "yes."}, right="C")'
     (cell,) = shown(code(asked))
     assert cell.cell_type == "markdown" and "ask(" not in cell.source
     assert cell.source.count("<details") == 2 and "A &lt; B" in cell.source
     assert "**✓ Right:** yes." in cell.source and "**✗ Not so:** no, *since*." in cell.source
+
+
+def test_a_formula_in_a_choice_stays_a_formula():
+    asked = r'ask("05-a", "Why?", {r"at $r < r_0$": "no.", "C": "yes."}, right="C")'
+    assert "<summary>\n\nat $r < r_0$\n\n</summary>" in question(asked).as_cell("a").source
 
 
 def test_a_number_that_is_asked_for_stands_among_those_one_may_have():
@@ -80,7 +94,9 @@ def test_what_answers_a_question_is_folded_and_words_for_widgets_are_dropped():
         code("draw()", controls, picture, slamlab={"answers": "05-a"}), code("1", picture)
     )
     assert "hide-cell" in answering.metadata.tags and "hide-cell" not in other.metadata.tags
-    assert [output.data for output in answering.outputs] == [picture]
+    assert [output.data for output in other.outputs] == [picture]
+    still, told = (output.data for output in answering.outputs)
+    assert still == picture and "in the notebook it has controls" in told["text/html"]
 
 
 def test_text_that_explains_an_answer_is_folded_too():
@@ -108,12 +124,14 @@ def test_looking_finds_what_is_wrong_with_a_site(tmp_path):
         '<p id="here"><a href="b.html#there">b</a><a href="b.html#gone">b</a><a href="c.html">c</a>'
         '<a href="../out.html">o</a><a href="https://doi.org/1">d</a><img src="p.png">'
         '<script src="//cdn.example/x.js"></script>For the lecturer'
+        r"<p>at $\psi$<pre>$\phi$</pre>"
     )
     (tmp_path / "b.html").write_text('<p id="there"><a href="a.html#here">a</a>')
     (tmp_path / "p.png").touch()
     found = looking.problems(tmp_path)
     wanted = [
         "says 'For",
+        r"not set: $\psi$",
         "another machine",
         "#gone",
         "link c.html",
@@ -171,6 +189,9 @@ def test_what_moves_is_rendered_once_and_stands_on_the_page(tmp_path):
     sliders, live = page(notebook, {}, told, folder.name).cells[2:4]
     assert "slamlab-sliders" in sliders.outputs[0].data["text/html"]
     assert film["film"] in live.outputs[0].data["text/html"]
+    assert "it runs live" in live.outputs[-1].data["text/html"]
+    assert not any("stands still" in output.data["text/html"] for output in sliders.outputs)
+    assert list(films_alone(told)) == [notebook.cells[3].id]
     notebook.cells[2].source += "\n1 / 0"
     nbformat.write(notebook, path)
     with pytest.raises(rendering.RenderingError, match="ZeroDivisionError"):
