@@ -14,7 +14,8 @@ _LINK = re.compile(r"\]\((?:\.\./)?(?:(notebooks|exercises)/)?((?:ex)?\d\d_\w+)\
 _WITHIN = re.compile(r"\]\((#[^)]+)\)")
 _LESSON = re.compile(r"(?<!\[)\b([Ll]essons?) (\d\d)\b(?![^\[]*\])(?! ?[:·])")
 _GUIDE = re.compile(r"\]\(\.\./docs/(\w+)\.md")
-_BESIDE = re.compile(r"(?<!!)\[([^\]]+)\]\(\.\./(?:exercises|guides)/[^)]*\)")
+_APPENDIX = "](in_print.ipynb)"  # the site has a page of its own for it
+_BESIDE = re.compile(r"(?<!!)\[([^\]]+)\]\(\.\./(?:exercises/|guides/|errata\b)[^)]*\)")
 _H1 = re.compile(r"^# (?=\S)", re.MULTILINE)
 
 
@@ -90,6 +91,7 @@ def _linked(text, files):
         return f"[{word} {number}](../notebooks/{name}.ipynb)" if name else found[0]
 
     text = _WITHIN.sub(lambda found: f"]({_anchor(found[1])})", text)
+    text = text.replace(_APPENDIX, "](../errata.md)")
     lines = [
         line if line.startswith(("#", "    ")) else _LESSON.sub(to_lesson, line)
         for line in _GUIDE.sub(r"](../guides/\1.md", _LINK.sub(to_page, text)).split("\n")

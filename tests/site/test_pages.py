@@ -47,6 +47,7 @@ def test_a_page_has_one_heading_of_the_first_level():
         ("[a](../exercises/ex04_m.ipynb#part)", "[a](../exercises/ex04_m.ipynb#part)"),
         ("[a](#Deeper:-why-so?)", "[a](#deeper-why-so)"),
         ("[a](../docs/lecturing.md)", "[a](../guides/lecturing.md)"),
+        ("[In print](in_print.ipynb)", "[In print](../errata.md)"),
         ("See lesson 04.", "See [lesson 04](../notebooks/04_models_and_jacobians.ipynb)."),
         ("See lesson 77.", "See lesson 77."),
         ("[lesson 04](x.ipynb)", "[lesson 04](x.ipynb)"),
@@ -58,10 +59,11 @@ def test_links_lead_to_pages(before, after):
 
 def test_where_only_lessons_are_pages_other_links_become_names():
     cell = text(
-        "[a](../exercises/ex04_m.ipynb#p), [*b*](../guides/live.md), [c](../notebooks/n.ipynb)"
+        "[a](../exercises/ex04_m.ipynb#p), [*b*](../guides/live.md), [d](../errata.md), "
+        "[c](../notebooks/n.ipynb)"
     )
     without_links(nbformat.v4.new_notebook(cells=[cell]))
-    assert cell.source == "a, *b*, [c](../notebooks/n.ipynb)"
+    assert cell.source == "a, *b*, d, [c](../notebooks/n.ipynb)"
 
 
 def test_a_question_unfolds_choice_by_choice_and_its_code_is_not_shown():
