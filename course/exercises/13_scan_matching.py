@@ -191,7 +191,7 @@ def _():
 
 
 # %% [markdown]
-# Two rounds put most of the shift right, while the turn takes fifteen. Then nothing moves any more, yet 9 mm and 0.7° are left.
+# Two rounds put most of the shift right, while the turn takes some fifteen. Then hardly anything moves any more, yet 9 mm and 0.7° are left.
 # Some walls were seen from one place only, and their points are paired all the same.
 
 # %% [markdown]

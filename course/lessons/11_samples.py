@@ -117,8 +117,8 @@ views.explore(
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="11-where"
 # There are two clusters, one round the robot and one at the opposite place. The ellipse has the same mean and the
-# same covariance as the cloud. All that it can say is "in the middle, give or take the room", and there is nobody in
-# the middle.
+# same covariance as the cloud. All that it can say is "in the middle, give or take the length of the room", and there is
+# nobody in the middle.
 
 # %% [markdown] slideshow={"slide_type": "subslide"} answers="11-where"
 # Press ▶. In step {= post_seen =} the robot comes within sight of the post. There is a post on one side of the room
@@ -304,8 +304,8 @@ sp.factor(story["12"] + story["22"]) / total
 # ## The weight
 #
 # We *have* samples of the integral in (11.3): take samples of the old belief, and let each drive with noise. We
-# *want* samples of the left side. So samples that were drawn from one density must count for another. A sample that
-# was drawn twice as often as it should have been must count half:
+# *want* samples of the left side. We have drawn from one density and want another, so samples must count differently. A
+# sample that was drawn twice as often as it should have been must count half:
 #
 # $$w_i \;\propto\; \frac{\text{density that is wanted, at } x_i}{\text{density that } x_i \text{ was drawn from, at }
 # x_i}. \tag{11.4}$$
@@ -813,7 +813,7 @@ for name in (sets_apart.WHEELS, sets_apart.EKF, sets_apart.SETS, sets_apart.ONE)
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="11-forget"
 # Both filters beat the wheels. The sets err somewhat more than the EKF: on the same lap by {= 100 * worse[0]:.0f =}
-# cm in the median (95 % interval {= 100 * worse[1]:.0f =} to {= 100 * worse[2]:.0f =} cm). But what they *say* of
+# cm in the median of the differences, which is not the difference of the medians (95 % interval {= 100 * worse[1]:.0f =} to {= 100 * worse[2]:.0f =} cm). But what they *say* of
 # their error is worth nothing. An honest filter has the true pose outside of its region in 5 % of the readings. With
 # the EKF it is {= 100 * maps["EKF"]["outside"][0]:.0f =} %, with sets {= 100 * maps["sets"]["outside"][0]:.0f =} %,
 # and more partners change little.
@@ -873,7 +873,7 @@ views.explore(
 #
 # $$\mathrm{E}\, |\bar x_k - \bar x_0|^2 = \left(1 - \left(1 - \tfrac1n\right)^k\right) \sigma^2, \tag{11.10}$$
 #
-# which is drawn as well. (The second *Deeper* section derives it.) Biologists call it genetic drift.
+# which is the dotted curve of the picture. (The second *Deeper* section derives it.) Biologists call it genetic drift.
 
 # %% [markdown] slideshow={"slide_type": "subslide"} answers="11-unseen"
 # You have seen it before: the two clusters of the first section were such a population, and hardly anything was known

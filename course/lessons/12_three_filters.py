@@ -94,7 +94,7 @@ views.show(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="12-noise"
-# At 25 cm the readings scatter by {= 1000 * GP2D120.range_curvature * 0.25**2:.1f =} mm, as (12.1) says. For a
+# The readings scatter as (12.1) says, which gives {= 1000 * GP2D120.range_curvature * 0.25**2:.1f =} mm at 25 cm. For a
 # sensor of a few euros this is little. The trouble is not its noise but its *reach*.
 
 # %% slideshow={"slide_type": "subslide"} tags=["folded"]
@@ -463,8 +463,9 @@ Markdown("\n".join([head, "|---" * 6 + "|", *rows]))
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # The last column is a difference on the *same* drive: its median over all, and in brackets an interval that holds the true
-# median in about 95 % of such studies. All four leave out zero, so each filter is nearer to the truth with MAK's names;
-# FastSLAM, whose samples keep correlations of their own, hardly. MAK itself took
+# median in about 95 % of such studies. (A median of differences is in general not the difference of two medians.) All four
+# intervals lie below zero, so each filter is nearer to the truth with MAK's names;
+# FastSLAM, whose samples keep correlations of their own, hardly (its upper end is less than a millimetre below zero). MAK itself took
 # {= free["MAK"]["association"]["false"] =} sighting in {= runs =} drives for another corner.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
@@ -540,8 +541,8 @@ views.explore(
 # $$|x - \hat x| \le k \sqrt{P_{xx}}, \qquad |y - \hat y| \le k \sqrt{P_{yy}}, \qquad
 # |\theta - \hat\theta| \le k \sqrt{P_{\theta\theta}}, \tag{12.5}$$
 #
-# where the hats mean odometry summed up. The honest box is what both have in common. Neither bound is certain: both are
-# promised with a probability.
+# where the hats mean odometry summed up. The honest box is the part that lies within both bounds, that of the
+# steps and that of the way. Neither of them is certain: each is promised with a probability.
 
 
 # %% slideshow={"slide_type": "subslide"} tags=["folded"]
@@ -576,7 +577,7 @@ views.explore(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# At first the box holds the robot throughout, and its middle is about as far off as odometry. Make $k$ smaller: the box
+# As the sliders stand, the box holds the robot throughout, and its middle is about as far off as odometry. Make $k$ smaller: the box
 # shrinks, and some day the robot is outside. Is it reported? Then untick the second bound, and the sum of all
 # steps makes the box larger than the arena.
 
@@ -633,7 +634,7 @@ print(f"in {slipped['scans_outside'] / slipped['scans']:.0%} of all scans")
 print(f"reported in {slipped['runs_outside_reported']} of these drives")
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="12-report"
-# No report is no proof, as lesson 10 found. The tuned box is worse: without any cable it is narrower and its middle
+# No report is no proof, as lesson 10 found. The tuned box is worse: on the drives whose cable is not snagged it is narrower and its middle
 # nearer to the truth, but the robot is outside in {= free["BOR, tuned"]["box"]["scans_outside"] / named_box["scans"]:.0% =}
 # of all scans. As an estimate it may be useful. As a *set* it is worth nothing.
 
@@ -711,7 +712,7 @@ Markdown("\n".join(["| | " + " | ".join(names) + " |", "|---" * 9 + "|", *lines]
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # In the last line all but `walls` are some 30 cm off over the drive, and still only
 # {= sum(one["lost"] for one in table["six"][-1]["filters"].values()) =} of {= len(names) =} are *lost*: where a round trip
-# ends tells little, and any definition has such a corner. That is why the tables give the RMS beside it.
+# ends tells little, and any definition has a case in which it says little. That is why the tables give the RMS beside it.
 #
 # You have run set 1 yourself, above. Is it the first line?
 
@@ -796,8 +797,8 @@ alone, box, less = (
 assert box[2] > alone[1] and less[2] < 0  # they overlap, and it is better all the same
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="12-overlap"
-# The two intervals overlap, and yet the honest box is better than odometry by {= -100 * less[0]:.1f =} cm: the interval of
-# the difference leaves out zero. Better, that is, by little.
+# The two intervals overlap, and yet the honest box is better than odometry, by {= -100 * less[0]:.1f =} cm on a middling
+# drive: the interval of the difference leaves out zero. Better, that is, by little.
 
 
 # %% slideshow={"slide_type": "subslide"} tags=["folded"]
@@ -949,7 +950,7 @@ views.show(
 assert free["Monte Carlo"]["lost"][1] > 0.05 and snagged["walls"]["lost"][2] < 0.1
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# Refuted: Monte Carlo is lost in {= percent(free["Monte Carlo"]["lost"]) =} of the drives without any cable. The thesis did not
+# Refuted: Monte Carlo is lost in {= percent(free["Monte Carlo"]["lost"]) =} of the drives on which no cable is snagged. The thesis did not
 # measure wrongly; it measured too little. With the cable, filters on corners are lost in about nine drives of ten, just as
 # odometry is: nothing in them expects a jump of 20° to 40°. Only `walls` is not.
 

@@ -714,7 +714,7 @@ for width, lidar in {"whole turn": RPLIDAR_A2, "half a turn": ahead}.items():
 print("odometry: median {:.0f} mm, {:.1f}°".format(*np.median(wheels, axis=0)))
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# This odometry is so bad that every method beats it in {= min(nearer.values()) =} of 30 steps or more, in place and heading. But with half a
+# This odometry is so bad that every method beats it, in place and in heading, in {= "each" if min(nearer.values()) == 30 else f"{min(nearer.values())} or more" =} of the 30 steps. But with half a
 # turn plain ICP is still {= medians["half a turn", "point to point"][0]:.0f =} mm off in the median. Trimming takes most of that
 # away, if the share suits. Across the walls it needs no such luck.
 
@@ -819,8 +819,8 @@ shares = ", ".join(f"{name} {np.mean(table):.0%}" for name, table in basins.item
 views.show(fig, f"Shares that come home, by how far the guess is off; over all cells {shares}.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="13-basin"
-# Up to 30° plain ICP comes home in {= 100 * basins["point to point"][:3].mean():.0f =} % of these tries, even from a metre
-# away, and point to line in {= 100 * basins["point to line"][:3].mean():.0f =} %. Beyond 60°, neither does. The third,
+# Up to 30° plain ICP comes home in {= 100 * basins["point to point"][:3].mean():.0f =} % of these tries, three in each cell, even from a
+# metre away, and point to line in {= 100 * basins["point to line"][:3].mean():.0f =} %. Beyond 60°, neither does. The third,
 # `match`, came home in {= 100 * basins["match"].mean():.0f =} % of all tries. It has a trick.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}

@@ -73,7 +73,7 @@ SLIPS = (
     Slip(
         "p-alone",
         "You multiply by the density of the wheels alone. Where the drawing wanted a sample there are "
-        "many already; that is what q takes out.",
+        "many already; that is what the density of the drawing takes out.",
         [("w @ np.linalg.inv(D[k]) @ w - ", "-"), (DET, "")],
     ),
     Slip(
@@ -83,7 +83,7 @@ SLIPS = (
     ),
     Slip(
         "turned-over",
-        "p and q have changed places: what was drawn too often gains, and should lose.",
+        "The two densities have changed places: what was drawn too often gains, and should lose.",
         [
             (DIFFERENCE, "v @ np.linalg.inv(C) @ v - w @ np.linalg.inv(D[k]) @ w"),
             ("] += 0.5 * np.log", "] -= 0.5 * np.log"),
@@ -92,7 +92,7 @@ SLIPS = (
     ),
     Slip(
         "multiplied",
-        "You multiply by q. A sample that was drawn too often should count for less: divide.",
+        "You multiply by the density of the drawing. A sample that was drawn too often should count for less: divide.",
         [
             ("w @ np.linalg.inv(D[k]) @ w - ", "-w @ np.linalg.inv(D[k]) @ w - "),
             ("] += 0.5 * np.log", "] -= 0.5 * np.log"),

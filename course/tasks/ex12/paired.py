@@ -177,20 +177,20 @@ SLIPS = (
     ),
     Slip(
         "unsorted",
-        "The differences are still in the order of the drives. So many *below m* is a question of size.",
+        "The differences are still in the order of the drives. So many *below μ* is a question of size.",
         (SORT, "d, n = np.array(differences), len(differences)"),
     ),
     Slip(
         "one-in",
         "The interval is too narrow by a difference at an end. At which difference does the number of those below "
-        "m become possible?",
+        "μ become possible?",
         (ENDS, "d[few], d[n - 1 - few]"),
         (ENDS, "d[few], d[n - few]"),
         (ENDS, "d[few - 1], d[n - few - 1]"),
     ),
     Slip(
         "one-out",
-        "The interval is too wide by a difference at an end. How many differences lie below an m that is just "
+        "The interval is too wide by a difference at an end. How many differences lie below a μ that is just "
         "above your lower end?",
         (ENDS, "d[max(few - 2, 0)], d[min(n - few + 1, n - 1)]"),
         (ENDS, "d[max(few - 2, 0)], d[n - few]"),
@@ -227,7 +227,7 @@ SLIPS = (
     Slip(
         "interval-of-the-mean",
         "This is an interval of the mean difference, or one that takes the differences for a bell. Nothing is "
-        "known of their shape: count how many lie below m.",
+        "known of their shape: count how many lie below μ.",
         (f"return {ENDS}", f"t = 1.96\n    return {MEANS}"),
         (
             f"return {ENDS}",

@@ -113,7 +113,8 @@ def _at_rest(rng):
 
 def _law(name, points, says, asks, main=False):
     def step(i):
-        return {"d and Δθ of each sample": _drives(i), "log p − log q": _logs(i)}
+        less = "log density of the wheels less that of the drawing"
+        return {"d and Δθ of each sample": _drives(i), less: _logs(i)}
 
     return equals(name, points, says, _wanted, asks=asks, step=step, main=main, tolerance=1e-6)
 

@@ -82,10 +82,11 @@ def _same(i, o):
 def _why(i, o):
     if (o["finite"] == 0).any():
         return "Some of them are infinite or no numbers."
-    got, want = (_differences(a)[:, -1] for a in (o["logs"], _right(i)))
-    k = np.argmax(np.abs(got - want))
+    got, want = (_differences(a) for a in (o["logs"], _right(i)))
+    k, n = np.unravel_index(np.argmax(np.abs(got - want)), got.shape)
     return (
-        f"The last sample's logarithm minus the first one's is {got[k]:.5g}; it is {want[k]:.5g}."
+        f"Sample {n + 1}'s logarithm less the first one's is {got[k, n]:.5g} in your answer, and "
+        f"{want[k, n]:.5g} is right."
     )
 
 

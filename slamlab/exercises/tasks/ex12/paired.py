@@ -63,7 +63,11 @@ def ends(i):
 
 def _step(i):
     d = _differences(i)[0]
-    return {"differences in order [m]": d, "drives left": len(d), "too few": too_few(len(d))}
+    return {
+        "differences in order [m]": d,
+        "drives left": len(d),
+        "too few below μ": too_few(len(d)),
+    }
 
 
 def _law(name, points, says, asks, **more):
@@ -124,8 +128,8 @@ PAIRED = Task(
             "coins",
             2,
             "where nobody strays, the ends are those of all medians that are possible",
-            "Let m grow from the smallest difference on. When does the number of differences below "
-            "m change, and which number is the first that is not too few?",
+            "Let μ grow from the smallest difference on. When does the number of differences below "
+            "μ change, and which number is the first that is not too few?",
             main=False,
         ),
         _law(
