@@ -14,6 +14,7 @@ from slamlab.cli import main
 from slamlab.cli.run import COLUMNS, picture
 from slamlab.estimators.runner import run
 from slamlab.sources import SourceError
+from tests.patience import PATIENCE
 
 
 def refused(capsys, *words):
@@ -157,3 +158,9 @@ def test_intel_without_loop_closure_comes_out_ten_times_better_than_odometry(tmp
     assert found["naive_m"] == pytest.approx(4.09, abs=0.01)
     assert found["corrected_m"] < 0.32
     assert found["corrected_rad"] < 0.1 * found["naive_rad"]
+
+
+def test_python_runs_the_command_where_its_name_is_not_on_the_path():
+    words = [sys.executable, "-m", "slamlab", "--version"]
+    told = subprocess.run(words, capture_output=True, text=True, check=True, timeout=PATIENCE)
+    assert told.stdout.startswith("slamlab ")

@@ -26,6 +26,7 @@ PACKAGES = sorted((ROOT / "slamlab").rglob("__init__.py"))
 LAZY = [architecture.dotted(p) for p in PACKAGES if "slamlab._lazy" in p.read_text("utf-8")]
 FIRST_EDITION = (ROOT / "tests/notebooks/first_edition_imports.txt").read_text().splitlines()
 NAMESAKES = {"__init__.py", "base.py", "session.py", "driver.py", "errors.py", "consistency.py"}
+NAMESAKES |= {"__main__.py"}
 """The same part of several rooms or devices; a study is called by its command's word."""
 
 
