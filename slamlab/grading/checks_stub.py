@@ -1,8 +1,11 @@
 """Stub of :mod:`slamlab.checks` in a worker, where nothing is checked or shown."""
 
+import sys
+
 
 def check(task_id):
-    """Do nothing: the judge does the checking."""
+    """Do nothing but offer ``hint``, as the real one does: the judge does the checking."""
+    sys._getframe(1).f_globals.setdefault("hint", hint)
 
 
 def hint(task_id):

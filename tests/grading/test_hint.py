@@ -6,7 +6,7 @@ import re
 import numpy as np
 import pytest
 
-from slamlab.checks import hint, ladder
+from slamlab.checks import check, hint, ladder
 from slamlab.exercises.law import equals
 from tests.grading import fake
 from tests.grading.test_cases import TURN, turn, want
@@ -127,3 +127,22 @@ def test_an_argument_that_was_changed_is_asked_for(said):
 
     assert "Which line writes into an array" in said(changes)
     assert "turn changes v: work on a copy" in said(changes)
+
+
+def test_a_check_that_offers_a_hint_brings_it_along(capsys):
+    names = {"check": check, "turn": right_turn}
+    eval("check('99-turn')", names)
+    assert 'hint("99-turn")' in capsys.readouterr().out
+    eval("hint('99-turn')", names)
+    assert "A question: Where does the point (1, 0) go?" in capsys.readouterr().out
+
+
+def test_a_hint_of_ones_own_is_left_alone():
+    names = {"check": check, "turn": turn, "hint": 7}
+    eval("check('99-turn')", names)
+    assert names["hint"] == 7
+
+
+def test_a_call_below_a_check_stops_no_cell_in_a_worker():
+    cells = fake.SOLUTION, "from slamlab.checks import check\ncheck('99-turn')", "hint('99-turn')"
+    assert judged(*cells, exercise=fake.EXERCISE)["cells"] == {}
