@@ -13,7 +13,7 @@
 #
 # | | |
 # | --- | --- |
-# | `step(reading)` | is called for each reading, about every 0.4 m. `reading.odometry` is the motion since the last one as the wheels tell it, `[x, y, θ]` in the frame of the pose before; `reading.scan` is a lidar scan, whose `points()` are (n, 2) in the robot's frame. In a scan that was lost no beam has a range |
+# | `step(reading)` | is called for each reading, about every 0.4 m. `reading.odometry` is the motion since the last one as the wheels tell it, `[x, y, θ]` in the frame of the pose before; `reading.scan` is a lidar scan, whose `points()` are (n, 2) in the robot's frame; `reading.scan.ranges` and `.angles`, (n,), are its beams. In a scan that was lost no beam has a range. Of being carried away the odometry tells nothing |
 # | `pose` | where it believes to be now, `[x, y, θ]`, in a frame of its choice |
 # | `trajectory()` | all poses as it believes them *now*, (n, 3). It is asked for at the end |
 # | `map()` | points on the walls, (n, 2), in the same frame as `trajectory()` |
@@ -57,8 +57,12 @@ def _():
 # %% [markdown]
 # The errors are those of pieces of the drive, 1 m, 5 m and 20 m long, as lesson 16 explains. 0 points
 # are worth what the wheels alone do, 55 what the package's `icp` does on the same drive, 85 what its `graph`
-# does. Other values of `seed` give other worlds, and other families are `symmetric`, `corridor`,
-# `kidnapped`, `range-bias`, `people` and `dropouts`.
+# does, and 100 errors a fifth smaller still. Other values of `seed` give other worlds, and other families
+# are `symmetric`, `corridor`, `kidnapped`, `range-bias`, `people` and `dropouts`.
+#
+# The lidar has 180 beams and sees 8 m far. Its ranges err by 0.8 % and by 5 mm more, its bearings by 0.3°, and
+# one beam in a hundred comes back empty. Each wheel slips by 1.2 cm in a metre, as chance has it, and is
+# larger or smaller than believed by some 0.6 %. In single families one of these is worse.
 
 # %% [markdown]
 # ## 1 · It survives a corridor

@@ -413,7 +413,7 @@ ask(
 #
 # $$(\text{opcode} + \text{speed} + \text{turn} + \text{checksum}) \bmod 256 = 0. \tag{14.6}$$
 #
-# For two positive arguments "256 less the rest" gives the same, and that is how mistakes survive: whoever tests
+# With two positive arguments the rule "256 less the rest" gives the same byte, and so the mistake survives: whoever tests
 # only ahead and to the left never notices. There are no more than 201 · 201 commands to drive. So we test all of
 # them with the robot's own framer:
 

@@ -241,7 +241,7 @@ for k, J in enumerate((J_i, J_j)):
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### A step of Gauss and Newton
 #
-# $e$ bends, since it holds sines and cosines. So we go by steps. Near the present poses $e$ is nearly straight: with
+# $e$ is not linear in the poses, since it holds sines and cosines. So we go by steps. Near the present poses it nearly is: with
 # $J$ for the Jacobian of an edge over all poses, $e(x + \delta) \approx e + J\delta$. We put that into (15.4), and ask
 # for which $\delta$ the slope is zero:
 #
@@ -301,7 +301,7 @@ ask(
 # $$\operatorname{cov}(e) = T^{\mathsf T} R\, T, \qquad \Lambda = \left(T^{\mathsf T} R\, T\right)^{-1} = T^{\mathsf T}
 # R^{-1}\, T. \tag{15.7}$$
 #
-# ($T$ is the homogeneous matrix of a turn on the spot.) Nothing was taken for straight in (15.6), so it holds for large
+# ($T$ is the homogeneous matrix of a turn on the spot.) Nothing was approximated in (15.6), so it holds for large
 # errors, too. (15.7) needs no inverse of $T$, for it is a rotation.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
@@ -423,8 +423,8 @@ for name, way in ways.items():
 
 # %% [markdown] slideshow={"slide_type": "subslide"} answers="15-gauge"
 # Three. No edge notices when the whole drive is shifted east, shifted north, or turned, so $\chi^2$ cannot tell, and
-# $\Lambda_x$ is **singular**. This freedom is called the *gauge*. Whoever solves (15.5) all the same is refused, or gets any
-# number that rounding makes of it.
+# $\Lambda_x$ is **singular**. This freedom is called the *gauge*. A solver of (15.5) either refuses, or returns
+# numbers that are made of rounding alone.
 #
 # The cure is that somebody stands still. We strike out the rows and columns of pose 0, which stays where it is. (An EKF
 # does the same by starting with $P = 0$.)

@@ -8,7 +8,7 @@
 # **52 minutes. Before:** lesson [03](03_kalman_filter.ipynb) for NEES, lesson
 # [13](13_scan_matching.ipynb) for matching, lesson [15](15_closing_the_loop.ipynb) for loops.
 #
-# *Key:* you do not improve what you do not measure, and you do not measure what you look at once.
+# *Key:* what is not measured does not improve, and a single look is no measurement.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* This lesson is about measuring, and the project begins after it. Play "Whose frame?" and
@@ -297,7 +297,7 @@ views.explore(
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="16-half"
 # A claim costs nothing while σ is stated at most {= np.sqrt(NEES_BAND[1] / 3):.1f =} times too small, or
 # {= np.sqrt(3 / NEES_BAND[0]):.1f =} times too large. The band is wide, from {= NEES_BAND[0]:.2f =} to
-# {= NEES_BAND[1]:.1f =}, because the errors of one drive hang together: it counts as one draw, and 95 of 100 draws
+# {= NEES_BAND[1]:.1f =}, because neighbouring errors of a drive are alike: a drive tells little more than one draw, and 95 of 100 draws
 # of a χ² with three degrees of freedom lie there. Who claims nothing loses nothing. Who claims to be exact
 # pays 20 points.
 
@@ -486,7 +486,7 @@ views.explore(
 # | carried away | two maps on top of each other | search the whole map for the scan |
 # | out of time | the last worlds are lost | thin the points, match with less |
 #
-# Look at the *first* moment at which things go wrong: what comes later is its children.
+# Look at the *first* moment at which things go wrong: most of what goes wrong later only follows from it.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=1
 # ## What you can do now
