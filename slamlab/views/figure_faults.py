@@ -74,5 +74,16 @@ def _faint(fig, shown):
     """Letters that can hardly be read on the paper; what stands on a picture is not judged."""
     on_pictures = {text for ax in fig.axes if ax.images for text in ax.texts}
     for text in shown:
-        if text not in on_pictures and contrast(text.get_color()) < LETTER_CONTRAST:
+        if text in on_pictures:
+            continue
+        if contrast(text.get_color(), _ground(text)) < LETTER_CONTRAST:
             yield text.get_text()
+
+
+def _ground(text):
+    """What letters stand on: the topmost filled patch there, else the paper."""
+    if text.axes is None or text not in text.axes.texts:
+        return "#FFFFFF"
+    at = text.get_transform().transform(text.get_position())
+    filled = [patch for patch in text.axes.patches if patch.get_fill() and patch.contains_point(at)]
+    return filled[-1].get_facecolor() if filled else "#FFFFFF"

@@ -82,12 +82,13 @@ def test_an_answer_opens_what_was_folded_and_is_kept(visit, lab_folder):
 
 def test_words_that_explain_an_answer_open_with_it_and_show_no_line_before(visit):
     visit.open("notebooks/04_models_and_jacobians.ipynb")
+    visit.page.locator(".jp-CodeCell .jp-InputPlaceholder").first.click()  # imports are folded
     run_cell(visit, cell_of(visit, "from slamlab.checks import ask"))
     asked = cell_of(visit, '"04-streak"')
     run_cell(visit, asked)
-    folded = visit.page.locator(".jp-Cell .jp-Placeholder")
+    folded = asked.locator("xpath=following-sibling::*").locator(".jp-Placeholder")
     told = visit.page.locator(".jp-RenderedMarkdown", has_text="The streak lies across the way")
-    folded.nth(1).scroll_into_view_if_needed()
+    folded.nth(0).scroll_into_view_if_needed()
     assert [each.inner_text().strip() for each in folded.all()[:2]] == ["", ""]  # picture, words
     assert told.count() == 0
     asked.get_by_role("button", name="C", exact=True).click()

@@ -193,7 +193,7 @@ def test_the_pack_opens_with_its_lessons_and_their_films(visitor, unpacked):
 def test_the_packs_pages_are_its_lessons_and_tell_no_solution(unpacked):
     pages = unpacked / in_pack.FOLDER
     assert looking.problems(pages) == []
-    lessons = {path.stem for path in (unpacked / "notebooks").glob("*.ipynb")}
+    lessons = {path.stem for path in (unpacked / "notebooks").glob("[0-9]*.ipynb")}
     assert {path.stem for path in pages.glob("*/*.html")} == lessons
     for path in pages.rglob("*.html"):
         said = html.unescape(re.sub(r"<[^>]+>", "", path.read_text(encoding="utf-8")))

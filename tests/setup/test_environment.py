@@ -113,7 +113,7 @@ def test_the_locks_hold_what_is_declared_and_agree(python, platform):
 def test_students_do_not_get_what_only_tests_lectures_and_benchmarks_need():
     locked = {canonicalize_name(requirement.name) for requirement, _ in entries(STUDENT)}
     # what JupyterLab itself brings along is no tool of ours
-    shared = {"nbclient", "pyyaml"}
+    shared = {"nbclient", "pyyaml", "requests"}
     extras = {name for extra in EXTRAS.values() for name in specifiers(extra)}
     assert {"nbgrader", "pytest", "playwright"} <= extras
     assert locked & extras <= shared
@@ -130,7 +130,9 @@ def test_lectures_need_nothing_that_lab_does_not_install_for_lecturers():
 def test_the_package_imports_only_what_it_declares():
     distributions = packages_distributions()
     # what an extra holds is imported when it is asked for
-    extras = [name for extra in ("dask", "ros", "nbgrader", "lecture") for name in EXTRAS[extra]]
+    extras = [
+        name for extra in ("dask", "ros", "nbgrader", "lecture", "lti") for name in EXTRAS[extra]
+    ]
     declared = specifiers(DECLARED + extras).keys()
     for path in (ROOT / "slamlab").rglob("*.py"):
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):

@@ -9,6 +9,7 @@ from html.parser import HTMLParser
 import ipywidgets
 import numpy as np
 import pytest
+from matplotlib.patches import Rectangle
 from PIL import Image
 
 from course import known_faults
@@ -357,6 +358,17 @@ def test_faults_are_told_where_they_are_asked_for(stored, tmp_path, monkeypatch)
     assert known_faults.compare(told, []) == [f"new: {told[0]}"]
     assert len(known_faults.compare([], told)) == 1
     assert known_faults.compare(told, told) == []
+
+
+def test_letters_are_held_against_the_patch_that_they_stand_on():
+    fig, ax = views.chart("x", "y")
+    for x, colour in ((0, "black"), (2, "lightgrey")):
+        ax.add_patch(Rectangle((x, 0), 1, 1, color=colour))
+        ax.text(x + 0.5, 0.5, f"on {colour}", color="white")
+    ax.set(xlim=(0, 3), ylim=(0, 1))
+    assert [fault for fault in figure_faults.faults(fig) if "faint" in fault] == [
+        "letters too faint: 'on lightgrey'"
+    ]
 
 
 def test_curves_against_a_band_stand_on_a_logarithmic_axis_with_the_band_in_the_legend():
