@@ -41,8 +41,7 @@ def notebook(root=ROOT):
 
 def is_stored(root=ROOT):
     """bool, whether the stored appendix says what the stored lessons do."""
-    file = root / FILE
-    return file.exists() and file.read_text(encoding="utf-8") == nbformat.writes(notebook(root))
+    return _holds(root / FILE, nbformat.writes(notebook(root)))
 
 
 def store(root=ROOT):
@@ -56,7 +55,12 @@ def store(root=ROOT):
     -------
     str, what was done
     """
-    if is_stored(root):
+    text = nbformat.writes(notebook(root))
+    if _holds(root / FILE, text):
         return f"{FILE} unchanged"
-    (root / FILE).write_text(nbformat.writes(notebook(root)), encoding="utf-8", newline="\n")
+    (root / FILE).write_text(text, encoding="utf-8", newline="\n")
     return f"{FILE} written"
+
+
+def _holds(file, text):
+    return file.exists() and file.read_text(encoding="utf-8") == text

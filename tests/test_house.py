@@ -25,8 +25,15 @@ ROOMS = list(architecture.told())
 PACKAGES = sorted((ROOT / "slamlab").rglob("__init__.py"))
 LAZY = [architecture.dotted(p) for p in PACKAGES if "slamlab._lazy" in p.read_text("utf-8")]
 FIRST_EDITION = (ROOT / "tests/notebooks/first_edition_imports.txt").read_text().splitlines()
-NAMESAKES = {"__init__.py", "base.py", "session.py", "driver.py", "errors.py", "consistency.py"}
-NAMESAKES |= {"__main__.py"}
+NAMESAKES = {
+    "__init__.py",
+    "__main__.py",
+    "base.py",
+    "session.py",
+    "driver.py",
+    "errors.py",
+    "consistency.py",
+}
 """The same part of several rooms or devices; a study is called by its command's word."""
 
 
