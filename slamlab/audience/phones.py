@@ -1,11 +1,9 @@
 """What phones may ask for: the page, the state, a slide shown, a picture of it; and their vote."""
 
-from importlib.resources import files
-
 from tornado.web import HTTPError
 
-from slamlab.listening.entrance import Enter
-from slamlab.listening.guard import Fixed, Guarded
+from slamlab.listening.entrance import open_routes, shipped
+from slamlab.listening.guard import Guarded
 
 PAGE = {
     "/": ("index.html", "text/html; charset=utf-8"),
@@ -82,14 +80,9 @@ def routes(lecture):
     -------
     list of tornado's routes
     """
-    folder, known = files("slamlab.audience") / "page", {"lecture": lecture}
-    page = [
-        (path, Fixed, {"content": (folder / name).read_bytes(), "kind": kind})
-        for path, (name, kind) in PAGE.items()
-    ]
+    known = {"lecture": lecture}
     return [
-        *page,
-        (r"/enter", Enter),
+        *open_routes(shipped("slamlab.audience", PAGE)),
         (r"/state/([0-9]{1,9})", State, known),
         (r"/slide/([0-9]{1,3})", ShownSlide, known),
         (r"/picture/([0-9a-f]{32})", Picture, known),

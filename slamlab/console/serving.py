@@ -15,7 +15,7 @@ from slamlab.console.watchers import PageScreen
 from slamlab.listening import guard
 from slamlab.listening.door import Door
 from slamlab.listening.ending import end_on_signals
-from slamlab.listening.entrance import Enter
+from slamlab.listening.entrance import open_routes
 from slamlab.listening.rates import Bucket, Rate
 from slamlab.views.player.library import HERE as PLAYER
 from slamlab.views.player.library import LIVE, script
@@ -107,7 +107,7 @@ def routes(desk):
     """
     folder = files("slamlab.console") / "page"
     styles = (PLAYER / "player.css").read_bytes() + (folder / "console.css").read_bytes()
-    shipped = {
+    contents = {
         "/": ((folder / "console.html").read_bytes(), "text/html; charset=utf-8"),
         "/console.js": (
             script(LIVE, folder / "console.js").encode(),
@@ -116,11 +116,7 @@ def routes(desk):
         "/console.css": (styles, "text/css; charset=utf-8"),
         "/favicon.ico": ((folder / "robot.svg").read_bytes(), "image/svg+xml"),
     }
-    page = [
-        (path, guard.Fixed, {"content": content, "kind": kind})
-        for path, (content, kind) in shipped.items()
-    ]
-    return [*page, (r"/enter", Enter), (r"/socket", Socket, {"desk": desk})]
+    return [*open_routes(contents), (r"/socket", Socket, {"desk": desk})]
 
 
 async def serve(desk, port=0, begun=lambda address: None):

@@ -3,7 +3,6 @@
 import asyncio
 import logging
 import secrets
-from importlib.resources import files
 
 from tornado.web import HTTPError
 
@@ -11,7 +10,7 @@ from slamlab.grading.database import GradebookError
 from slamlab.listening import guard
 from slamlab.listening.door import Door
 from slamlab.listening.ending import end_on_signals
-from slamlab.listening.entrance import Enter
+from slamlab.listening.entrance import open_routes, shipped
 from slamlab.listening.rates import Rate
 from slamlab.reviewing import hand_changes
 from slamlab.reviewing.class_overview import overview
@@ -145,14 +144,9 @@ def routes(review):
     -------
     list of tornado's routes
     """
-    folder, known = files("slamlab.reviewing") / "page", {"review": review}
-    page = [
-        (path, guard.Fixed, {"content": (folder / name).read_bytes(), "kind": kind})
-        for path, (name, kind) in SHIPPED.items()
-    ]
+    known = {"review": review}
     return [
-        *page,
-        (r"/enter", Enter),
+        *open_routes(shipped("slamlab.reviewing", SHIPPED)),
         (r"/table", Table, known),
         (r"/submission/([0-9]{1,6})/([0-9]{2})", Submission, known),
         (r"/likeness/([0-9]{2})", Likeness, known),
