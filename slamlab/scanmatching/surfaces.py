@@ -137,7 +137,7 @@ def surface(points, name="cloud"):
     x, y = np.ascontiguousarray(points.T)
     bearings = np.arctan2(y, x)
     rows = _bearing_order(bearings)
-    if rows is not None and np.hypot(x, y).all():  # the origin itself has no bearing
+    if rows is not None and ((x != 0) | (y != 0)).all():  # the origin itself has no bearing
         if len(rows):
             x, y, bearings = x[rows], y[rows], bearings[rows]
         return _scan_surface(x, y, bearings, rows if len(rows) else None)
