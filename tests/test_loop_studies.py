@@ -73,9 +73,9 @@ def test_no_gate_alone_lets_in_what_is_right_and_nothing_else(corridor):
 
 def test_a_gate_keeps_false_loops_out_and_without_it_they_ruin_the_map(twins):
     assert twins.false_in(twins.with_gate) == 0
-    assert twins.false_in(twins.without) == twins.false.sum() > 20
+    assert twins.false_in(twins.without) >= twins.false.sum() > 20
     assert twins.worst(twins.with_gate.graph.poses) < 0.2
-    assert twins.worst(twins.without.graph.poses) > 3
+    assert twins.worst(twins.without.graph.poses, twins.without) > 3
 
 
 def test_false_loops_surprise_the_wheels_more_than_any_right_one(twins):

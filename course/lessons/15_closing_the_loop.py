@@ -682,20 +682,20 @@ twins = false_loops.twins()
 systems = {"gate at 60": twins.with_gate, "no gate": twins.without}
 for name, slam in systems.items():
     refused, bad = slam.counts["loops too surprising"], twins.false_in(slam)
-    off_by = twins.worst(slam.graph.poses)
+    off_by = twins.worst(slam.graph.poses, slam)
     print(f"{name}: {refused} refused, {bad} false let in, {off_by:.2f} m off at worst")
 
 # %% slideshow={"slide_type": "subslide"} tags=["folded"]
 shown = {}
 for name, slam in systems.items():
     tied = Segments("loop", false_loops.ends(slam.graph))
-    shown[name] = laid(slam.graph.poses, twins.clouds) | {"loops": tied}
+    shown[name] = laid(slam.graph.poses, false_loops.clouds(slam)) | {"loops": tied}
 fig, all_axes = views.side_by_side(shown, size=(9.5, 3.4))
 all_axes[0].set(xlim=(-3, 16), ylim=(-2, 7))
 views.show(
     fig,
     f"With the gate two rooms off a corridor; without it one room, in which both lie, and an error of "
-    f"{twins.worst(twins.without.graph.poses):.1f} m.",
+    f"{twins.worst(twins.without.graph.poses, twins.without):.1f} m.",
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
@@ -827,7 +827,7 @@ surprises = twins.surprises()
 def on_trial(false_offered, phi, gate):
     offered = twins.offered(false_offered)
     graph, _ = twins.closed(offered[surprises[offered] <= gate], phi)
-    layers = laid(graph.poses, twins.clouds)
+    layers = laid(graph.poses, false_loops.clouds(twins.with_gate))
     for label, name, bad in (("right loops", "loop", False), ("false loops", "naive", True)):
         edges = [edge for edge in graph.edges if edge.robust and twins.lies(edge) == bad]
         layers[label] = Segments(name, false_loops.ends(graph, edges))

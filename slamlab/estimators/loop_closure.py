@@ -32,6 +32,8 @@ OPTIMISE_LOOPS = 10  # loop edges after which the graph is optimised in any case
 # motion took away. On Intel it makes the weights that were found best, in clean simulation nothing
 COMMON_ERROR = 1.6
 MAX_ITERATIONS = 10  # of the pose graph's optimiser
+# squared step in standard deviations that ends it: a tenth of one is lost in what comes next
+STEP_TOLERANCE = 0.01
 
 
 class LoopClosure:
@@ -74,7 +76,7 @@ class LoopClosure:
     def optimise(self):
         """Optimise the pose graph, if loops were closed since it last was."""
         if self._pending:
-            self.graph.optimise(MAX_ITERATIONS)
+            self.graph.optimise(MAX_ITERATIONS, tolerance=STEP_TOLERANCE)
             self._pending, self._max_chi2 = 0, 0.0
 
     def _verify(self, j, i):

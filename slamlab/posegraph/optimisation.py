@@ -78,7 +78,7 @@ class Problem:
         return self.equations.linearise(J, weights[:, None, None] * self.information, e)
 
 
-def optimise(problem, poses, max_rounds, phi):
+def optimise(problem, poses, max_rounds, phi, tolerance=STEP_TOLERANCE):
     """Optimise (optimize) the poses: Gauss-Newton with Levenberg-Marquardt damping.
 
     Parameters
@@ -87,6 +87,7 @@ def optimise(problem, poses, max_rounds, phi):
     poses : (n, 3) initial guesses [m, m, rad]
     max_rounds : int
     phi : float, Φ of the robust edges [1]
+    tolerance : float, squared length of a step in standard deviations that ends it [1]
 
     Returns
     -------
@@ -102,7 +103,7 @@ def optimise(problem, poses, max_rounds, phi):
         candidate = poses + problem.equations.to_poses(step)
         candidate[:, 2] = wrap(candidate[:, 2])
         e_candidate, chi2_candidate = problem.errors(candidate)
-        small_step = -(g @ step) < STEP_TOLERANCE  # δᵀHδ, the step in standard deviations
+        small_step = -(g @ step) < tolerance  # δᵀHδ, the step in standard deviations
         # not a number counts as worse
         better = problem.cost(chi2_candidate, phi_now) <= problem.cost(chi2, phi_now)
         if small_step or better:

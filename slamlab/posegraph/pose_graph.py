@@ -7,7 +7,7 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from slamlab.posegraph import marginal_covariances, robust_kernel
-from slamlab.posegraph.optimisation import Problem, optimise
+from slamlab.posegraph.optimisation import STEP_TOLERANCE, Problem, optimise
 
 
 class Edge(NamedTuple):
@@ -96,13 +96,14 @@ class PoseGraph:
         information = _check_information(information, where)
         self.edges.append(Edge(int(i), int(j), measured, information, bool(robust)))
 
-    def optimise(self, max_rounds=100, phi=robust_kernel.PHI):
+    def optimise(self, max_rounds=100, phi=robust_kernel.PHI, tolerance=STEP_TOLERANCE):
         """Optimise the poses (nonlinear least squares): least Σ eᵀΛe, robust edges by ρ.
 
         Parameters
         ----------
         max_rounds : int; each solves one sparse linear system
         phi : float, Φ: the χ² up to which a robust edge counts in full [1]
+        tolerance : float, a step ends it whose squared length in standard deviations is less [1]
 
         Returns
         -------
@@ -113,7 +114,7 @@ class PoseGraph:
         ValueError : a pose is not finite, no chain of edges ties it to a fixed one, or the edges
             together leave it open
         """
-        poses, optimum = optimise(self._problem(), self.poses, max_rounds, phi)
+        poses, optimum = optimise(self._problem(), self.poses, max_rounds, phi, tolerance)
         self.poses = poses
         return optimum
 

@@ -104,6 +104,27 @@ def ends(graph, edges=None):
     return graph.poses[pairs, :2].reshape(-1, 4)
 
 
+def clouds(slam):
+    """Points of each keyframe's scan: list of (k, 2) [m]."""
+    return [keyframe.surface.points for keyframe in slam.keyframes]
+
+
+def closed_loops(slam, way):
+    """Loops that an estimator closed, and which of them are false.
+
+    Parameters
+    ----------
+    slam : GraphSlam that has run
+    way : (r, 3) true poses of all readings [m, m, rad]
+
+    Returns
+    -------
+    list of Edge, list of bool
+    """
+    edges, truth = [e for e in slam.graph.edges if e.robust], way[first_readings(slam)]
+    return edges, [is_false(e.i, e.j, e.measured, truth) for e in edges]
+
+
 def cost(graph, phi):
     """Cost of a graph's poses: χ² of trusted edges, and of robust ones what the kernel makes of it.
 
@@ -130,18 +151,17 @@ class Twins:
 
     Parameters
     ----------
-    truth : (n, 3) true poses of the keyframes [m, m, rad]
-    steps : (n − 1, 3) from one to the next, by the wheels [m, m, rad]
-    clouds : list of (k, 2) points of each keyframe's scan [m]
-    loops : list of Edge, the true ones first
+    way : (r, 3) true poses of all readings [m, m, rad]
+    steps : (n − 1, 3) from keyframe to keyframe of the drive with a gate, by the wheels
+        [m, m, rad]
+    loops : list of Edge between those keyframes, the true ones first
     false : (m,) bool, which of them are
     with_gate, without : GraphSlam
     robot : RobotModel
     """
 
-    truth: np.ndarray
+    way: np.ndarray
     steps: np.ndarray
-    clouds: list
     loops: list
     false: np.ndarray
     with_gate: GraphSlam
@@ -149,12 +169,12 @@ class Twins:
     robot: object
 
     def lies(self, edge):
-        """Whether an edge is a false loop."""
-        return is_false(edge.i, edge.j, edge.measured, self.truth)
+        """Whether an edge between keyframes of the drive with a gate is a false loop."""
+        return is_false(edge.i, edge.j, edge.measured, self.way[first_readings(self.with_gate)])
 
     def false_in(self, slam):
         """How many of an estimator's loops are false: int."""
-        return sum(edge.robust and self.lies(edge) for edge in slam.graph.edges)
+        return int(np.sum(closed_loops(slam, self.way)[1]))
 
     def surprises(self, claim=1.0):
         """Surprise d² of each loop to what the wheels alone believe.
@@ -203,9 +223,20 @@ class Twins:
             graph.add_edge(*self.loops[k][:4], robust=bool(np.isfinite(phi)))
         return graph, graph.optimise(phi=phi if np.isfinite(phi) else robust_kernel.PHI)
 
-    def worst(self, poses):
-        """Largest error of poses (n, 3) of the keyframes: float [m]."""
-        return float(np.hypot(*between(self.truth, poses)[:, :2].T).max())
+    def worst(self, poses, slam=None):
+        """Largest error of the poses of keyframes.
+
+        Parameters
+        ----------
+        poses : (n, 3) [m, m, rad]
+        slam : GraphSlam whose keyframes they are of; None: of the one with a gate
+
+        Returns
+        -------
+        float [m]
+        """
+        truth = self.way[first_readings(slam or self.with_gate)]
+        return float(np.hypot(*between(truth, poses)[:, :2].T).max())
 
 
 def twins(seed=0):
@@ -224,18 +255,24 @@ def twins(seed=0):
         gated = run(source, GraphSlam(source.robot))
     with mock.patch.multiple(loop_closure, NEAR=FAR, SURPRISE=np.inf):
         open_gate = run(source, GraphSlam(source.robot)).estimator
-    slam, naive = gated.estimator, gated.naive.poses[first_readings(gated.estimator)]
-    truth = true_poses(slam, source)
-    edges = [[edge for edge in each.graph.edges if edge.robust] for each in (slam, open_gate)]
-    wrong = [[is_false(e.i, e.j, e.measured, truth) for e in each] for each in edges]
-    loops = [e for e, bad in zip(edges[0], wrong[0], strict=True) if not bad]
-    lies = [e for e, bad in zip(edges[1], wrong[1], strict=True) if bad]
+    slam, way = gated.estimator, source.truth.poses
+    readings = first_readings(slam)
+    naive = gated.naive.poses[readings]
+    (right, wrong), (offered, lies) = closed_loops(slam, way), closed_loops(open_gate, way)
+    loops = [edge for edge, bad in zip(right, wrong, strict=True) if not bad]
+    # a ruined map makes other keyframes: of its loops those are tried whose both ends are shared
+    number = {int(reading): k for k, reading in enumerate(readings)}
+    of_open = [number.get(int(reading)) for reading in first_readings(open_gate)]
+    false = [
+        edge._replace(i=of_open[edge.i], j=of_open[edge.j])
+        for edge, bad in zip(offered, lies, strict=True)
+        if bad and None not in (of_open[edge.i], of_open[edge.j])
+    ]
     return Twins(
-        truth,
+        way,
         between(naive[:-1], naive[1:]),
-        [keyframe.surface.points for keyframe in slam.keyframes],
-        loops + lies,
-        np.arange(len(loops) + len(lies)) >= len(loops),
+        loops + false,
+        np.arange(len(loops) + len(false)) >= len(loops),
         slam,
         open_gate,
         source.robot,
