@@ -1,6 +1,7 @@
 """Questions: a source asks in full, its notebook by the id, so that no code tells answers.
 
-What is asked is kept in ``slamlab/data/questions/NN.json`` (``exNN.json``), where ``slamlab.checks.ask`` finds it.
+What is asked is kept in ``slamlab/data/questions/NN.json``, of an exercise in ``exNN.json``, where
+``slamlab.checks.ask`` finds it.
 """
 
 import ast
