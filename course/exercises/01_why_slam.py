@@ -417,7 +417,7 @@ def _():
 #
 # Return the best track of the whole drive that you can. Any method goes. These questions may lead on:
 #
-# - Where is the robot whenever it is docked? Is it enough to begin anew from there?
+# - Where is the robot whenever it is docked? Is it enough to start afresh from there?
 # - The lap that the wheels report does not close. By how much does it miss its start in place, and by
 #   how much in heading? Which of the steps in between are to blame, and how would you share out both?
 # - By how much does a robot turn altogether in a lap? And by how much did this one say it did?

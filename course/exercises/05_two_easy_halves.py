@@ -312,9 +312,9 @@ ask(
     "heading. **Can one range change the estimate of the heading all the same?**",
     {
         "no: the range says nothing about the heading": "by itself it says nothing. But it corrects the place, and the errors of place and heading may "
-        "hang together.",
-        "yes, if the errors of place and heading are related": "whoever learns where it is learns then where it looks, too, as when it drove here on a heading "
-        "that it was unsure of.",
+        "be related.",
+        "yes, if the errors of place and heading are related": "a robot that drove here on a doubtful heading is now off to the side to which its heading was. "
+        "What tells it of the one tells it of the other.",
         "yes, always: the heading is part of the state": "if P is diagonal, nothing passes from place to heading.",
     },
     right="yes, if the errors of place and heading are related",
@@ -393,7 +393,7 @@ ask(
     "**Where does it end, after forty steps?**",
     {
         "near the truth: the true sights win in the end": "an EKF goes downhill from where it starts, and false sights push it about as hard as true ones.",
-        "far off, and its ellipses are large": "P never depends on what was seen. It shrinks with every sight, true or false.",
+        "far off, and its ellipses are large": "P does not depend on how well a sight fits. It shrinks with every sight, true or false.",
         "far off, and its ellipses are small": "on eight such runs it ended 0.7 m to 2.3 m off, and each time it claimed a σ of less than 10 cm.",
     },
     right="far off, and its ellipses are small",

@@ -286,7 +286,8 @@ ask(
 #
 # **Your task.** Write a step that finds the robot again soon, and that false sightings do not lead astray. Any method
 # will do. It gets as many samples as it must return, with weights that are not negative, and all that it knows of the
-# past is in them. Sixteen drives are scored by how far the weight is from the robot.
+# past is in them. Sixteen drives are scored by how far the samples are from the robot on average,
+# each counted by its weight.
 
 # %%
 ROOM, REACH, GHOSTS = np.array([10.0, 8.0]), 10.0, 0.1
@@ -322,7 +323,8 @@ def find_again(rows, weights, u, C, p, z, R, rng):
 check("11-kidnapped")
 
 # %% [markdown]
-# In this drive the robot is carried off after step 12. How far is the weight from the robot?
+# In this drive the robot is carried off after step 12. The picture shows how far the samples are from it on average, each
+# counted by its weight.
 
 
 # %%

@@ -113,7 +113,7 @@ def lost_since(errors, limit):
 check("12-lost")
 
 # %% [markdown]
-# Here are three made-up runs. The legend says since when each is lost.
+# Here are three made-up runs. The legend says since when each is lost, or −1.
 
 
 # %% name="three-runs"
@@ -482,3 +482,10 @@ def _():
 # %% [markdown]
 # `track` goes on where nobody is. Yours has to jump once, and then stay. The lesson's `walls` cured slips
 # in a similar way, with walls that are in sight and samples that are weighed over many scans.
+
+# %% [markdown]
+# ## Done?
+#
+# Save the notebook. The cell below then says what the grader will say about it; the grader draws other inputs.
+# **Next:** lesson [13 · Scan matching](../notebooks/13_scan_matching.ipynb) uses scans as they are, without any
+# landmark.

@@ -366,8 +366,8 @@ def _():
 # boxes hide much of the rest. Its odometry slipped: the guess is off by 50 cm to 120 cm and by 30° to 90°. ICP goes downhill from
 # where it starts, and from there it goes into the wrong valley.
 #
-# **Your task.** Solve as many of 16 as you can, by any method. A match is *home* when it is off by less than 20 cm and 5°. Four,
-# eight and thirteen that are home earn more and more. So do nine that are off by less than 1.5 cm and 0.5° only. The ranges err by
+# **Your task.** Solve as many of 16 as you can, by any method. A match is *home* when it is off by less than 20 cm and 5°. There
+# are points for four, for eight and for thirteen that are home, and for nine that are off by less than 1.5 cm and 0.5° only. The ranges err by
 # 1 cm. Here are some ideas:
 #
 # - Start from many turns and choose the best end. What number tells the best one, when half of the points have no partner?
