@@ -203,9 +203,9 @@ ask(
     "in the world is that wall?** (metres)",
     {
         "at (1, −0.2)": "so it would be if the device counted counter-clockwise. It counts clockwise from its own front.",
-        "at (−1, 0.2)": "the sensor is behind the robot’s centre, and the robot looks along +y: so it is at y = −0.2.",
-        "at (−1, −0.2)": "clockwise from a front that looks backwards is the robot’s left, and that is −x here.",
-        "at (−0.2, 1)": "that is the place in the robot’s frame. The robot itself looks along +y.",
+        "at (−1, 0.2)": "the sensor is behind the robot's centre, and the robot looks along +y: so it is at y = −0.2.",
+        "at (−1, −0.2)": "clockwise from a front that looks backwards is the robot's left, and that is −x here.",
+        "at (−0.2, 1)": "that is the place in the robot's frame. The robot itself looks along +y.",
     },
     right="at (−1, −0.2)",
 )

@@ -380,8 +380,8 @@ ask(
     "together on several mornings. **How well can you know the way from the one to the other?**",
     {
         "to a metre or so: that is how far off the readings are": "each of them is. But the two readings of one morning are off by the same amount.",
-        "to a metre divided by the root of the number of mornings": "that is what the mean of each door’s readings achieves, and more is in them.",
-        "to two or three centimetres, or better": "a morning’s error moves both doors alike, so the way between them does not contain it.",
+        "to a metre divided by the root of the number of mornings": "that is what the mean of each door's readings achieves, and more is in them.",
+        "to two or three centimetres, or better": "a morning's error moves both doors alike, so the way between them does not contain it.",
     },
     right="to two or three centimetres, or better",
 )

@@ -153,7 +153,7 @@ ask(
     "see no more change?**",
     {
         "one: the best motion is found in closed form": "it is the best for pairs that are mostly wrong.",
-        "about five": "the shift is nearly right by then. The turn is not: each round’s pairs hold the cloud back.",
+        "about five": "the shift is nearly right by then. The turn is not: each round's pairs hold the cloud back.",
         "about fifteen": "the nearest points slip along the walls only a little in each round, so the turn comes slowly.",
         "more than a hundred": "pairs change only finitely often, and here they soon settle.",
     },
