@@ -1,6 +1,7 @@
-"""Questions: a lesson's source asks in full, its notebook by the id, so that no code tells answers.
+"""Questions: a source asks in full, its notebook by the id, so that no code tells answers.
 
-What is asked is kept in ``slamlab/data/questions/NN.json``, where ``slamlab.checks.ask`` finds it.
+What is asked is kept in ``slamlab/data/questions/NN.json``, of an exercise in ``exNN.json``, where
+``slamlab.checks.ask`` finds it.
 """
 
 import ast
@@ -77,7 +78,7 @@ def file(source, root):
     -------
     Path
     """
-    return root / "slamlab" / "data" / "questions" / f"{source.number}.json"
+    return root / "slamlab" / "data" / "questions" / f"{source.prefix}.json"
 
 
 def text(source):

@@ -68,7 +68,7 @@ def differences(path, root=ROOT):
     """
     found, all_derived = [], derive(path, root)
     asked, kept = all_derived[0].source, asking.file(all_derived[0].source, root)
-    if asked.kind == "lesson" and asking.text(asked) != _text(kept):
+    if asking.text(asked) != _text(kept):
         found.append(f"{kept.relative_to(root).as_posix()}: holds other questions")
     for derived in all_derived:
         name, stored = derived.path.relative_to(root).as_posix(), _stored(derived.path)
@@ -145,9 +145,9 @@ def _select_sources(names):
 
 
 def _keep_questions(source, root):
-    """Store what a lesson asks, if that is new."""
+    """Store what a source asks, if that is new."""
     file, text = asking.file(source, root), asking.text(source)
-    if source.kind != "lesson" or text == _text(file):
+    if text == _text(file):
         return
     file.parent.mkdir(parents=True, exist_ok=True)
     file.write_text(text, encoding="utf-8", newline="\n")

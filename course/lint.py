@@ -145,12 +145,12 @@ def _minutes(source):
 
 
 def _questions(source):
-    """Problems of questions: ids that are not this lesson's, answers without their question."""
+    """Problems of questions: ids that are not this notebook's, answers without their question."""
     asked = set()
     for cell in source.cells:
         for id in QUESTION.findall(cell.text) if cell.type == "code" else ():
-            if not id.startswith(f"{source.number}-") or id in asked:
-                yield cell, f"call the question {source.number}-…, and each one differently"
+            if not id.startswith(f"{source.prefix}-") or id in asked:
+                yield cell, f"call the question {source.prefix}-…, and each one differently"
             asked.add(id)
             try:
                 asking.asked(cell.text)

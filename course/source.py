@@ -102,6 +102,11 @@ class Source:
         return self.path.stem.split("_")[0]
 
     @property
+    def prefix(self):
+        """What the ids of its questions begin with: its number, of an exercise such as "ex04"."""
+        return f"ex{self.number}" if self.kind == "exercise" else self.number
+
+    @property
     def file(self):
         """The name of its notebooks."""
         return file_name(self.path)

@@ -1,7 +1,7 @@
 # %% [markdown]
 # # Exercise 01 · Why SLAM
 #
-# **You will be able to** chain the steps that wheels report to a track, say how one pose looks from
+# **You will be able to** chain the steps that wheels report into a track, say how one pose looks from
 # another, and predict how far a robot goes astray that only counts its steps. Then you will do this
 # for a drive of any shape, and mend the track of a robot that came home now and then.
 #
@@ -13,6 +13,9 @@
 # marked `@attempt` draw. They say "not attempted yet" until your functions are there, because every
 # picture below is made by **your** functions.
 #
+# Now and then a question asks what you expect. Nobody grades it; your answer opens the cells that show
+# what comes out.
+#
 # Lengths are in metres and angles in radians. A pose is `[x, y, θ]`, an array of three numbers. Its
 # heading $\theta$ is counter-clockwise from +x and lies between $-\pi$ and $\pi$. No function may
 # change its arguments: whoever called it still needs them.
@@ -23,7 +26,7 @@ from itertools import pairwise
 import numpy as np
 
 from slamlab import views, worlds
-from slamlab.checks import attempt, check
+from slamlab.checks import ask, attempt, check
 from slamlab.layers import Points, Poses, Segments
 from slamlab.simulation import RPLIDAR_A2
 
@@ -96,12 +99,26 @@ def tour(corner_error=0.0):
 START = np.zeros(3)
 WALLS = Segments("walls", worlds.corridor().outline())
 
-# %% [markdown]
-# **Predict first.** The odometry reports 3° too much at each corner. After the lap of 42 m, how far
-# from its start does the robot believe to be? Write a number down.
+# %%
+ask(
+    "ex01-lap",
+    "The odometry reports every length rightly, and 3° too much at each of the four corners. **After "
+    "the lap of 42 m, how far from its start does the robot believe itself to be?**",
+    right=1.4,
+    tolerance=0.3,
+    unit="m",
+    reason="the heading ends 12° off, but the errors come one by one, and a lap turns back to where it began.",
+    wrong={
+        8.7: "so it would be if the heading were 12° off on all 42 m, straight ahead. But the errors come one "
+        "by one, and the way turns back.",
+        2.2: "that is one error of 3° at the start of a straight drive of 42 m. Here are four, and the way "
+        "turns back.",
+        0: "so it is in truth. But the robot believes its odometry, and four such sides do not close.",
+    },
+)
 
 
-# %% name="lap"
+# %% name="lap" answers="ex01-lap"
 @attempt
 def _():
     fig, ax = views.axes("One lap, 3° too much at each corner")
@@ -112,14 +129,15 @@ def _():
     views.show(fig, alt="The true lap closes; the lap of the odometry leaves the corridor.")
 
 
-# %% [markdown]
+# %% [markdown] answers="ex01-lap"
 # The true lap closes. The lap of the odometry runs through the walls: after four corners its heading
 # is wrong by 12°, and it does not come back to where it began.
-#
-# The scans are taken where the robot *is*, but the map is drawn where the robot *believes* to be.
-# `place` puts the points of a scan into the world, as the lesson did by (01.3). **Before you run
-# it:** what will the outer wall look like at the start, where the lap ends? Then move the slider. How
-# small must the error be for you to call the map good?
+
+# %% [markdown]
+# The scans are taken where the robot *is*, but the map is drawn where the robot *believes* it is.
+# `place` puts the points of a scan into the world, as the lesson did by (01.3). Move the slider, and
+# look at the outer wall at the start, where the lap ends. How small must the error be for you to call
+# the map good?
 
 
 # %% name="map"
@@ -137,7 +155,7 @@ def _():
 
     def draw(corner_error_in_degrees):
         believed = track(START, tour(np.radians(corner_error_in_degrees)))[::2]
-        maps = {"where the robot is": truth, "where it believes to be": believed}
+        maps = {"where the robot is": truth, "where it believes it is": believed}
         panels = {}
         for title, poses in maps.items():
             xy = np.vstack([place(p, s) for p, s in zip(poses, scans, strict=True)])
@@ -186,7 +204,7 @@ def seen_from(a, b):
 check("01-seen-from")
 
 
-# %% name="gap"
+# %% name="gap" answers="ex01-lap"
 @attempt
 def _():
     for degrees in (1, 2, 3, 6):
@@ -198,9 +216,8 @@ def _():
         )
 
 
-# %% [markdown]
-# Three degrees are hardly visible, and they open a gap of 1.4 m. The gap grows with the error. Was
-# your number near?
+# %% [markdown] answers="ex01-lap"
+# Three degrees are hardly visible, and they open a gap of 1.4 m. The gap grows with the error.
 
 # %% [markdown]
 # ## 3 · How errors grow
@@ -268,8 +285,8 @@ def _():
 # %% [markdown]
 # ## 4 · Any drive
 #
-# No robot drives straight for long. Now it drives any way, and its wheels err in both manners of the
-# lesson:
+# No robot drives straight for long. Now it drives along any path, and its wheels err in both of the
+# ways that the lesson tells apart:
 #
 # - each step is longer or shorter **in the direction in which the robot moved**, by an independent
 #   random share of its length with mean 0 and standard deviation `length_error` (0.02 is 2 %);
@@ -284,11 +301,25 @@ def _():
 # Do the same here. An error of heading at pose $k$ turns the whole rest of the track about that pose,
 # as if it were cut from cardboard. Which way does the end go, and how far? A robot may also move
 # sideways, so look at where its poses lie and not at where it looks.
-#
-# **Predict first.** Take a lap that ends where it began, and let a single error of heading be made at
-# one of its poses. Where along the lap does it do most harm to the end: at the beginning, in the
-# middle, or shortly before the end? And where does it do none?
-#
+
+# %%
+ask(
+    "ex01-harm",
+    "A lap ends where it began, and a single error of heading is made at one of its poses. **Where "
+    "along the lap does it do most harm to the end?**",
+    {
+        "at the beginning: all that follows is turned": "all of it is turned, about the place where the error was made. But the end of the lap lies just "
+        "there, and stays.",
+        "half way round": "what counts is how far the end lies from the place of the error, and on a lap it is farthest "
+        "away from the other side.",
+        "shortly before the end: nothing can make up for it": "nothing does, but only a short way is left that it can bend.",
+        "the same everywhere": "each error turns all that follows by the same angle. But how far the end moves by that depends "
+        "on how far away it is.",
+    },
+    right="half way round",
+)
+
+# %% [markdown]
 # A track has one pose or more. Poses may lie in one place, because a robot may turn on the spot, and
 # the errors may be 0.
 
@@ -342,13 +373,12 @@ def _():
 # %% [markdown]
 # Of the 400 robots 18 leave the frame at its left or right side, and 11 at its top or bottom. Two
 # standard deviations should lose 18 each time, give or take four, so your formula fits. The cloud
-# lies aslant, which two numbers cannot say. A covariance can, from lesson 03 on.
+# leans to one side, which two numbers cannot say. A covariance can, from lesson 03 on.
 #
-# And where did you expect the greatest harm? Here is what a single error of 1° does to the end, made
-# at each pose of the lap.
+# Here is what a single error of 1° does to the end, made at each pose of the lap.
 
 
-# %% name="harm"
+# %% name="harm" answers="ex01-harm"
 @attempt
 def _():
     n = len(tour())
@@ -362,7 +392,7 @@ def _():
     views.show(fig, alt="A curve that is zero at both ends of the lap and highest half way round.")
 
 
-# %% [markdown]
+# %% [markdown] answers="ex01-harm"
 # What counts is the straight line from the error to the end, and not the way that was driven between
 # them. An error at the far side of the building is the worst. One that is made at the start turns the
 # whole lap about its beginning, and the end of the lap lies just there, so it stays where it is: **a
@@ -387,7 +417,7 @@ def _():
 #
 # Return the best track of the whole drive that you can. Any method goes. These questions may lead on:
 #
-# - Where is the robot whenever it is docked? Is it enough to begin anew from there?
+# - Where is the robot whenever it is docked? Is it enough to start afresh from there?
 # - The lap that the wheels report does not close. By how much does it miss its start in place, and by
 #   how much in heading? Which of the steps in between are to blame, and how would you share out both?
 # - By how much does a robot turn altogether in a lap? And by how much did this one say it did?

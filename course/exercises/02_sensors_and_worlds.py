@@ -1,11 +1,11 @@
 # %% [markdown]
-# # 02 · Sensors and worlds: exercise
+# # Exercise 02 · Sensors and worlds
 #
 # **You will be able to** cast the ray of a lidar and the cone of an ultrasonic sensor, place what a
 # real device says in the world, simulate its noise, and find the size of that noise in readings of
 # a room in which people walk about.
 #
-# **60 minutes. Before:** lesson [02](../notebooks/02_sensors_and_worlds.ipynb).
+# **60 minutes. Before:** lesson [02 · Sensors and worlds](../notebooks/02_sensors_and_worlds.ipynb).
 #
 # Replace each `raise NotImplementedError(...)` by your code, run the cell, then run the check below
 # it, as often as you like. A check tries random inputs, and inputs at the edge of what the task
@@ -20,17 +20,17 @@
 import numpy as np
 
 from slamlab import layers, views
-from slamlab.checks import attempt, check
+from slamlab.checks import ask, attempt, check
 
 # %% [markdown]
-# ## A beam and a wall
+# ## 1 · A beam and a wall
 #
 # A beam leaves the point $p$ in the direction $\varphi$. A wall is a row `[x1, y1, x2, y2]`: it
 # goes from $p_1 = (x_1, y_1)$ to $p_2 = (x_2, y_2)$ and ends there. In the lesson the sensor stood
 # at the origin; here it may stand anywhere.
 #
-# **Predict first.** Draw a beam that passes beside a wall, and one that flies away from it. What
-# are $r$ and $\tau$ of (02.1) in each case?
+# A sketch helps. Draw a beam that passes beside a wall, and one that flies away from it. What are $r$
+# and $\tau$ of (02.1) in each case?
 #
 # **Your task.** How far does the beam fly until it meets the wall? Return `np.inf` where it does
 # not: the wall lies behind, or the beam passes beside it, or runs parallel to it.
@@ -103,7 +103,7 @@ def _():
 
 
 # %% [markdown]
-# ## The first echo
+# ## 2 · The first echo
 #
 # An ultrasonic sensor has a **cone** in place of a beam. It hears everything that lies less than
 # `half` to either side of its axis $\varphi$, and it reports the nearest place of all, because its
@@ -114,9 +114,9 @@ def _():
 # kinds. A wall's places are $p_1 + \tau\,(p_2 - p_1)$ with $0 \le \tau \le 1$, as in the lesson,
 # and their distance from $p$ has one least value along the line.
 #
-# **Predict first.** Draw a cone, and a wall whose nearest place to the sensor lies (1) between its
-# ends and in the cone, (2) between its ends and beside the cone, (3) at one end. Which place of
-# the wall is heard first in each case?
+# Draw a cone, and a wall whose nearest place to the sensor lies (1) between its ends and in the cone,
+# (2) between its ends and beside the cone, (3) at one end. Which place of the wall is heard first in
+# each case?
 #
 # **Your task.** How far is the nearest place of all walls that lies in the cone? Return `np.inf`
 # where there is none. A wall sends an echo from each of its places, at whatever slant it is hit.
@@ -188,17 +188,29 @@ def _():
 
 
 # %% [markdown]
-# ## What the device says
+# ## 3 · What the device says
 #
 # An RPLIDAR reports **degrees**, counted **clockwise** from its front, and **millimetres**, where 0
 # means that nothing came back. Its front looks along its own x axis. It is mounted on the robot at
 # the pose `mount`, given in the robot's frame, and the robot stands at `pose` in the world. From
 # frame to frame, (02.5) leads.
-#
-# **Predict first.** The sensor sits on the robot's rear and looks backwards: `mount` is
-# $(-0.2, 0, \pi)$. The robot stands at the origin and looks along +y. Where in the world is a wall
-# that the sensor reports at 90° and 1000 mm?
-#
+
+# %%
+ask(
+    "ex02-mount",
+    "The sensor sits on the robot's rear and looks backwards: `mount` is $(-0.2, 0, \\pi)$. The robot "
+    "stands at the origin and looks along +y. The sensor reports a wall at 90° and 1000 mm. **Where "
+    "in the world is that wall?** (metres)",
+    {
+        "at (1, −0.2)": "so it would be if the device counted counter-clockwise. It counts clockwise from its own front.",
+        "at (−1, 0.2)": "the sensor is behind the robot's centre, and the robot looks along +y: so it is at y = −0.2.",
+        "at (−1, −0.2)": "clockwise from a front that looks backwards is the robot's left, and that is −x here.",
+        "at (−0.2, 1)": "that is the place in the robot's frame. The robot itself looks along +y.",
+    },
+    right="at (−1, −0.2)",
+)
+
+# %% [markdown]
 # **Your task.** Return the points in the world, one row for each reading that came back.
 #
 # A scan may have any number of readings, even none, and it may be that none of them came back. Then
@@ -254,15 +266,27 @@ def _():
 
 
 # %% [markdown]
-# ## Noise
+# ## 4 · Noise
 #
 # Let us simulate a simple sensor. Its range errs by a share of itself, so that the standard
 # deviation of a range $r$ is `error` times $r$. And some beams return nothing: each is lost with
 # the probability `dropouts`, whatever happens to the others.
-#
-# **Predict first.** Let `error` be 0.01. How far off is a reading at 10 m typically? What is its
-# *variance*?
-#
+
+# %%
+ask(
+    "ex02-variance",
+    "Let `error` be 0.01. **What is the variance of a reading at 10 m?**",
+    right=0.01,
+    tolerance=0.002,
+    unit="m²",
+    reason="σ is 1 % of 10 m, hence 0.1 m, and the variance is its square.",
+    wrong={
+        0.1: "that is σ, in metres. The variance is its square.",
+        0.0001: "that is the square of the share. The share is of 10 m.",
+    },
+)
+
+# %% [markdown]
 # **Your task.** Make true ranges noisy. Take all chance from the generator `rng`, so that the same
 # seed gives the same result. What was NaN already stays NaN.
 #
@@ -289,9 +313,9 @@ def noisy(ranges, error, dropouts, rng):
 check("02-noise")
 
 # %% [markdown]
-# ## A busy room
+# ## 5 · A busy room
 #
-# Now the way back: how large is a sensor's `error`, if all that we have is its readings? A sensor
+# Now we turn the question round: how large is a sensor's `error`, if all that we have is its readings? A sensor
 # stands still and scans $k$ times, which makes an array of shape $(k, n)$ with a row a scan and a
 # column a beam. Each column holds repeated readings of *one* wall, at a distance that you do not
 # know.
@@ -319,10 +343,26 @@ def quiet_fit(scans):
 #
 # The walls are 1 to 9 m away, and `error` lies between 0.002 and 0.03. There are 24 scans or more,
 # and twelve beams or more. No reading is missing.
-#
-# **Predict first.** Twenty readings of a wall at 5 m err by 5 cm, and one reading is of a person,
-# at 0.5 m. How large is the standard deviation of all 21, roughly?
-#
+
+# %%
+ask(
+    "ex02-person",
+    "Twenty readings of a wall at 5 m are each 5 cm off, and one reading is of a person at 0.5 m. "
+    "**How large is the standard deviation of all 21?**",
+    right=0.97,
+    tolerance=0.15,
+    unit="m",
+    reason="one reading that is 4.5 m off outweighs twenty good ones, because each counts by its square. "
+    "quiet_fit would be wrong twentyfold.",
+    wrong={
+        0.05: "so say the twenty good ones. But the single bad one is ninety times as far off, and counts by "
+        "its square.",
+        0.26: "that is the mean of how far the 21 readings are from 5 m. A standard deviation takes the mean of "
+        "the squares.",
+    },
+)
+
+# %% [markdown]
 # **Your task.** Estimate `error` and `blocked` as well as you can, by any method. A few questions
 # may lead on:
 #

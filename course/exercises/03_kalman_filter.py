@@ -22,7 +22,7 @@
 import numpy as np
 
 from slamlab import views
-from slamlab.checks import attempt, check
+from slamlab.checks import ask, attempt, check
 from slamlab.layers import Ellipses, Points
 
 # %% [markdown]
@@ -63,10 +63,23 @@ START = {"x": np.array([2.0, 0.5]), "P": np.diag([0.4, 0.3]) ** 2}
 # The estimate is corrected by $K v$. A small $K$ ignores what was measured, a large one copies its
 # noise. The best $K$ leaves the least mean square error, summed over all states; and since every
 # other gain adds a square to what is left, the same $K$ is best for each state by itself.
-#
-# **Predict first.** According to the belief, a cart that is farther is also faster. The range comes
-# out longer than expected. Should the *speed* be corrected? And what if $P$ is diagonal?
-#
+
+# %%
+ask(
+    "ex03-height",
+    "The belief is a leaning ellipse: a cart that is farther is also faster. Only the *position* is "
+    "measured, and the range comes out longer than expected. **What happens to the speed and to its "
+    "doubt?**",
+    {
+        "nothing: the speed was not measured": "so it is where P is diagonal. Here a cart that is farther is probably faster.",
+        "the speed goes up, and its doubt gets smaller": "K has a row for the speed, since its error goes with that of the position.",
+        "the speed goes up, and its doubt stays": "what moves the speed also tells something about it.",
+        "the speed goes up, and its doubt grows, because it was off": "a surprise moves x. It never makes P larger.",
+    },
+    right="the speed goes up, and its doubt gets smaller",
+)
+
+# %% [markdown]
 # **Your task.** Return the best $K$, (n, m). $H$ may be any matrix. A sensor may even see nothing
 # of the state, and then $H$ is zero.
 
@@ -112,8 +125,6 @@ def _():
 # %% [markdown]
 # ## 2 · The update
 #
-# **Predict first.** Does $P$ after the update depend on what was measured?
-#
 # **Your task.** Return the belief after a measurement, `x` (n,) and `P` (n, n). Use your `gain` and
 # the ready `innovation`, or write everything anew. For $P$ take whichever form you like: with the
 # best gain all forms of the lesson are equal. Take in every measurement, however far off it is.
@@ -138,11 +149,11 @@ check("03-update")
 
 # %% [markdown]
 # The picture shows the cart's belief after two seconds, and what your update makes of it when a
-# range of 4.0 m is measured. Only the position is measured. **Before you run it:** what happens to
-# the height of the ellipse?
+# range of 4.0 m is measured. The width of an ellipse is the doubt about the position, and its height
+# that about the speed.
 
 
-# %% name="before-and-after"
+# %% name="before-and-after" answers="ex03-height"
 @attempt
 def _():
     x, P = np.array([3.0, 0.5]), np.array([[0.5, 0.2], [0.2, 0.15]])
@@ -160,15 +171,12 @@ def _():
     views.show(fig, alt="A wide leaning ellipse before, a small one near the measured line after.")
 
 
-# %% [markdown]
+# %% [markdown] answers="ex03-height"
 # With a right update, the ellipse has moved towards the measured line *and* upwards: the cart is
-# farther than it believed, so it is probably faster, too.
+# farther than it believed, so it is probably faster, too. And the ellipse has become flatter.
 
 # %% [markdown]
 # ## 3 · The whole filter
-#
-# **Predict first.** The cart rolls for an hour and measures its position every half second. Does
-# its $P$ shrink to zero?
 #
 # **Your task.** Run the filter over a whole drive, with the ready `predict` and with your `update`,
 # which the check asks for first. The start is the belief *before* the first step. Each row of `zs`
@@ -244,8 +252,8 @@ def _():
 # Then two meters are read, each with a noise of its own. A voltmeter shows $V_C$. An ammeter shows
 # the current through the resistor, in amperes, which is positive while the capacitor is charged.
 #
-# **Predict first.** One jump $j$ makes both voltages wrong. Are the errors that a step adds to them
-# related? If you know that the source is higher than believed, what do you know of the capacitor?
+# Think of a single jump $j$ first. What does it make of each of the two voltages, by the end of the
+# step?
 #
 # **Your task.** Derive $F$, $Q$ and $H$, each (2, 2), by the lesson's recipe: write the error,
 # multiply it by its transpose, take the expected value. Resistance and capacitance are positive. A
@@ -275,11 +283,23 @@ check("03-capacitor")
 
 # %% [markdown]
 # Now your filter runs with your matrices. Nobody measures the source, and both meters are bad: the
-# voltmeter has $\sigma = 0.3$ V, the ammeter $\sigma = 0.3$ A. **Before you run it:** the capacitor
-# lags behind the source. Will the estimate of the source lag, too?
+# voltmeter has $\sigma = 0.3$ V, the ammeter $\sigma = 0.3$ A.
+
+# %%
+ask(
+    "ex03-lag",
+    "The capacitor lags behind the source that charges it. **Will the estimate of the source lag "
+    "behind it, too?**",
+    {
+        "yes, by seconds, as the capacitor does: all that we know comes through it": "it does, but F says how the capacitor follows, and the current says how far it is behind.",
+        "hardly: a second after a jump it has found nearly all of it": "the model knows why the capacitor is behind, and the current says by how much.",
+        "not even by one reading": "each reading is noisy, so the filter takes over only some two thirds of a jump at once.",
+    },
+    right="hardly: a second after a jump it has found nearly all of it",
+)
 
 
-# %% name="source"
+# %% name="source" answers="ex03-lag"
 @attempt
 def _():
     rng, dt, steps = np.random.default_rng(12), 0.5, 80
@@ -304,9 +324,11 @@ def _():
     views.show(fig, alt="Your source, the true source, and the capacitor, which lags behind it.")
 
 
-# %% [markdown]
-# With right matrices the estimate does not lag. From $F$ the filter knows *why* the capacitor is
-# behind, and from the current by how much.
+# %% [markdown] answers="ex03-lag"
+# With right matrices the estimate hardly lags. From $F$ the filter knows *why* the capacitor is
+# behind, and from the current by how much. In a long run of this model the estimate misses a third of
+# a jump at the first reading, and a twentieth of it a second later; the capacitor then still misses
+# two thirds.
 
 # %% [markdown]
 # ## 5 · Make it better: ghosts
@@ -316,9 +338,20 @@ def _():
 # likely as the other. The other three are measurements as before, with the covariance $R$. No
 # reading tells which of the two it is. The cart also has sensors of its own, which tell in each
 # step what was added to its state: the truth becomes $F x + u + q$.
-#
-# **Predict first.** What does one ghost that is 4 m off do to the lesson's filter? What does it do
-# to the $P$ of that filter?
+
+# %%
+ask(
+    "ex03-ghost",
+    "The lesson's filter takes a ghost that is 4 m off for a measurement. **What becomes of its $P$?**",
+    {
+        "it grows, since the reading contradicts the belief": "P after an update does not depend on what was measured. The contradiction moves x, and leaves no "
+        "other trace.",
+        "it stays as it is": "the filter believes that it has learned something, as from any reading.",
+        "it shrinks, as after any measurement": "x jumps, and the filter claims to be surer than before. Nothing in P says that something was odd.",
+    },
+    right="it shrinks, as after any measurement",
+)
+
 
 # %% name="ghosts"
 GHOSTS = 0.25  # the share of ghosts among the readings
@@ -340,7 +373,7 @@ def ghost_drive(rng, steps=50):
 
 
 # %% [markdown]
-# **Your task.** Write a filter that lives with ghosts. The noise is no bell here, so the lesson's
+# **Your task.** Write a filter that lives with ghosts. The noise is not bell-shaped here, so the lesson's
 # promises that need one are off, and another rule may do better. Any method goes, and there are
 # many: refuse what does not fit, trust it less, weigh the two cases by how likely they are, follow
 # both, look again at what you refused. `zs` has one number in each row. `GHOSTS` and `REACH` hold
@@ -385,8 +418,7 @@ def wary_filter(x, P, us, zs, F, Q, H, R):
 check("03-ghosts")
 
 # %% [markdown]
-# This is one drive: what was read, what you believe, and where the cart was. **Before you run it:**
-# where should the band be widest?
+# This is one drive: what was read, what you believe, and where the cart was.
 
 
 # %% name="among-ghosts"
@@ -409,7 +441,8 @@ def _():
 # %% [markdown]
 # **See:** your line should pass by the dots that lie far off. The band should widen where readings
 # had to be left out, or may have been either.
-#
+
+# %% [markdown]
 # ## Done?
 #
 # Save the notebook. The cell below then says what the grader will say about it; the grader draws

@@ -2,7 +2,7 @@
 # # Exercise 04 · Models and Jacobians
 #
 # **You will be able to** write the Jacobians of EKF-SLAM as functions, derive that of a sensor which
-# is in no book, say how unsure a new landmark is and with whom it shares its error, and do better than
+# is in no book, say how unsure a new landmark is and with what it shares its error, and do better than
 # a tangent where the tangent fails.
 #
 # **60 minutes. Before:** lesson [04 · Models and
@@ -21,7 +21,7 @@
 import numpy as np
 
 from slamlab import layers, views
-from slamlab.checks import attempt, check
+from slamlab.checks import ask, attempt, check
 from slamlab.models import f_odometry, g, h
 
 # %% [markdown]
@@ -30,11 +30,25 @@ from slamlab.models import f_odometry, g, h
 # `h(x, p)` says at which range and bearing a robot at the pose $x$ sees a landmark at $p$:
 #
 # $$r = \sqrt{(p_x-x)^2+(p_y-y)^2}, \qquad \beta = \operatorname{atan2}(p_y-y,\ p_x-x) - \theta$$
-#
-# **Predict first.** The robot stands at the origin, looks along the x axis and sees a landmark 2 m ahead.
-# Now it steps 1 cm to its left. Does the range change? Does the bearing grow or shrink? Which entry of
-# $H_{\mathrm r}$ says so, and which sign must it have?
-#
+
+# %%
+ask(
+    "ex04-left",
+    "The robot stands at the origin, looks along the x axis and sees a landmark 2 m ahead. Now it "
+    "steps 1 cm to its left. **What happens to range and bearing?** (One entry of $H_{\\mathrm r}$ "
+    "says so. Which?)",
+    {
+        "the range grows, the bearing stays 0": "by Pythagoras the range grows by 25 µm, which no derivative sees. But the landmark is no longer "
+        "straight ahead.",
+        "the range stays, the bearing grows": "bearings count counter-clockwise, to the left. On which side of its nose has the robot now got "
+        "the landmark?",
+        "the range stays, the bearing shrinks below 0": "the landmark is now to the right of where the robot looks, by 1 cm in 2 m, 0.005 rad.",
+        "neither changes: the step is across the line of sight": "a step across the line of sight leaves the range alone. It is the bearing that notices it.",
+    },
+    right="the range stays, the bearing shrinks below 0",
+)
+
+# %% [markdown]
 # **Your task.** Return the 2 × 3 matrix of the derivatives of $h$ with respect to $x$, $y$ and
 # $\theta$ of the robot. The landmark may lie in any direction, behind the robot too, but never at the
 # robot itself.
@@ -76,13 +90,25 @@ def _():
 # %% [markdown]
 # ## 2 · Where a new landmark comes from
 #
-# A landmark that is seen for the first time is put where the robot believes to see it, at `g(x, z)`:
+# A landmark that is seen for the first time is put where the robot believes that it sees it, at `g(x, z)`:
 #
 # $$p_x = x + r\cos(\theta+\beta), \qquad p_y = y + r\sin(\theta+\beta)$$
-#
-# **Predict first.** The heading of the robot is 0.01 rad off. How far off is a landmark that it sees at 1 m,
-# and one that it sees at 8 m? Does it matter whether the landmark is ahead or to the side?
-#
+
+# %%
+ask(
+    "ex04-lever",
+    "The heading of the robot is 0.01 rad off, and all else is exact. **How far off does it place a "
+    "landmark that it sees 8 m away?**",
+    {
+        "1 cm, as at any distance: an angle is an angle": "it is 1 cm at 1 m. The same angle reaches farther, the longer the arm.",
+        "8 cm, along the line of sight": "the range is exact. A wrong heading swings the landmark round the robot.",
+        "8 cm, across the line of sight": "the landmark swings round the robot on an arm of 8 m, in whatever direction it stands.",
+        "it depends on whether the landmark is ahead or to the side": "in which direction it is off depends on that. How far does not.",
+    },
+    right="8 cm, across the line of sight",
+)
+
+# %% [markdown]
 # **Your task.** Return the derivatives of $g$ with respect to the pose, $J_{\mathrm r}$ (2 × 3, `J_xr` in the
 # code), and with respect to the measurement, $J_z$ (2 × 2), for any range $r > 0$.
 
@@ -121,9 +147,6 @@ check("04-jxr-jz")
 # have nothing to do with each other. The landmark that is computed from both has a covariance of its own,
 # $P_{nn}$ (2 × 2), and one with the pose, $P_{\mathrm rn}$ (3 × 2), whose rows are for $x$, $y$, $\theta$ of the
 # robot and whose columns are for $x$ and $y$ of the landmark.
-#
-# **Predict first.** If the robot truly stands 10 cm farther east than it believes, where is the landmark
-# truly? Can $P_{\mathrm rn}$ be zero?
 #
 # **Your task.** Return both, to first order, with your `J_xr` and `J_z`. `P` and `R` may be full matrices:
 # the errors of $x$, $y$ and $\theta$ may go together, and so may those of range and bearing. The heading is
@@ -182,11 +205,22 @@ def _():
 #
 # counted from the middle of the image to the right, in pixels. $F$, the focal length, is in pixels,
 # too. No book prints the Jacobian of *this* camera on *this* robot, and you do not need a book.
-#
-# **Predict first.** The robot turns a little to the left. If the camera is at the robot's centre, does the
-# change of a landmark's column depend on how far away the landmark is? And what does a camera that is 30 cm
-# ahead of the centre do, besides turning?
-#
+
+# %%
+ask(
+    "ex04-camera",
+    "The robot turns a little to the left, and its camera sits at its centre. Two landmarks appear in "
+    "the same column, one of them 1 m away, the other 10 m. **Whose column moves farther?**",
+    {
+        "that of the near one": "so it would be if the camera moved. At the centre it only turns.",
+        "that of the far one": "it swings past on a longer arm, but it is also seen from that much farther away.",
+        "both move by the same": "a turn about the camera moves all directions alike. A camera ahead of the centre is also carried "
+        "sideways, and then the near landmark moves farther.",
+    },
+    right="both move by the same",
+)
+
+# %% [markdown]
 # **Your task.** First write $X$ and $Y$ in terms of $x$, $y$, $\theta$, $p_x$, $p_y$, $a$ and $b$. Then
 # differentiate the quotient. Return `u` and its derivatives `H` with respect to $x$, $y$, $\theta$, $p_x$,
 # $p_y$, in this order. The landmark is always in front of the camera ($X \ge 0.5$ m).
@@ -276,10 +310,8 @@ def show_drive(method, name):
 attempt(lambda: show_drive(linearised, "linearised, 95 %"))
 
 # %% [markdown]
-# The ellipse lies in front of most robots; it is too long and far too thin.
-#
-# **Predict first.** A belief has one mean and one covariance, so it cannot draw a banana. Which ellipse
-# would you draw? Is its middle nearer to the start than that of the linearised one, or farther away?
+# The ellipse lies in front of most robots; it is too long and far too thin. A belief has one mean and one
+# covariance, so it cannot draw a banana. Which ellipse would you draw?
 #
 # **Your task.** Return the `mean` (3,) and the `covariance` (3, 3) of the pose after the drive, by any method
 # you like. `P` and `C` may be full matrices and are positive definite; the errors of pose and drive have

@@ -22,7 +22,7 @@
 import numpy as np
 
 from slamlab import layers, views
-from slamlab.checks import attempt, check
+from slamlab.checks import ask, attempt, check
 from slamlab.geometry import wrap
 from slamlab.models import A_odometry, H_landmark, H_robot, J_z, W_odometry
 from slamlab.models import f_odometry, g, h
@@ -64,9 +64,6 @@ def predict(x, P, u, C):
 # $$S = H P H^{\mathsf T} + R, \quad K = P H^{\mathsf T} S^{-1}, \quad \hat x \leftarrow \hat x + K v, \quad P
 # \leftarrow P - K S K^{\mathsf T}.$$
 #
-# **Predict first.** The landmark is right behind the robot. It is expected at 179° and seen at −179°.
-# What is $v$?
-#
 # **Your task.** Return the belief after the sight. The landmark may be anywhere but under the robot,
 # near or far, and the sight may contradict the belief. The range is a length, and is not wrapped.
 
@@ -94,11 +91,24 @@ check("05-locate")
 # %% [markdown]
 # The check knows no formula for $K$. It solves the least squares problem that $K$ solves, and compares.
 #
-# The next cell shows what one landmark tells, and what it does not. **Before you run it:** the landmark is
-# 3 m to the east. In which direction will the robot still be unsure?
-
+# The next cell shows what one landmark tells, and what it does not.
 
 # %%
+ask(
+    "ex05-one",
+    "The robot is unsure of its place by 0.5 m in every direction, and of its heading by 0.2 rad. Now "
+    "it sees one known landmark, 3 m to the east, with a good sensor. **Of what is it still unsure?**",
+    {
+        "of nothing: a range and a bearing fix a place": "they would, if it knew its heading. Two numbers cannot fix three.",
+        "of x, along the line of sight": "along it the range is measured, to 5 cm.",
+        "of y, across the line of sight, and of its heading": "if it moves round the landmark and turns along, it sees the same. Only both together are known better.",
+        "of its heading alone": "a robot that does not know where it looks does not know from where it looks, either.",
+    },
+    right="of y, across the line of sight, and of its heading",
+)
+
+
+# %% answers="ex05-one"
 @attempt
 def _():
     x, P, R = np.zeros(3), np.diag([0.5, 0.5, 0.2]) ** 2, np.diag([0.05, 0.02]) ** 2
@@ -109,18 +119,17 @@ def _():
         print(f"{name:7} σ of x {sigmas[0]:.2f} m, y {sigmas[1]:.2f} m, θ {sigmas[2]:.2f} rad")
 
 
-# %% [markdown]
+# %% [markdown] answers="ex05-one"
 # The robot now knows $x$, its distance to the landmark. It knows $y$, across the line of sight, much less
 # well: if it moves round the landmark and turns so as to keep it at the same bearing, nothing that it
 # sees changes.
-#
+
+# %% [markdown]
 # ## 2 · Localise: a whole run
 #
 # A run repeats two steps: drive, look, drive, look. After drive $k$ (counted from 0) the robot saw landmark
 # `ids[k]` at `zs[k]`, or it saw nothing: then `ids[k]` is −1 and `zs[k]` means nothing. `landmarks[id]` is
 # where a landmark stands.
-#
-# **Predict first.** How many beliefs are there after $n$ steps? Is the start one of them?
 #
 # **Your task.** Return the belief after every step, computed with `predict` and your `locate`. There is at
 # least one step and one landmark; perhaps nothing is ever seen. The robot may stand or drive backwards.
@@ -150,7 +159,8 @@ def localise(x, P, drives, ids, zs, landmarks, C, R):
 check("05-localise")
 
 # %% [markdown]
-# Here is a lap to try it on: the truth, and what the robot is told of it.
+# Here is a lap to try it on: the truth, and what the robot is told of it. The cell after it draws the
+# lap twice, once with the robot's eyes shut.
 
 
 # %% name="lap"
@@ -171,10 +181,6 @@ def lap(seed, steps=60):
         z = seen[id] + rng.multivariate_normal([0, 0], R)
         told.append((x, rng.multivariate_normal(u, C), id, z if id >= 0 else np.zeros(2)))
     return *(np.array(part) for part in zip(*told, strict=True)), landmarks, C, R
-
-
-# %% [markdown]
-# **Before you run it:** where on the lap will the ellipses be largest?
 
 
 # %%
@@ -228,8 +234,6 @@ def update_landmark(p, P, x, z, R):
 #
 # One that is in the map already is corrected by `update_landmark`.
 #
-# **Predict first.** Does a sight of landmark 7 change anything for landmark 12?
-#
 # **Your task.** Return a dict from each id to its pair `(p, P)`, of the landmarks seen and no others. Perhaps
 # nothing was seen (`n = 0`). The check's sensor is a surveyor's, good to a third of a millimetre.
 
@@ -258,7 +262,7 @@ check("05-map")
 
 # %% [markdown]
 # The next cell draws the map of the lap twice, from the true poses and from those that the wheels alone tell.
-# **Before you run it:** will the ellipses on the right be larger?
+# Compare the ellipses on both sides.
 
 
 # %%
@@ -285,7 +289,7 @@ def _():
 
 
 # %% [markdown]
-# They are as small, and they miss the landmarks. A filter believes what it is told, and here it was told
+# On the right they are as small, and they miss the landmarks. A filter believes what it is told, and here it was told
 # that the poses are exact.
 #
 # ## 4 · Beacons that tell only how far they are
@@ -300,10 +304,23 @@ def _():
 # All $\varepsilon_i$ have the standard deviation `sigma` and are independent of each other. The lesson's sensor was
 # another one, but its derivation covers this one, too. What changes is $h$, and with it $H$, which has one row
 # a beacon: `(m, 3)`.
-#
-# **Predict first.** Can a robot learn its *heading* from one range? From two? And what if the antenna stands
-# right on the axle, `a = 0`: can one sight change the heading even then?
-#
+
+# %%
+ask(
+    "ex05-axle",
+    "The antenna stands right where the pose is, `a = 0`, so a range is the same whatever the "
+    "heading. **Can one range change the estimate of the heading all the same?**",
+    {
+        "no: the range says nothing about the heading": "by itself it says nothing. But it corrects the place, and the errors of place and heading may "
+        "be related.",
+        "yes, if the errors of place and heading are related": "a robot that drove here on a doubtful heading is now off to the side to which its heading was. "
+        "What tells it of the one tells it of the other.",
+        "yes, always: the heading is part of the state": "if P is diagonal, nothing passes from place to heading.",
+    },
+    right="yes, if the errors of place and heading are related",
+)
+
+# %% [markdown]
 # **Your task.** Return the belief after the $m$ ranges, which are heard all at once: take $H$ for all of them
 # at the pose you are given. `m` may be 0, and then nothing was learned; it may be larger than 3, and a beacon
 # may be heard twice. The robot may stand right over a beacon; the antenna may come within centimetres of
@@ -335,8 +352,8 @@ def locate_by_ranges(x, P, rs, beacons, a, sigma):
 check("05-ranges")
 
 # %% [markdown]
-# A robot in a hall of 12 m hears one beacon, then two, then three. **Before you run the cell:** which shape
-# has the ellipse after one range?
+# A robot in a hall of 12 m hears one beacon, then two, then three. Look at the
+# shape of the ellipse after each.
 
 
 # %% name="beacons"
@@ -368,10 +385,23 @@ def _():
 # all*: `x[2]` tells nothing, and the standard deviation of $\theta$ in `P` is 1.8 rad. What is worse, three
 # sights in ten are false: they are range and bearing of something else, anywhere around the robot, under the
 # landmark's id. Of the first four sights, every second one is false.
-#
-# **Predict first.** What does `localise` do with a heading that is wrong by 120°? What does it do with a
-# sight that cannot be true, and how could it notice while its own heading is in doubt? Suppose you were given
-# a heading: how would you tell after ten steps that it was wrong?
+
+# %%
+ask(
+    "ex05-led",
+    "`localise` begins with a heading that may be anything, and three sights in ten are false. "
+    "**Where does it end, after forty steps?**",
+    {
+        "near the truth: the true sights win in the end": "an EKF goes downhill from where it starts, and false sights push it about as hard as true ones.",
+        "far off, and its ellipses are large": "P does not depend on how well a sight fits. It shrinks with every sight, true or false.",
+        "far off, and its ellipses are small": "on eight such runs it ended 0.7 m to 2.3 m off, and each time it claimed a σ of less than 10 cm.",
+    },
+    right="far off, and its ellipses are small",
+)
+
+# %% [markdown]
+# How could a filter notice that a sight cannot be true, while its own heading is in doubt? Suppose you
+# were given a heading: how would you tell after ten steps that it was wrong?
 #
 # **Your task.** Return beliefs after every step, as good as you can make them. The function is called as
 # `localise` is, and it may use the whole run, from its start to its end. The check drives thirty robots
@@ -415,8 +445,8 @@ def find_yourself(x, P, drives, ids, zs, landmarks, C, R):
 check("05-lost")
 
 # %% [markdown]
-# To try your method, here is such a run, whose truth is known. **Before you run it:** the picture on the left
-# is by your `localise`. Where will it be led?
+# To try your method, here is such a run, whose truth is known. The picture on the left is by your
+# `localise`.
 
 
 # %% name="lost"
@@ -437,7 +467,7 @@ def lost(seed, steps=40):
     return way, start, np.diag([0.2, 0.2, 1.8]) ** 2, drives, ids, zs, landmarks, C, R
 
 
-# %% name="found"
+# %% name="found" answers="ex05-led"
 @attempt
 def _():
     way, *told = lost(seed=3)

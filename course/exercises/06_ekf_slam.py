@@ -20,7 +20,7 @@
 import numpy as np
 
 from slamlab import views
-from slamlab.checks import attempt, check
+from slamlab.checks import ask, attempt, check
 from slamlab.geometry import wrap
 from slamlab.models import A_odometry, H_landmark, H_robot, J_xr, J_z, W_odometry
 from slamlab.layers import Ellipses, Points, Poses
@@ -64,9 +64,6 @@ def H_full(x, j):
 # A landmark is seen for the first time, at `z`, which errs with covariance `R` (2, 2). It is placed at
 # `g(x[:3], z)` and appended.
 #
-# **Predict first.** The robot knows an old landmark $i$. Are the errors of $i$ and of the new landmark related?
-# Through whom?
-#
 # **Your task.** Return the state with two more numbers, and the covariance with two more rows and columns. The
 # map may still be empty. The pose may be known exactly, so that its block of $P$ is zero.
 
@@ -90,7 +87,7 @@ check("06-augment")
 
 # %% [markdown]
 # The next cell drives a robot that starts exactly known and lets it see three landmarks, one after each metre.
-# **Before you run it:** will any block of the correlation matrix be white?
+# A white block would mean that two of them have nothing to do with each other.
 
 
 # %%
@@ -110,15 +107,13 @@ def _():
 
 # %% [markdown]
 # No block should be white: one robot placed all three, and its error is in each of them.
-#
+
+# %% [markdown]
 # ## 2 · Update: a landmark seen again
 #
 # Landmark `j` was seen at `z`. With $v = z - h$ and $S = H P H^{\mathsf T} + R$, (06.9) holds:
 #
 # $$K = P H^{\mathsf T} S^{-1}, \qquad x \leftarrow x + K v, \qquad P \leftarrow P - K S K^{\mathsf T}.$$
-#
-# **Predict first.** Landmark $i$ is not seen. When does it move all the same? And can an update make any
-# variance *grow*?
 #
 # **Your task.** Return the state and the covariance after the sight. `H_full` above is $H$. The map holds one
 # landmark or more, and $P$ is positive definite. Bearings, and what you get when you subtract two of them,
@@ -147,12 +142,24 @@ def update(x, P, z, j, R):
 # %%
 check("06-update")
 
-# %% [markdown]
-# Who learns? The robot has placed three landmarks, and now sees the first one again, 20 cm nearer than it
-# expects. **Before you run the cell:** which of the three landmarks will move most, and which least?
-
-
 # %%
+ask(
+    "ex06-who",
+    "A robot that started exactly known has placed landmarks 0, 1 and 2, driving a metre after each. "
+    "Now it sees landmark 0 again, 20 cm nearer than it expects. **Which of the three landmarks does "
+    "the update move most?**",
+    {
+        "landmark 0, which was seen": "it was placed from a pose that was known, so it is the surest of all. The filter rather believes "
+        "that the robot is elsewhere.",
+        "none but landmark 0: the others were not seen": "they were placed from poses whose error the robot still carries along.",
+        "landmark 1, half way": "it moves, but the robot had gathered more error when it placed the next one.",
+        "landmark 2, the last one placed": "the robot was least sure of itself when it placed it, and shares most of its error with it.",
+    },
+    right="landmark 2, the last one placed",
+)
+
+
+# %% answers="ex06-who"
 @attempt
 def _():
     x, P = np.zeros(3), np.zeros((3, 3))
@@ -168,14 +175,16 @@ def _():
         print(f"{name:11} moves {far:4.1f} cm, its σ goes from {sigma:4.1f} to {now:4.1f} cm")
 
 
+# %% [markdown] answers="ex06-who"
+# The robot takes nearly all of the 20 cm for its own error, since it is far less sure of itself than of landmark
+# 0, and it takes along whatever it placed with that error.
+
 # %% [markdown]
 # ## 3 · The whole filter
 #
 # In one step of SLAM the robot drives `u`, then sees some landmarks: `seen[k]` is the id of the one seen at
 # `z[k]`. `ids` holds the ids of the landmarks in the state, in its order, so `ids[j]` is the id of landmark
 # `j`.
-#
-# **Predict first.** In which order do you predict, update and augment, and why does the order matter?
 #
 # **Your task.** Return the state, the covariance and the ids after the step, computed with your functions. The
 # check drives your filter through ten runs. It asks whether robot and map err as much as $P$ says, and whether
@@ -205,13 +214,22 @@ def slam_step(x, P, ids, u, seen, z, C, R):
 # %%
 check("06-slam")
 
-# %% [markdown]
-# The next cell drives your filter round a loop of 25 m, with landmarks on either side that are seen from 2.5 m
-# away. **Before you run it:** where will the ellipses be largest, and what happens to them when the loop
-# closes?
-
-
 # %%
+ask(
+    "ex06-largest",
+    "The next cell drives your filter round a loop of 25 m, with landmarks on either side that are "
+    "seen from 2.5 m away, and a little beyond the start. **Whose ellipses are largest at the end?**",
+    {
+        "those of the landmarks seen last, where most error has gathered": "so it was until the loop closed. Now they are tied to the first ones, which are known well.",
+        "those half way round": "seen from the start, they are the farthest away in either direction.",
+        "those seen first, which have been out of sight the longest": "they were placed from a pose that was known, and no ellipse grows while it is out of sight.",
+        "none: when the loop closes, all become equally sure": "all become surer. But each stays as unsure as its way from the start makes it.",
+    },
+    right="those half way round",
+)
+
+
+# %% answers="ex06-largest"
 @attempt
 def _():
     rng = np.random.default_rng(8)
@@ -237,12 +255,13 @@ def _():
     views.show(fig, alt="True and estimated track round a loop, landmarks with their ellipses.")
 
 
-# %% [markdown]
-# Look closely at the left. In the last third of the round the blue track is one or two hand's breadths away
+# %% [markdown] answers="ex06-largest"
+# Look closely at the left. In the last third of the round the blue track is 10 to 20 cm away
 # from the black one, and it jumps back where the first landmarks come into view again. The ellipses are small
 # at both ends of the round, and largest far from the start, at the top. About one true landmark in twenty may
 # lie outside its ellipse.
-#
+
+# %% [markdown]
 # ## 4 · Two landmarks turn out to be one
 #
 # A map was begun at both ends of a corridor. Then somebody tells the robot that what it calls landmark $i$ and
@@ -253,10 +272,22 @@ def _():
 #
 # This is an observation like any other: some $h$ of the state was "seen" to be 0, and it does not err at all.
 # The lesson has not coded it, but its derivation covers it.
-#
-# **Predict first.** The two estimates were 10 cm apart. Where will the post stand: in the middle? Will the
-# robot move? And what of the landmarks that have nothing to do with either?
-#
+
+# %%
+ask(
+    "ex06-post",
+    "The two estimates of the post were 10 cm apart. Nobody has seen anything at this moment. **Does "
+    "the estimate of the *robot* move?**",
+    {
+        "no: no sensor has said anything about it": "nobody has measured anything, and yet something is now known: how wrong the difference of the "
+        "two estimates was.",
+        "yes, by half of the 10 cm": "how far depends on P: on how much of its error the robot shares with either of the two.",
+        "yes, if its error is related to that of their difference": "what shares an error with the difference is corrected with it. What shares none stays.",
+    },
+    right="yes, if its error is related to that of their difference",
+)
+
+# %% [markdown]
 # **Your task.** Return the state and the covariance when both are known to be one. Landmark `j` leaves the
 # state, and those behind it move up; landmark `i` keeps its order among the rest. `i` may stand before or
 # behind `j`. $P$ is positive definite.
@@ -290,9 +321,9 @@ check("06-same")
 # landmark whose id it carries, and nobody says which. A landmark's *first* sight is never false. The wheels are
 # worse than before, so a robot that ignores its eyes is lost as well.
 #
-# **Predict first.** What does one false sight do to the robot's pose, and what to all the landmarks? How could
-# you notice that a sight cannot be true *before* it has done its harm? What does the filter know about how far
-# off a true sight may be?
+# One false sight moves the robot, and with it every landmark that shares its error. How could you notice that a
+# sight cannot be true *before* it has done its harm? What does the filter know about how far off a true sight
+# may be?
 #
 # **Your task.** Write another step of SLAM, called as `slam_step` is, as good as you can make it. The check
 # drives it through twenty runs of 23 steps and looks at the pose at the end: how far off it is, and whether the

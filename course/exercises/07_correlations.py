@@ -1,12 +1,12 @@
 # %% [markdown]
-# # 07 · Correlations: exercise
+# # Exercise 07 · Correlations
 #
 # **You will be able to** follow how landmarks come to share an error, pass on what was learned of
 # some to all the others, fuse estimates honestly that share an error, show what becomes of a filter
 # that forgets, and find out how large a shared error is when nobody tells you.
 #
 # **60 minutes. Before:** lessons [03](../notebooks/03_kalman_filter.ipynb) to
-# [07](../notebooks/07_correlations.ipynb).
+# [07 · Correlations](../notebooks/07_correlations.ipynb).
 #
 # Replace each `raise NotImplementedError(...)` by your code, run the cell, and then the check below
 # it, as often as you like. A check tries random inputs, and some at the edge of what a task promises;
@@ -21,7 +21,7 @@
 import numpy as np
 
 from slamlab import views
-from slamlab.checks import attempt, check
+from slamlab.checks import ask, attempt, check
 from slamlab.geometry import compose
 from slamlab.models import H_robot
 
@@ -44,10 +44,22 @@ def correlation(P):
 # two rows for each of two landmarks, $p_1$ and $p_2$. The robot sees $p_1$, then $p_2$, and does not
 # move in between. `H_1` and `H_2` are the whole (2, 7) Jacobians
 # $[H_{\mathrm r}\ \ H_{\mathrm p}\ \ 0]$ and $[H_{\mathrm r}\ \ 0\ \ H_{\mathrm p}]$ of (07.2).
-#
-# **Predict first.** The robot learns something when it sees $p_2$. Does $p_1$ become any surer by
-# that, if $P$ is block-diagonal at the start? And if the robot's pose is known exactly?
-#
+
+# %%
+ask(
+    "ex07-learn",
+    "$P$ is block-diagonal at the start. The robot sees $p_1$, and then $p_2$, without moving. **Does "
+    "$p_1$ become surer by the sighting of $p_2$?**",
+    {
+        "no: nothing was learned about it": "after the first sighting, p1 shares the error of the pose. So what is learned about the pose is "
+        "also learned about p1.",
+        "yes, a little: the pose does, and $p_1$ shares its error": "how much depends on how unsure the pose still is.",
+        "yes, and also if the pose is known exactly": "then there is no error that the landmarks could share, and each is on its own.",
+    },
+    right="yes, a little: the pose does, and $p_1$ shares its error",
+)
+
+# %% [markdown]
 # **Your task.** The covariance after the first sighting, and after both. `P` may be block-diagonal, as
 # in the lesson, or full from the start. `R` may be full as well, and the numbers may be in mm and
 # mrad. (If you know the MAK thesis: its formulas are printed with several slips, so derive them
@@ -81,7 +93,7 @@ check("07-two-updates")
 # Here the blocks fill up, one sighting after the other:
 
 
-# %%
+# %% answers="ex07-learn"
 @attempt
 def _():
     P = np.diag([0.2, 0.2, 0.1, 0.5, 0.5, 0.5, 0.5]) ** 2
@@ -98,10 +110,11 @@ def _():
     print("σ of p1's x [m], before and after each sight:", np.round(sigmas, 3))
 
 
-# %% [markdown]
+# %% [markdown] answers="ex07-learn"
 # **See:** the last matrix has no white block left. Nobody ever measured from $p_1$ to $p_2$, and still
 # they share an error: the robot's. And the sighting of $p_2$ made $p_1$ a little surer.
-#
+
+# %% [markdown]
 # ## 2 · What one hears of a landmark out of sight
 #
 # You have just seen $p_1$ learn from a sighting of $p_2$. In a large map this is expensive, since each
@@ -120,9 +133,9 @@ def _():
 # nothing about the rest, and neither the rest nor $G$ has changed. That is all you need to find the
 # new $\hat x$ and $P$.
 #
-# **Predict first.** Suppose that the small program comes back with `P_seen = 0`: it knows its entries
-# exactly. How sure are the others then? And what do they learn if they share no error with those in
-# sight?
+# Two cases will test your formula. Suppose that the small program comes back with `P_seen = 0`, since
+# it knows its entries exactly: how sure are the others then? And what do they learn if they share no
+# error with those in sight?
 #
 # **Your task.** The whole state and its covariance, afterwards. `seen` holds which entries of x were
 # in sight, counted from 0, in any order, each once: at least one, perhaps all. `x_seen` and `P_seen`
@@ -192,20 +205,32 @@ def _():
 # **See:** the two lower curves lie on each other. The landmarks that were known worst, those met last,
 # learned most from a sighting of the first few, and you passed it on without having seen anything
 # yourself. This is why the lesson's compressed filter can put off the far landmarks and lose nothing.
-#
+
+# %% [markdown]
 # ## 3 · Two estimates that share an error
 #
-# The same landmark was estimated twice, as $a$ and as $b$, by a robot that was lost by the same bit
-# both times. The errors $\tilde a$ and $\tilde b$ have the covariances `P_a` and `P_b`, and what they
+# The same landmark was estimated twice, as $a$ and as $b$, by a robot whose own pose was
+# wrong by the same amount both times. The errors $\tilde a$ and $\tilde b$ have the covariances `P_a` and `P_b`, and what they
 # share is $P_{ab} = E[\tilde a\,\tilde b^{\mathsf T}]$. We look for $x = a + K\,(b - a)$.
 #
 # Take $b - a$ for the innovation. From lesson 03 you know the best gain, $K = S_{xv} S^{-1}$: the
 # covariance of the error of $a$ with that of the innovation, $\tilde a - \tilde b$, times the inverse
 # of the innovation's own. Then $P = P_a - K S K^{\mathsf T}$. But what are $S_{xv}$ and $S$ here?
-#
-# **Predict first.** Let `P_a = P_b = I`. How sure is the best x if the two share nothing? And if they
-# share nearly everything?
-#
+
+# %%
+ask(
+    "ex07-twice",
+    "Each of the two estimates has the variance 1, in x and in y, and they share nearly all of their "
+    "error. **What is the variance of the best estimate from both?**",
+    {
+        "nearly ½": "so it is if they share nothing. What both have wrong, their mean has wrong, too.",
+        "nearly 1": "the second estimate says again what the first one said.",
+        "nearly 0: they agree with each other": "that they agree shows only that they have the same error.",
+    },
+    right="nearly 1",
+)
+
+# %% [markdown]
 # **Your task.** The estimate x and its covariance. The two may share nothing, or nearly everything, or
 # err in opposite directions; `P_ab` need not be symmetric. `P_a`, `P_b` and `P_ab` together are the
 # covariance of four numbers, and it can be inverted.
@@ -254,7 +279,8 @@ def _():
 # %% [markdown]
 # **See:** 95 of 100 errors should lie in your ellipse. The other one claims that a second estimate
 # removes a doubt which both have from the same source.
-#
+
+# %% [markdown]
 # ## 4 · SLAM in a corridor
 #
 # In one dimension all of SLAM is a few lines. `x[0]` is the robot's position, and `x[1]`, `x[2]`, … are
@@ -262,9 +288,6 @@ def _():
 # ahead, negative if the door lies behind. What it sees is $z = x_i - x_0 + \varepsilon$, and the
 # variance of the noise $\varepsilon$ is `r`. (In code `q` and `r` are small letters here, since they
 # are numbers: the $Q$ and $R$ of the lessons.) All is linear, so the filter is exact.
-#
-# **Predict first.** The robot has seen all doors, then drives far, and sees door 1 again, 30 cm nearer
-# than expected. Which estimates change? Do those of doors 2 and 3?
 #
 # **Your task.** One step: drive, then see. There may be any number of doors from one on, and robot and
 # doors may share errors from the start. The robot's variance may be 0, and so may `d` and `q`; `r` is
@@ -330,8 +353,10 @@ def _():
 # %% [markdown]
 # **See:** for an honest filter the curve lies in the grey band at 95 of 100 steps (there are four
 # unknowns, so NEES is 4 on average). The filter that forgets leaves the band as soon as doors come in
-# sight a second time, and its claim becomes ever more wrong: it takes the same old error for news.
-#
+# sight a second time, and its claim becomes ever more wrong: it takes the same
+# old error for a new one each time.
+
+# %% [markdown]
 # ## 5 · An error of unknown size that is shared (open)
 #
 # In this task there is no formula to find. Any method will do, and the check says how far yours gets.
@@ -347,11 +372,23 @@ def _():
 # The plain way takes the mean of each door's readings and divides σ² by their number. It is bad in two
 # respects, and the check scores both: the *error* of the doors, compared with the least that is
 # possible, and *NEES*, of the ways from each door to the next, and of each door by itself.
-#
-# **Predict first.** A morning's error is 1 m, and sigma is 2 cm. How well can you know the way between
-# two neighbouring doors? And if no morning passed both of them?
-#
-# Some thoughts to begin with, if you like. What could be a state here, and what would stand in its
+
+# %%
+ask(
+    "ex07-way",
+    "Each morning is off by 1 m or so, and `sigma` is 2 cm. Two neighbouring doors were passed "
+    "together on several mornings. **How well can you know the way from the one to the other?**",
+    {
+        "to a metre or so: that is how far off the readings are": "each of them is. But the two readings of one morning are off by the same amount.",
+        "to a metre divided by the root of the number of mornings": "that is what the mean of each door's readings achieves, and more is in them.",
+        "to two or three centimetres, or better": "a morning's error moves both doors alike, so the way between them does not contain it.",
+    },
+    right="to two or three centimetres, or better",
+)
+
+# %% [markdown]
+# Some thoughts to begin with, if you like. What do you know of two doors that no morning passed both of?
+# What could be a state here, and what would stand in its
 # covariance? How do the mornings' errors show in the readings, and how large do they seem to be? What
 # does lesson 07 say of a filter that leaves such an error out of its state?
 #
@@ -424,7 +461,8 @@ def _():
 # readings they are about twice as far off as they need be. A map that keeps what its readings share
 # knows them as well as all others: each of the twelve mornings helps, even those on which nobody
 # passed there.
-#
+
+# %% [markdown]
 # ## Done?
 #
 # Save the notebook. The cell below then says what the grader will say about it, though the grader

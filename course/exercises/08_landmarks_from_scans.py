@@ -1,11 +1,12 @@
 # %% [markdown]
-# # 08 · Landmarks from scans: exercise
+# # Exercise 08 · Landmarks from scans
 #
 # **You will be able to** fit a wall of any direction, say where two walls meet and how sure that is,
 # decide which wall of the map was seen, find round pillars as well, and take a whole scan apart into
 # its walls.
 #
-# **60 minutes. Before:** [lesson 08](../notebooks/08_landmarks_from_scans.ipynb).
+# **60 minutes. Before:** lesson [08 · Landmarks from
+# scans](../notebooks/08_landmarks_from_scans.ipynb).
 #
 # Replace each `raise NotImplementedError(...)` by your code, run the cell, then run the check below
 # it, as often as you like. A check tries random inputs, and inputs at the edge of what the task
@@ -18,14 +19,14 @@
 import numpy as np
 
 from slamlab import layers, views
-from slamlab.checks import attempt, check
+from slamlab.checks import ask, attempt, check
 from slamlab.geometry import wrap
 
 # %% [markdown]
-# ## Fit a wall
+# ## 1 · Fit a wall
 #
-# **Predict first.** Five points of a wall straight ahead: $p_x$ is 2.0 m for all of them, and $p_y$ runs from
-# −1 to 1 m. What are $\rho$ and $\alpha$? And what would `np.polyfit(x, y, 1)` say?
+# To try your function, take five points of a wall straight ahead: $p_x$ is 2.0 m for all of them, and $p_y$ runs
+# from −1 to 1 m. You know what $\rho$ and $\alpha$ must be.
 #
 # **Your task.** Return the $\rho \ge 0$ and the $\alpha$ of the line whose sum of squared distances to the points
 # is least. It goes through the centroid, and its normal is the direction in which the points scatter least. How
@@ -80,17 +81,28 @@ def _():
 
 
 # %% [markdown]
-# ## Where two walls meet
+# ## 2 · Where two walls meet
 #
 # You have two lines of one scan, each with its covariance `R`. The errors of $\rho$ and $\alpha$ of a line are
 # correlated; those of different lines are independent. The corner $p$ lies on both lines. With
 # $n = (\cos\alpha, \sin\alpha)$ for the normal of a line,
 #
 # $$n_1 \cdot p = \rho_1, \qquad n_2 \cdot p = \rho_2.$$
-#
-# **Predict first.** Two walls meet at a right angle, and only the $\alpha$ of the first is unsure. Along which wall
-# is the corner unsure?
-#
+
+# %%
+ask(
+    "ex08-corner",
+    "Two walls meet at a right angle. The second one is known exactly, and of the first only the "
+    "direction $\\alpha$ is unsure. **Along which wall is the corner unsure?**",
+    {
+        "along the first, whose direction is unsure": "the corner also lies on the second wall, which does not move.",
+        "along the second": "the first wall swings, and the place where it cuts the second one slides along that.",
+        "along both": "it cannot leave the second wall, which is known exactly.",
+    },
+    right="along the second",
+)
+
+# %% [markdown]
 # **Your task.** Return the corner and its covariance `P`, as in (08.9). You need not solve for $p$ by hand to
 # differentiate it. Differentiate both sides of $n \cdot p = \rho$ instead:
 #
@@ -140,13 +152,10 @@ def _():
 
 
 # %% [markdown]
-# ## Which wall was it?
+# ## 3 · Which wall was it?
 #
 # The scan shows $m$ walls: each row of `z` (m, 2) is a $\rho$ and an $\alpha$. Of the map's $N$ walls the robot
 # expects to see `expected` (N, 2), and for each of them the innovation has the covariance `S` (N, 2, 2).
-#
-# **Predict first.** A sighting is 0.1 m and 0.1 rad off what is expected of wall A, and 0.3 m and 0 rad off wall B.
-# Which is nearer? What do you have to know to answer?
 #
 # **Your task.** Pair sightings with walls by the square of the Mahalanobis distance (08.11),
 #
@@ -198,7 +207,7 @@ def _():
 
 
 # %% [markdown]
-# ## A round pillar
+# ## 4 · A round pillar
 #
 # The lesson's RANSAC sometimes takes the side of a pillar for a wall. Let us look for the pillars themselves. A
 # reading $p$ on a circle round the centre $c$ obeys $|p - c|^2 = \text{radius}^2$, which is not linear in what we
@@ -208,10 +217,24 @@ def _():
 #
 # This *is* linear, in $c_x$, $c_y$ and $d$. Three points determine the three of them; with more points, least
 # squares does.
-#
-# **Predict first.** How many readings have to be drawn for one guess? If 60 % of the readings are of the pillar,
-# which share of the guesses is of the pillar alone? And if all readings of a guess are of a *wall*: which centre does
-# it get, and which radius?
+
+# %%
+ask(
+    "ex08-share",
+    "60 % of the readings are of the pillar. **Which share of the guesses is made of readings of the "
+    "pillar alone?**",
+    right=22,
+    tolerance=2,
+    unit="%",
+    reason="a circle takes three readings, and 0.6³ is 0.216.",
+    wrong={
+        60: "that is the share of the readings. All readings of a guess must be of the pillar.",
+        36: "0.6² would do for a line, through two readings. A circle takes three.",
+    },
+)
+
+# %% [markdown]
+# Also think of a guess whose readings are all of a *wall*: which centre does it get, and which radius?
 #
 # **Your task** is two functions. `fit_circle` returns the circle whose $c$ and $d$ make the sum of the squared
 # differences between the two sides of the equation least, over all points. It is given three points or more, which
@@ -299,14 +322,27 @@ def _():
 
 
 # %% [markdown]
-# ## Make it better: all walls of a scan
+# ## 5 · Make it better: all walls of a scan
 #
 # One wall is a beginning, but a map needs all of them. In these rooms a quarter of the beams meet something that is
 # no wall: people, bags, the legs of chairs. A window of 25 neighbours is hardly ever free of clutter there.
-#
-# **Predict first.** With a quarter of clutter, how likely is it that nine neighbouring readings are all of the wall?
-# And two neighbours?
-#
+
+# %%
+ask(
+    "ex08-nine",
+    "A quarter of the readings are clutter. **How likely is it that nine neighbouring readings are "
+    "all of the wall?**",
+    right=7.5,
+    tolerance=1.5,
+    unit="%",
+    reason="0.75⁹ is 0.075. Two neighbours are both of the wall in 56 % of the cases.",
+    wrong={
+        75: "that is one reading. Nine must be of the wall at once.",
+        56: "that is two neighbours. Each further one costs another quarter.",
+    },
+)
+
+# %% [markdown]
 # **Your task.** Give each reading the number of its wall. Readings of one wall get the same number, those of another
 # wall another one, and clutter gets −1. All readings of one *straight line* are of one wall, even where something
 # stands before its middle. Which numbers you use does not matter, as long as they are whole and 0 or more.
@@ -415,5 +451,5 @@ def _():
 # %% [markdown]
 # ## Done?
 #
-# Save the notebook. The cell below then says what the grader will say about it; the grader draws other inputs. The
-# next lesson puts walls into a filter that drives.
+# Save the notebook. The cell below then says what the grader will say about it; the grader draws other inputs.
+# **Next:** lesson [09 · SLAM with walls](../notebooks/09_slam_with_walls.ipynb) puts walls into a filter that drives.

@@ -5,7 +5,7 @@
 # say where it ends and how sure that is, and draw a room without the things that only looked like
 # walls.
 #
-# **60 minutes. Before:** [lesson 09](../notebooks/09_slam_with_walls.ipynb), and exercise 06 for the
+# **60 minutes. Before:** lesson [09 · SLAM with walls](../notebooks/09_slam_with_walls.ipynb), and exercise 06 for the
 # filter on points.
 #
 # Replace each `raise NotImplementedError(...)` by your code and run the cell. Then run the check below
@@ -17,26 +17,23 @@
 # A wall is the line of all points $(a, b)$ with $a \cos\alpha + b \sin\alpha = \rho$. The robot at
 # $x, y, \theta$ sees it at $z = (\rho', \alpha')$: how far it is from the robot, and where its normal
 # points, counted from the heading. In the code the state is `x = [x, y, θ, ρ_0, α_0, ρ_1, α_1, …]`. We
-# use metres and radians throughout, and `wrap` takes an angle to $(-\pi, \pi]$.
+# use metres and radians throughout, and `wrap` brings an angle into $(-\pi, \pi]$.
 
 # %%
 import numpy as np
 
 from slamlab import views
-from slamlab.checks import attempt, check
+from slamlab.checks import ask, attempt, check
 from slamlab.geometry import wrap
 from slamlab.layers import Ellipses, Poses, Segments
 
 # %% [markdown]
-# ## Place a wall
+# ## 1 · Place a wall
 #
 # The robot's pose `x` errs with covariance `P` (3, 3). It sees a wall at `z`, which errs with `R`
 # (2, 2). By (09.2) of the lesson,
 #
 # $$ \alpha = \theta + \alpha', \qquad \rho = \rho' + x \cos\alpha + y \sin\alpha. $$
-#
-# **Predict first.** The robot stands far from the world's origin and is unsure of $\theta$. Which of
-# the wall's two numbers suffers? Which errors does the wall share with the robot?
 #
 # **Your task.** Return the line $(\rho, \alpha)$ in the world, its covariance
 # $C = J_{\mathrm r} P J_{\mathrm r}^{\mathsf T} + J_z R J_z^{\mathsf T}$, and
@@ -68,8 +65,7 @@ check("09-place")
 
 # %% [markdown]
 # Here is your function at work. A robot that is unsure of its heading by 2° sees a wall 2 m ahead,
-# first from the origin and then from 5 m to the side of it. Before you run the cell: from where is
-# $\rho$ less certain?
+# first from the origin and then from 5 m to the side of it. Compare how sure $\rho$ is.
 
 
 # %%
@@ -83,14 +79,11 @@ def _():
 
 
 # %% [markdown]
-# ## See it again
+# ## 2 · See it again
 #
 # Wall `j` is seen again, at `z`. By (09.1) of the lesson the robot expects it at
 #
 # $$ \rho' = \rho - x \cos\alpha - y \sin\alpha, \qquad \alpha' = \alpha - \theta. $$
-#
-# **Predict first.** $H$ has two rows. Which of its columns are not zero? Which entries would be wrong
-# if angles were in degrees?
 #
 # **Your task.** Return $x$ and $P$ after the update of the whole state: $v = z - h$,
 # $S = H P H^{\mathsf T} + R$, $K = P H^{\mathsf T} S^{-1}$, $x \leftarrow x + K v$,
@@ -125,7 +118,7 @@ def update(x, P, z, j, R):
 check("09-update")
 
 # %% [markdown]
-# ## Sightings and lives
+# ## 3 · Sightings and lives
 #
 # A book says of each wall how often it was seen and how many lives it has left:
 # `book[id] = (sightings, lives left)`. Each scan gives `seen`, a list of ids. These are the rules:
@@ -135,10 +128,21 @@ check("09-update")
 #   once; one look is one sighting.
 # - A wall that is not seen loses a life. At 0 it leaves the book, and if it comes back, it is new.
 # - `used` are the walls of *this scan* that have been seen `N` times or more, this time included.
-#
-# **Predict first.** With `lives = 3`, a wall is seen, missed in two scans, and seen again. Is it in
-# the book all the time? And with three scans missed?
-#
+
+# %%
+ask(
+    "ex09-lives",
+    "With `lives = 3`, a wall is seen once, missed in the next three scans, and then seen again. "
+    "**What does the book say of it after that?**",
+    {
+        "(2, 3): it was seen twice": "so it would be after two scans missed. With the third its last life is gone.",
+        "(1, 3): it is new": "with the third miss it left the book, and the book does not remember who has left.",
+        "(1, 1): it has used up two lives": "a wall that is seen has all its lives.",
+    },
+    right="(1, 3): it is new",
+)
+
+# %% [markdown]
 # **Your task.** Return the book after the scan, and the list of the ids used, in any order. Book and
 # scan may be empty, ids are whole numbers from 0 on, and `N` and `lives` are 1 or more. The check begins
 # with an empty book and hands yours on from scan to scan. It shows its scans as rows of a table that is
@@ -194,13 +198,25 @@ def add(x, P, z, R):
     return np.append(x, line), np.block([[P, rows.T], [rows, C]])
 
 
-# %% [markdown]
-# With your `place` and `update` a robot drives ten metres down a corridor, of which it sees only the two
-# walls. Before you run the cell: which of three $\sigma$ will grow, that of the place along the
-# corridor, of the place across it, of the distance from the left wall?
-
-
 # %%
+ask(
+    "ex09-across",
+    "With your `place` and `update` a robot drives ten metres down a corridor, of which it sees only "
+    "the two walls, in every scan. **Which of these three $\\sigma$ grow on the way?** That of its "
+    "place along the corridor (in the world), that of its place across it (in the world), and that of "
+    "its distance from the left wall.",
+    {
+        "none: it sees walls all the time": "no wall says how far along it the robot has come.",
+        "that along the corridor": "it does, but another one grows as well: where do the walls themselves run?",
+        "those along and across the corridor": "the distance from the wall is seen. But the direction of the whole corridor comes from a heading "
+        "that was a little wrong, and matters more, the longer the way.",
+        "all three": "the distance from the wall is measured in every scan.",
+    },
+    right="those along and across the corridor",
+)
+
+
+# %% answers="ex09-across"
 @attempt
 def _():
     C, R = np.diag([0.02, 0.01]) ** 2, np.diag([0.02, 0.01]) ** 2
@@ -219,13 +235,14 @@ def _():
     views.show(fig, alt="What the filter believes of its place along and across a corridor.")
 
 
-# %% [markdown]
+# %% [markdown] answers="ex09-across"
 # **See:** along the corridor $\sigma$ should grow as the noise of the wheels adds up, since nothing
 # measures it. The distance from the wall should stay known to a centimetre. And yet the place *across*
 # is less and less certain: the direction of the whole corridor comes from the heading with which its
 # walls were placed, and an error of that direction matters more, the farther the robot has come.
-#
-# ## Where a wall ends
+
+# %% [markdown]
+# ## 4 · Where a wall ends
 #
 # A line has no ends, but a wall has: a door-post, a corner. The robot sees the end of wall `j` as the
 # last beam that still meets it, in the direction $\beta$ from its heading. The range of that single beam
@@ -240,8 +257,8 @@ def _():
 # other. The lesson draws its walls from end to end and never asks how sure these ends are. What you need
 # is the recipe of `place`: an estimate is a function of things that err.
 #
-# **Predict first.** The beam meets the wall at a slant. In which direction is the end least certain?
-# And if the robot errs by 10 cm along the wall, but the wall is known exactly?
+# Two cases to think of: a beam that meets the wall at a slant, and a robot that errs by 10 cm along a wall
+# that is known exactly. In which direction is the end unsure in each of them, and by how much?
 #
 # **Your task.** Return the end $p$, its covariance $C$, and $X$, the covariance of its error with that of
 # the whole state. Beam and normal are less than 80° apart, and $r$ is positive. The state holds one wall
@@ -277,8 +294,7 @@ def end_point(x, P, j, beta, sigma):
 check("09-end")
 
 # %% [markdown]
-# Three beams of one robot meet one wall, which is known to 2 cm and half a degree. Before you draw them:
-# how long will the three ellipses be, and which way will they lie?
+# Three beams of one robot meet one wall, which is known to 2 cm and half a degree.
 
 
 # %%
@@ -289,7 +305,7 @@ def _():
     found = [end_point(x, P, 0, beta, np.radians(0.5)) for beta in betas]
     fig, ax = views.axes("Ends of a wall", size=(8, 3.4))
     views.draw(ax, Segments("walls", [[-0.5, 2, 5.5, 2]]))
-    views.draw(ax, Segments("naive", [[0, 0, *p] for p, _, _ in found]), label="beams")
+    views.draw(ax, Segments("scan", [[0, 0, *p] for p, _, _ in found]), label="beams")
     views.draw(
         ax, Ellipses("landmark", [p for p, _, _ in found], [C for _, C, _ in found]), label="ends"
     )
@@ -301,8 +317,9 @@ def _():
 # %% [markdown]
 # **See:** across the wall, all ends are known as well as the wall is. Along it they are less certain, the
 # flatter the beam meets the wall: half a degree of a grazing beam is a long way on the wall.
-#
-# ## Make it better: a map without ghosts
+
+# %% [markdown]
+# ## 5 · Make it better: a map without ghosts
 #
 # A robot goes once round a room with eight straight walls, and nobody tells it which wall is which.
 # A wall is *in view* while the robot is in front of it and within `far`; then four scans of five find
@@ -315,10 +332,24 @@ def _():
 #
 # Some walls are in view for longer than others. The one that is in view for the shortest time is found no
 # more often than a thing is. The wheels alone drift by a quarter of a radian on the way round.
-#
-# **Predict first.** The lesson's rule takes in what is sighted three times. Which of the two kinds of
-# ghosts does it let in? Would five times help, or ten? And what does a book of lives do to the walls
-# that the robot has left behind?
+
+# %%
+ask(
+    "ex09-often",
+    "The lesson's rule takes in what is sighted `N` times. **Which `N` lets in all walls, and neither "
+    "kind of ghost?**",
+    {
+        "3, as in the lesson": "it keeps out the lines that are nothing. But a thing that stands there for a dozen scans is "
+        "sighted more often than that.",
+        "5": "a thing is found in four scans of five while it stands there, so in ten or so.",
+        "10 or more": "that begins to keep out the things, and with them the wall that is in view for the shortest time.",
+        "none": "that wall is found no more often than a thing is. How often is not enough to go by.",
+    },
+    right="none",
+)
+
+# %% [markdown]
+# And what does a book of lives do to the walls that the robot has left behind?
 #
 # **Your task.** Return the walls of the room, as good a list as you can make of the whole drive. The
 # first scan is taken at the start, before the first drive. A wall is right if it is off by less than
@@ -367,7 +398,7 @@ check("09-ghosts")
 
 # %% [markdown]
 # Here is a drive to look at, in a plain room with four walls and one cart that stands across it for
-# twelve scans. Before you run the cell: which of the five will your map hold?
+# twelve scans.
 
 
 # %%
@@ -410,8 +441,10 @@ def _():
 # %% [markdown]
 # **See:** there should be four lines near four walls, and none where the cart stood. The error that is
 # left turns the map as a whole. It comes from the heading with which its first walls were placed.
-#
+
+# %% [markdown]
 # ## Done?
 #
 # Save the notebook. The cell below then says what the grader will say about it, but the grader draws
-# other inputs. Then drive the robot yourself: lesson 09 has the buttons.
+# other inputs. Then drive the robot yourself: lesson 09 has the buttons. **Next:** lesson
+# [10 · Boxes](../notebooks/10_boxes.ipynb) asks for a filter that promises never to lose the truth.

@@ -22,20 +22,17 @@
 import numpy as np
 
 from slamlab import views
-from slamlab.checks import attempt, check
+from slamlab.checks import ask, attempt, check
 from slamlab.geometry import wrap
 from slamlab.layers import Boxes, Points
 
 # %% [markdown]
-# ## The box after a drive
+# ## 1 · The box after a drive
 #
 # A robot is somewhere in `box`, and its heading $\theta$ anywhere from right to left. It drives a distance $d$, from
 # `way[0]` to `way[1]`, in the direction $\theta + \delta$, with $\delta$ from `direction[0]` to `direction[1]`. By (10.3)
 #
 # $$x' = x + d\cos(\theta+\delta),\qquad y' = y + d\sin(\theta+\delta).$$
-#
-# **Predict first.** The robot looks north, give or take 0.5 rad, and drives 1 m. What is the largest
-# $y' - y$? Do the two ends of the heading tell you?
 #
 # **Your task.** Return the smallest box that holds every place where the robot may be afterwards. The distance may be
 # negative, when the robot backs. Any of the intervals may have no width; heading and direction together may be wider than
@@ -88,7 +85,7 @@ def _():
 
 
 # %% [markdown]
-# ## The edges of a sighting
+# ## 2 · The edges of a sighting
 #
 # The robot sees an object at `z`, off by at most `bounds`. Its heading is known up to
 # `[right, left]`, so it looks in the `direction` that is the middle of the heading plus $\beta$, and by (10.5) that
@@ -98,7 +95,7 @@ def _():
 # `direction`; *left* and *right* are the rays at `direction` $\pm\, d_{\mathrm{abs}}$. An edge is a row
 # `[a, b, c]`. It allows the places with $a x + b y \le c$, and its vector $(a, b)$, the lesson's $n$, points out.
 #
-# **Predict first.** Draw the sector of a ring, and its near edge. Then ask: the robot is not at one point but somewhere in its
+# A sketch helps. Draw the sector of a ring, and its near edge. But the robot is not at one point; it is somewhere in its
 # box. Which point of the box decides how far each edge must be pushed out?
 #
 # **Your task.** Return four rows, for far, near, left and right in this order, pushed out for the robot's box.
@@ -160,17 +157,30 @@ def _():
 
 
 # %% [markdown]
-# ## The heading
+# ## 3 · The heading
 #
 # Wherever the robot is in its box and the object in its own, the bearing in the world from the one to the other lies
 # between two extremes. The robot has measured the bearing relative to its heading, as `bearing`, off by at most `bound`. What
 # does (10.10) leave of the heading?
 #
 # The extreme bearings are among those that lead from a corner of one box to a corner of the other.
-#
-# **Predict first.** The object is due west, and there are bearings of 3.1 and of −3.1. Which of the two is the
-# right end, which the left? And what does the sighting say when the two boxes overlap?
-#
+
+# %%
+ask(
+    "ex10-west",
+    "The object is due west of the robot, and the bearings that lead from box to box run from 3.1 "
+    "through $\\pi$ to −3.1. **How is this written as an interval `[right, left]`?**",
+    {
+        "[−3.1, 3.1]": "that is nearly the whole round: every direction that one meets going counter-clockwise from "
+        "−3.1, through 0, to 3.1.",
+        "[3.1, −3.1]": "counter-clockwise from 3.1 is right, but left is not to be less than right.",
+        "[3.1, 3.18]": "counter-clockwise from 3.1, and −3.1 is 3.18 on the same turn.",
+        "[−3.18, −3.1]": "these are the right directions, but right has to lie above −π.",
+    },
+    right="[3.1, 3.18]",
+)
+
+# %% [markdown]
 # **Your task.** Return the heading after the sighting, `[right, left]`; where the boxes overlap it is what it was. Boxes
 # either overlap or are clearly apart; they never just touch. The sighting agrees with the heading, and what they have in
 # common is one piece, never two. The bearing lies in $(-\pi, \pi]$. You have `wrap`: compare angles only after you have
@@ -209,7 +219,7 @@ def sharpen(heading, robot, box, bearing, bound):
 check("10-heading")
 
 # %% [markdown]
-# ## A range alone
+# ## 4 · A range alone
 #
 # A radio beacon is timed, or an echo is. Either tells how far away the object is, and nothing about its direction. The range is
 # `r`, off by at most `bound`. Now the possible places fill a whole ring, and there is no direction across which an edge
@@ -221,11 +231,22 @@ check("10-heading")
 #
 # with `bound` for $d_r$, and with 0 for $r - d_r$ if that is negative. The two boxes say between which numbers
 # $\Delta x$ lies, and $\Delta y$ independently of it.
-#
-# **Predict first.** A robot stands at the origin, and the range is exactly 2 m. The object is known to
-# be in the box $-3 \le x \le 3$, $0 \le y \le 1$. Which $x$ are possible? What is the smallest box?
-#
-# Then: for which $\Delta y$ can $|\Delta x|$ be largest, and for which can it be smallest? Some $\Delta x$ are negative and
+
+# %%
+ask(
+    "ex10-ring",
+    "A robot stands at the origin, and the range is exactly 2 m. The object is known to be in the box "
+    "$-3 \\le x \\le 3$, $0 \\le y \\le 1$. **Which is the smallest box that is left?**",
+    {
+        "$-3 \\le x \\le 3$, $0 \\le y \\le 1$: a range has no direction": "nothing is known of its direction. But nothing that is 3 m to the side is 2 m away.",
+        "$-2 \\le x \\le 2$, $0 \\le y \\le 1$": "two pieces of the circle cross the box, one on either side, and one box has to hold both.",
+        "$1.73 \\le x \\le 2$, $0 \\le y \\le 1$": "so it is on the right. But on the left the circle crosses the box as well.",
+    },
+    right="$-2 \\le x \\le 2$, $0 \\le y \\le 1$",
+)
+
+# %% [markdown]
+# For which $\Delta y$ can $|\Delta x|$ be largest, and for which can it be smallest? Some $\Delta x$ are negative and
 # some positive, and the robot's place is not known. What does that make of the object's $x$?
 #
 # **Your task.** Return the smallest box round all places of `box` that have such a distance from some place of
@@ -292,7 +313,7 @@ def _():
 
 
 # %% [markdown]
-# ## As small as can be
+# ## 5 · As small as can be
 #
 # A robot stands somewhere in its box and looks round once. It sees objects whose places are known
 # exactly. `look` takes in the sightings one after the other, as the lesson does. The robot's box is cut by the edges seen from
@@ -342,10 +363,10 @@ def look(robot, heading, objects, z, bounds):
 
 
 # %% [markdown]
-# This is sound, and it gives much away. After one round the box and the heading are some five times as wide as they would have
-# to be. Round after round, until nothing shrinks any more, they are still three times as wide.
+# This is sound, and it gives much away. After one round the box and the heading are some five times as wide as they need to
+# be. Round after round, until nothing shrinks any more, they are still three times as wide.
 #
-# **Predict first.** Two things make them wide. The edges are drawn for *all* headings from right to
+# Two things make them wide. The edges are drawn for *all* headings from right to
 # left at once: what would they look like if the heading were known ten times as well? And after each
 # edge a box is put round what is left: which places come back by that?
 #

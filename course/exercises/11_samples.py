@@ -1,7 +1,7 @@
 # %% [markdown]
 # # Exercise 11 · Samples
 #
-# **You will be able to** localise a robot with a cloud of samples, let samples count that were drawn from another
+# **You will be able to** localise a robot with a cloud of samples, weigh samples that were drawn from another
 # density than they should have been, and find a robot again that somebody carried off.
 #
 # **60 minutes. Before:** lesson [11 · Samples](../notebooks/11_samples.ipynb).
@@ -20,7 +20,7 @@
 import numpy as np
 
 from slamlab import layers, views
-from slamlab.checks import attempt, check
+from slamlab.checks import ask, attempt, check
 from slamlab.geometry import wrap
 from slamlab.models import f_odometry, h
 
@@ -59,10 +59,22 @@ def effective_size(weights):
 # covariance $R$, so the logarithms of their likelihoods add up:
 #
 # $$\ell_i = \sum_{j=1}^{m} -\tfrac12\, v_{ij}^{\mathsf T} R^{-1} v_{ij}, \qquad v_{ij} = z_j - h(x_i, p_j).$$
-#
-# **Predict first.** There are twenty landmarks, and each sighting is two standard deviations off in range and in
-# bearing. What is $e^{\ell}$? What is it for the 400 beams of a lidar? What becomes of its logarithm in a float?
-#
+
+# %%
+ask(
+    "ex11-float",
+    "A lidar has 400 beams, and each is two standard deviations off in range and in bearing. Its "
+    "likelihood is $e^{\\ell}$ with $\\ell = -1600$. **What does a float make of it?**",
+    {
+        "about $10^{-35}$": "so small is it for twenty landmarks. For 400 beams it is far smaller still.",
+        "exactly 0, and its logarithm is $-\\infty$": "no float but 0 is smaller than 5e-324. If all samples get 0, nothing tells the better ones "
+        "from the worse.",
+        "a small number, known to 16 digits": "a float has 16 digits down to some 2e-308. This number is about 1e-695.",
+    },
+    right="exactly 0, and its logarithm is $-\\infty$",
+)
+
+# %% [markdown]
 # **Your task.** Return the logarithms $\ell_i$ of all samples. A constant that all samples share does not matter. Samples
 # may be many metres off, so never compute a likelihood itself: it would be zero. Range and bearing may err together. Some
 # arrays hold whole numbers.
@@ -94,10 +106,20 @@ check("11-weigh")
 # Draw as many samples as there are, sample $i$ with the probability $w_i$. Lay the weights end to end on a rod of length
 # one, and hold a comb over it. The comb has $n$ teeth, $1/n$ apart, and *one* random number shifts the whole comb: its first
 # tooth stands anywhere from 0 to $1/n$, no place likelier than another. Each tooth picks the sample above whose piece it stands.
-#
-# **Predict first.** One of ten samples weighs 0.35. How many copies of it may the comb make? And how many may there be if each
-# of the ten draws has a random number of its own?
-#
+
+# %%
+ask(
+    "ex11-comb",
+    "One of ten samples weighs 0.35. **How many copies of it may the comb make?**",
+    {
+        "any number from 0 to 10": "so it is if each of the ten draws has a random number of its own.",
+        "3 or 4": "a piece of 0.35 is longer than three steps of the comb and shorter than four.",
+        "always 4": "3.5 is rounded up or down, and the shift of the comb decides which.",
+    },
+    right="3 or 4",
+)
+
+# %% [markdown]
 # **Your task.** Return the rows that are drawn, as indices from 0 to $n - 1$, in any order. Weights may be zero. They sum
 # to one, but for rounding, and rounding may leave the end of the last piece a hair below one. (`np.cumsum` gives the ends of
 # the pieces, and `np.searchsorted` finds a piece.)
@@ -141,8 +163,6 @@ def _():
 # 2. Multiply its weight by the likelihood, (11.5), and let the weights sum to one.
 # 3. If the cloud is now worth less than half its samples, (11.6), draw anew. All weights are equal then.
 #
-# **Predict first.** What becomes of the weights of the step before, if nothing was drawn then?
-#
 # **Your task.** Return the samples and the weights after the step. The weights that you are given are positive and sum to
 # one. All samples may be metres off, and the wheels may hardly err at all.
 
@@ -168,7 +188,7 @@ def localise(rows, weights, u, C, p, z, R, rng):
 check("11-localise")
 
 # %% [markdown]
-# Watch it: 3000 samples that begin anywhere, four landmarks with names, and five steps.
+# Watch 3000 samples that begin anywhere, in a room with four landmarks that have names.
 
 
 # %%
@@ -201,9 +221,9 @@ def _():
 # You know where each sample stood before and where it stands after its drive. (It drove along the heading that it had,
 # forwards or backwards, and then turned by less than half a turn.)
 #
-# **Predict first.** A sample made a drive that the drawing prefers ten times as much as the wheels do. How much should it count? Two samples
-# made the same drive, but one drew it from a narrow hill, the other from a hill four times as wide. May the
-# two weigh the same?
+# Two cases to think of. A sample made a drive that the drawing prefers ten times as much as the wheels do: how much should it count?
+# Two samples made the same drive, but one drew it from a narrow hill, the other from a hill four times as wide: may the two weigh the
+# same?
 #
 # **Your task.** The given weights are positive and hold everything that was seen. Multiply them by what (11.4) asks for
 # here, and let them sum to one. Some samples may lie so many $\sigma$ off that no density of theirs can be held in a
@@ -245,14 +265,29 @@ check("11-proposal")
 # At the beginning the cloud is where the robot is. Your `localise` follows it well until the robot is carried off. The
 # lesson threw strangers anywhere in the room. But here a stranger must hit three numbers, there are only 300 samples, and one
 # sighting tells two of the numbers.
-#
-# **Predict first.** You see a post at 3 m, and your samples expected it at 5 m. Which is likelier, a false sighting or
-# a kidnapping? And if the next post is odd, too? From which poses could the first sighting have been made? If you draw
-# some of these poses, with which density do you draw them (task 4)?
+
+# %%
+ask(
+    "ex11-odd",
+    "All samples agree, and expect a post at 5 m. It is seen at 3 m. **Which is likelier: that this "
+    "sighting is false, or that somebody has carried the robot off just now?**",
+    {
+        "a false sighting, about three times": "one sighting in ten is false, and one step in thirty is a kidnapping. In either case the post "
+        "may be seen almost anywhere.",
+        "a kidnapping: true sightings are never 2 m off": "true ones are not. But one sighting in ten is not true.",
+        "both are as likely": "one step in thirty is a kidnapping. How many sightings in thirty are false?",
+    },
+    right="a false sighting, about three times",
+)
+
+# %% [markdown]
+# And if the next post is odd, too? From which poses could the first sighting have been made? If you draw some of these
+# poses, with which density do you draw them (task 4)?
 #
 # **Your task.** Write a step that finds the robot again soon, and that false sightings do not lead astray. Any method
 # will do. It gets as many samples as it must return, with weights that are not negative, and all that it knows of the
-# past is in them. Sixteen drives are scored by how far the weight is from the robot.
+# past is in them. Sixteen drives are scored by how far the samples are from the robot on average,
+# each counted by its weight.
 
 # %%
 ROOM, REACH, GHOSTS = np.array([10.0, 8.0]), 10.0, 0.1
@@ -288,7 +323,8 @@ def find_again(rows, weights, u, C, p, z, R, rng):
 check("11-kidnapped")
 
 # %% [markdown]
-# In this drive the robot is carried off after step 12. How far is the weight from the robot?
+# In this drive the robot is carried off after step 12. The picture shows how far the samples are from it on average, each
+# counted by its weight.
 
 
 # %%
@@ -318,4 +354,5 @@ def _():
 #
 # Save the notebook. The cell below then says what the grader will say about it; the grader draws other inputs.
 #
-# **What comes next:** in lesson [12](../notebooks/12_three_filters.ipynb) samples, boxes and ellipses drive one robot.
+# **Next:** in lesson [12 · Three filters](../notebooks/12_three_filters.ipynb) samples, boxes and ellipses drive one
+# robot.

@@ -22,7 +22,7 @@ from math import comb
 import numpy as np
 
 from slamlab import views
-from slamlab.checks import attempt, check
+from slamlab.checks import ask, attempt, check
 from slamlab.geometry import compose, wrap
 from slamlab.layers import Points, Poses
 
@@ -30,7 +30,7 @@ from slamlab.layers import Points, Poses
 # ## 1 · From ticks to a motion
 #
 # The robot has two driven wheels, `base` metres apart, each with an encoder. Both wheels roll
-# evenly, by `left` and `right` ticks of `tick` metres each. So they roll the ways
+# evenly, by `left` and `right` ticks of `tick` metres each. So they roll the distances
 # $s_{\mathrm{left}}$ and $s_{\mathrm{right}}$, and the middle of the robot drives an arc of length
 # $d = (s_{\mathrm{left}} + s_{\mathrm{right}})/2$ while the robot turns evenly by
 # $\Delta\theta = (s_{\mathrm{right}} - s_{\mathrm{left}})/\text{base}$.
@@ -38,13 +38,11 @@ from slamlab.layers import Points, Poses
 # The lesson derives how long the straight line from start to end of that arc is, and where it
 # points.
 #
-# **Predict first.** The robot turns by a quarter of a round while it drives one metre. Does it end
-# up one metre from where it was? And what is $\sin(0)/0$ to your computer, when the robot drives
-# straight on?
+# A robot may also drive straight on. What would your formula ask of your computer then?
 #
 # **Your task.** Return where the robot is at the end, and by how much it has turned. Ticks are whole
 # numbers, negative for a wheel that rolls backwards, and any of them may be zero. Even one tick more
-# on one side counts. The robot may turn by more than a whole round; whether you wrap $\theta$ is up
+# on one side counts. The robot may turn by more than a full turn; whether you wrap $\theta$ is up
 # to you.
 
 
@@ -67,8 +65,7 @@ def odometry(left, right, tick, base):
 check("12-odometry")
 
 # %% [markdown]
-# The next cell drives a robot whose right wheel rolls a little farther with every step. **Before you
-# run it:** what curve will it drive?
+# The next cell drives a robot whose right wheel rolls a little farther with every step.
 
 
 # %% name="spiral"
@@ -84,7 +81,7 @@ def _():
 
 
 # %% [markdown]
-# It winds itself up to the left, because each step turns a little more than the one before.
+# Its track winds itself up to the left, because each step turns a little more than the one before.
 
 # %% [markdown]
 # ## 2 · Lost, and since when
@@ -93,9 +90,6 @@ def _():
 # beyond a limit; an error that equals the limit is not beyond it. A run is **lost** if it is beyond
 # the limit at its end, and it has been lost since *the first reading from which on it never came
 # back*.
-#
-# **Predict first.** A run strays three times and comes back twice. Which of its readings beyond the
-# limit says since when it is lost?
 #
 # **Your task.** Return the number of that reading, counted from 0, or −1 if the run is not lost. A
 # run has at least one reading.
@@ -119,7 +113,7 @@ def lost_since(errors, limit):
 check("12-lost")
 
 # %% [markdown]
-# Here are three made-up runs. **Before you run the cell:** which of them are lost, and since when?
+# Here are three made-up runs. The legend says since when each is lost, or −1.
 
 
 # %% name="three-runs"
@@ -148,15 +142,29 @@ def _():
 # interval that holds $p$ in about 95 % of all studies.
 #
 # If $p$ is the true share, then $k/n$ scatters about it with the standard deviation
-# $\sqrt{p\,(1-p)/n}$. So we hold every $p$ for possible from which $k/n$ is at most 1.96 such
+# $\sqrt{p\,(1-p)/n}$. So we call every $p$ possible from which $k/n$ is at most 1.96 such
 # deviations away. Squared, this is the lesson's (12.6), with $k$ lost runs in place of its $m$:
 #
 # $$\left(\frac kn - p\right)^2 \le 1.96^2\,\frac{p\,(1-p)}{n}$$
 #
 # The inequality is quadratic in $p$, and it holds between two ends.
-#
-# **Predict first.** None of six runs was lost. Is $p = 0$ then?
-#
+
+# %%
+ask(
+    "ex12-none",
+    "None of six runs was lost. **What is the largest true share that this leaves possible**, in the "
+    "sense above?",
+    right=39,
+    tolerance=5,
+    unit="%",
+    reason="if every fourth run is lost, six runs without a loss are nothing unusual.",
+    wrong={
+        0: "so says the estimate. But a filter that loses one run in ten will often bring six home.",
+        17: "that is one in six, the least share that six runs can show at all.",
+    },
+)
+
+# %% [markdown]
 # **Your task.** Return these two ends, the lower one first. There is at least one run, and there may
 # be hundreds of thousands; none of them may be lost, or all. (Another interval will do as well, if it
 # is as honest.)
@@ -180,11 +188,11 @@ def interval(k, n):
 check("12-interval")
 
 # %% [markdown]
-# **Before you run the cell:** the thesis lost one run in six. Between which shares may the true one
-# lie? And what would 13 in 80 say?
+# The thesis lost one run in six. Here is what this says, what none in six says, and what 13 in 80 would
+# say.
 
 
-# %% name="one-in-six"
+# %% name="one-in-six" answers="ex12-none"
 @attempt
 def _():
     for k, n in ((1, 6), (0, 6), (13, 80)):
@@ -192,7 +200,7 @@ def _():
         print(f"{k:2} of {n:2}: {k / n:4.0%}, truly {low:.0%} to {high:.0%}")
 
 
-# %% [markdown]
+# %% [markdown] answers="ex12-none"
 # "Once in six" may be anything from one in thirty to more than half. That is why the thesis' author
 # himself calls six sets too few, and why the lesson drives eighty times.
 
@@ -204,16 +212,16 @@ def _():
 # share is. How uncertain?
 #
 # The idea of task 3 helps again. Suppose that the true median is $\mu$. Then on each drive the
-# difference lies below $\mu$ as a coin falls on heads: with probability ½, whatever the differences
+# difference lies below $\mu$ as a coin lands heads: with probability ½, whatever the differences
 # look like. Of $n$ coins, the number $K$ of heads is distributed as
 #
 # $$\Pr(K = k) = \binom nk \frac 1{2^n}$$
 #
-# Now count how many of your $n$ differences lie below $\mu$. We hold $\mu$ for possible, unless a count
+# Now count how many of your $n$ differences lie below $\mu$. We call $\mu$ possible, unless a count
 # as small as this or smaller happens in at most 2.5 % of all studies, or a count as large as this or
 # larger does.
 #
-# **Predict first.** Of six differences none lies below $\mu$. Is such a $\mu$ possible? And if one does?
+# Try it with six differences. If none of them lies below $\mu$, is such a $\mu$ possible? And if one does?
 # As $\mu$ grows from the smallest difference to the largest, where can the answer change at all?
 #
 # **Your task.** Return the ends of the interval of all $\mu$ that are possible, the lower one first.
@@ -252,12 +260,23 @@ def compare(errors_a, errors_b, limit):
 # %%
 check("12-paired")
 
-# %% [markdown]
-# Two made-up filters run on the same drives, some of which are hard for both. **Before you run the
-# cell:** on a typical drive B is better by 1 cm. How many drives will it take until you can tell?
+# %%
+ask(
+    "ex12-drives",
+    "Two made-up filters run on the same drives, some of which are hard for both. On a typical drive "
+    "B is better by 1 cm, and this difference varies by some 2 cm. **How many drives does it take "
+    "until your interval says that B is better?**",
+    {
+        "6": "with six drives the interval reaches from the smallest difference to the largest.",
+        "20": "the median of 20 differences is still unsure by about a centimetre, and that is what we want to see.",
+        "80": "of the numbers tried in the picture it is the first whose interval does not hold zero.",
+        "no number will do: from drive to drive the errors vary by 10 cm": "each drive is hard for both, or easy for both, so this drops out of the differences.",
+    },
+    right="80",
+)
 
 
-# %% name="how-many-drives"
+# %% name="how-many-drives" answers="ex12-drives"
 @attempt
 def _():
     rng, counts, ends = np.random.default_rng(7), [6, 10, 20, 40, 80, 160], []
@@ -273,7 +292,7 @@ def _():
     views.show(fig, alt="The interval narrows as drives are added; its lower end rises above zero.")
 
 
-# %% [markdown]
+# %% [markdown] answers="ex12-drives"
 # Both errors vary by ten centimetres from drive to drive. This has dropped out of the differences,
 # since each drive was hard for both filters, or easy for both.
 
@@ -282,7 +301,7 @@ def _():
 #
 # A robot drives through a hall of three bays, 4 m by 4 m each, side by side, so the hall is 12 m long
 # and 4 m wide. Each bay has six posts. Five of them stand in the same places in every bay, and they look
-# the same from behind, turned by half a round. The sixth is the bay's own. The robot has a map of all 18.
+# the same from behind, turned by half a turn. The sixth is the bay's own. The robot has a map of all 18.
 # It sees posts within 2 m all round, but misses one in five. A sight is a range and a bearing, with
 # $\sigma$ = 0.03 m and 0.02 rad, and it has **no name**: it does not say which post it is of. Besides, a
 # scan holds 0.7 *phantoms* on average, which are no posts at all. A scan may also be empty.
@@ -354,9 +373,23 @@ def track(start, motions, sights, posts):
     return np.array(found)
 
 
+# %%
+ask(
+    "ex12-alike",
+    "After the lift, one scan fits a place in the left bay, and it holds no bay's own post. **In how "
+    "many other places of the hall does it fit as well?**",
+    right=5,
+    tolerance=0.4,
+    reason="there are three bays, and in each of them two places, with headings half a turn apart.",
+    wrong={
+        2: "that is one in each other bay. But a bay looks the same from behind, turned by half a turn.",
+        6: "six places fit, and one of them is the place you began with.",
+        1: "the same bay from behind is one of them. There are two bays more.",
+    },
+)
+
 # %% [markdown]
-# **Predict first.** After the lift, one scan fits a place in the left bay. In how many other places
-# does it fit as well, and with which headings? What tells these places apart, and when?
+# What tells these places apart, and when?
 #
 # **Your task.** Write a filter that notices the lift and finds itself again. It is given the pose at the
 # start, which is exact, the motions that the wheels tell, and the scans, one after each motion. Any
@@ -407,9 +440,8 @@ def relocalise(start, motions, sights, posts):
 check("12-relocalise")
 
 # %% [markdown]
-# Here is one drive through such a hall, in which the robot is lifted out of the left bay. **Before you
-# run the cell:** where will the ready filter `track` believe the robot to be after that, and what will
-# yours do?
+# Here is one drive through such a hall, in which the robot is lifted out of the left bay, and what the ready
+# filter `track` and yours make of it.
 
 
 # %% name="lifted"
@@ -450,3 +482,10 @@ def _():
 # %% [markdown]
 # `track` goes on where nobody is. Yours has to jump once, and then stay. The lesson's `walls` cured slips
 # in a similar way, with walls that are in sight and samples that are weighed over many scans.
+
+# %% [markdown]
+# ## Done?
+#
+# Save the notebook. The cell below then says what the grader will say about it; the grader draws other inputs.
+# **Next:** lesson [13 · Scan matching](../notebooks/13_scan_matching.ipynb) uses scans as they are, without any
+# landmark.

@@ -24,7 +24,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from slamlab import views, worlds
-from slamlab.checks import attempt, check
+from slamlab.checks import ask, attempt, check
 from slamlab.layers import Points, Segments
 from slamlab.simulation import RPLIDAR_A2
 
@@ -89,8 +89,6 @@ check("13-best-motion")
 
 # %% [markdown]
 # Here is such a wall, with an F in front of it. Nobody measured the F: your $T$ carries it along, to show what $T$ does.
-#
-# **Predict first.** How would a mirror show?
 
 
 # %% name="wall-picture"
@@ -121,8 +119,8 @@ def _():
 # Now nobody tells which points belong together, so take **the nearest ones** for pairs. Find the best motion of these pairs, move the
 # source, and pair anew, from where the source lies now. Return $T$ after exactly the given number of rounds, which may be 0.
 #
-# **Predict first.** Your `best_motion` gets a source that $T$ has carried already. In whose frame is the motion that it finds, and
-# on which side of $T$ does it belong?
+# Mind that your `best_motion` gets a source that $T$ has carried already. In whose frame is the motion that it finds, and on which
+# side of $T$ does it belong?
 #
 # Source and target have at least two points, in any order. Either may have more than the other.
 
@@ -147,11 +145,20 @@ def icp(source, target, T, rounds):
 # %%
 check("13-icp")
 
-# %% [markdown]
-# Here are the two scans of the lesson's polygon. Between them the robot turned by −45° and drove 27 cm. Its wrong odometry says −35°
-# and 15 cm.
-#
-# **Predict first.** How many rounds will it take until you see no more change? Then move the slider.
+# %%
+ask(
+    "ex13-rounds",
+    "Here are the two scans of the lesson's polygon. Between them the robot turned by −45° and drove "
+    "27 cm. Its wrong odometry says −35° and 15 cm. **How many rounds of ICP will it take until you "
+    "see no more change?**",
+    {
+        "one: the best motion is found in closed form": "it is the best for pairs that are mostly wrong.",
+        "about five": "the shift is nearly right by then. The turn is not: each round's pairs hold the cloud back.",
+        "about fifteen": "the nearest points slip along the walls only a little in each round, so the turn comes slowly.",
+        "more than a hundred": "pairs change only finitely often, and here they soon settle.",
+    },
+    right="about fifteen",
+)
 
 
 # %% name="polygon"
@@ -175,7 +182,7 @@ def polygon_scans(seed):
     return [RPLIDAR_A2.scan(worlds.polygon(), pose(T), rng).points() for T in (np.eye(3), TRUE)]
 
 
-# %% name="rounds"
+# %% name="rounds" answers="ex13-rounds"
 @attempt
 def _():
     scans = polygon_scans(seed=1)
@@ -190,7 +197,7 @@ def _():
     views.explore(draw, alt="Second scan over the first after some rounds.", rounds=(0, 20, 4))
 
 
-# %% [markdown]
+# %% [markdown] answers="ex13-rounds"
 # Two rounds put most of the shift right, while the turn takes some fifteen. Then hardly anything moves any more, yet 9 mm and 0.7° are left.
 # Some walls were seen from one place only, and their points are paired all the same.
 
@@ -225,13 +232,21 @@ def trimmed_icp(source, target, T, rounds, share):
 # %%
 check("13-trimmed")
 
-# %% [markdown]
-# These are the same two places, but the second scan now has people in it.
-#
-# **Predict first.** Will more trimming always be better?
+# %%
+ask(
+    "ex13-trim",
+    "These are the same two places, but about one point in eight of the second scan is now of people. "
+    "**Which share of the pairs is best kept?**",
+    {
+        "all: the more pairs, the better": "the points of people have partners on some wall, and pull at them.",
+        "some 50 to 80 %": "that leaves out the people, and what only one scan saw. What is left is enough to pull the cloud home.",
+        "the best 20 %: the shortest pairs are the surest": "the shortest pairs are those that fit already. With so few of them nothing pulls any more.",
+    },
+    right="some 50 to 80 %",
+)
 
 
-# %% name="people"
+# %% name="people" answers="ex13-trim"
 @attempt
 def _():
     scans = polygon_scans(seed=1)
@@ -245,7 +260,7 @@ def _():
         )
 
 
-# %% [markdown]
+# %% [markdown] answers="ex13-trim"
 # Keeping everything is bad, and keeping too little is bad as well. The shortest pairs are those that fit already, so with too
 # few of them nothing pulls any more.
 
@@ -273,8 +288,7 @@ def _():
 # as small as it can be. Return with it the covariance $P$ of what is left in doubt: the inverse of all the information that walls
 # and odometry have together.
 #
-# **Predict first.** In a bare corridor all normals point across. Will you have to invert a singular matrix? What will $P$ say
-# along the corridor, and what if there is no pair at all?
+# In a bare corridor all normals point across. Will you have to invert a singular matrix? And what if there is no pair at all?
 #
 # Normals have the length 1; to which side of its wall one points means nothing. All $\sigma_i$ are positive, and $Q$ has an
 # inverse; errors of $x$, $y$ and $\theta$ may be correlated. There may be any number of pairs, also one or none, and coordinates may be
@@ -306,14 +320,22 @@ def line_step(source, target, normals, sigma, T, Q):
 # %%
 check("13-line-step")
 
-# %% [markdown]
-# A robot drives along a corridor. Its wheels may be off by 20 cm along $x$ and along $y$, and by 4°. Each point of a wall is known
-# to 2 cm.
-#
-# **Predict first.** Which of the three numbers does a wall at its side mend, and which does the wall at the end of the corridor?
+# %%
+ask(
+    "ex13-side",
+    "A robot drives along a corridor. Its wheels may be off by 20 cm along $x$ and along $y$, and by "
+    "4°. Each point of a wall is known to 2 cm. **Which of the three numbers does one wall at its "
+    "side mend?**",
+    {
+        "$y$ alone, the distance from it": "points in front and behind say how the wall runs, too.",
+        "$y$ and $\\theta$": "how far the wall is, and how it runs. Along the wall no distance across it says anything.",
+        "all three": "if the robot moves along the wall, no distance across it changes.",
+    },
+    right="$y$ and $\\theta$",
+)
 
 
-# %% name="corridor"
+# %% name="corridor" answers="ex13-side"
 @attempt
 def _():
     rng, Q = np.random.default_rng(1), np.diag([0.2, 0.2, np.radians(4)]) ** 2
@@ -333,8 +355,8 @@ def _():
         print(f"{name:>20}: x {100 * x:4.1f} cm, y {100 * y:4.1f} cm, θ {np.degrees(turn):4.2f}°")
 
 
-# %% [markdown]
-# The doubt of the wheels along the corridor stays exactly as it was: no wall says anything of it, and $P$ says so. You did not have to look
+# %% [markdown] answers="ex13-side"
+# The doubt of the wheels along the corridor stays exactly as it was, until the wall at its end is seen: no side wall says anything of it, and $P$ says so. You did not have to look
 # for that direction or to name it. Odometry fills in where the walls are silent.
 
 # %% [markdown]
@@ -344,10 +366,8 @@ def _():
 # boxes hide much of the rest. Its odometry slipped: the guess is off by 50 cm to 120 cm and by 30° to 90°. ICP goes downhill from
 # where it starts, and from there it goes into the wrong valley.
 #
-# **Predict first.** How many of 16 such matches will `trimmed_icp` solve?
-#
-# **Your task.** Solve as many of 16 as you can, by any method. A match is *home* when it is off by less than 20 cm and 5°. Four,
-# eight and thirteen that are home earn more and more. So do nine that are off by less than 1.5 cm and 0.5° only. The ranges err by
+# **Your task.** Solve as many of 16 as you can, by any method. A match is *home* when it is off by less than 20 cm and 5°. There
+# are points for four, for eight and for thirteen that are home, and for nine that are off by less than 1.5 cm and 0.5° only. The ranges err by
 # 1 cm. Here are some ideas:
 #
 # - Start from many turns and choose the best end. What number tells the best one, when half of the points have no partner?
@@ -466,6 +486,10 @@ def _():
 # %% [markdown]
 # A SLAM needs matches that know how sure they are, and matches that find home from anywhere. The package's `match` does both. It judges
 # itself: where few points lie on the walls of the other scan, it searches on.
+#
+# ## Done?
+#
+# Save the notebook. The cell below then says what the grader will say about it; the grader draws other inputs.
 #
 # **Next:** the matcher knows only the scan before. Every match is a little off, and the errors add up, as those of odometry did, only
 # more slowly. [Lesson 14](../notebooks/14_the_emir_system.ipynb) drives a live robot, and

@@ -16,7 +16,7 @@
 import numpy as np
 
 from slamlab import views, worlds
-from slamlab.checks import attempt, check
+from slamlab.checks import ask, attempt, check
 from slamlab.layers import Points, Segments
 
 # %% [markdown]
@@ -36,9 +36,20 @@ from slamlab.layers import Points, Segments
 # Numbers of two bytes send the low byte first, as (14.1) says. Some nodes are damaged: S and its contrary are the
 # same, or C is
 # 0. Leave those out, and no others. (No byte is lost here: every node begins where the one before it ended.)
-#
-# **Predict first.** Read this node with pencil and paper: `3e 01 2d a0 0f`. You should find S = 0, quality 15,
-# 90° and 1000 mm. Which byte must change, and to what, for 90.5°?
+
+# %%
+ask(
+    "ex14-half",
+    "Read this node with pencil and paper: `3e 01 2d a0 0f`. You should find S = 0, quality 15, 90° "
+    "and 1000 mm. **Which byte must change, and to what, for 90.5°?**",
+    {
+        "the second byte, to 21": "half a degree is 32 steps of 1/64°, but bit 0 is C: the angle begins one bit higher.",
+        "the second byte, to 41": "32 steps of 1/64°, shifted by the one bit of C, are 64, or 40 in hexadecimal digits.",
+        "the third byte, to 41": "the low byte comes first.",
+        "the third byte, to 2e": "one more in the high byte is 256, so 128 steps of 1/64°, or 2°.",
+    },
+    right="the second byte, to 41",
+)
 
 
 # %% name="nodes"
@@ -92,9 +103,9 @@ def heard(world, seconds):
 
 
 # %% [markdown]
-# A lidar in Tuček's polygon sends for two tenths of a second. **Predict first.** It sends about 2000 nodes a
-# second and makes ten turns a second. How many nodes has a turn? And how would a mirrored map show in the
-# picture?
+# A lidar in Tuček's polygon sends for two tenths of a second. It sends about 2000 nodes a second and makes ten
+# turns a second, so you know how many nodes to expect. If the map were mirrored, its points would lie beside the
+# walls.
 
 
 # %% name="polygon"
@@ -143,8 +154,8 @@ def _():
 # (a full turn more or less does not matter), and a range in metres. Leave out the points that did not come back.
 # But do not forget that they were there.
 #
-# **Predict first.** A packet of four points begins at 350° and ends at 20°, and its second point did not come
-# back. Which are the angles of the other three?
+# To try your formula, take a packet of four points that begins at 350° and ends at 20°, and whose second point
+# did not come back. Work out the angles of the other three with pencil and paper.
 
 
 # %% name="sweep"
@@ -181,8 +192,8 @@ check("14-sweep")
 # negative number goes as its two's complement, −50 as 256 − 50. The checksum CC makes all four bytes add up to 0
 # modulo 256, as in (14.6).
 #
-# **Predict first.** Which checksum belongs to a speed of −40 and a turn of 39? What would the rule "256 less the
-# other three bytes" give?
+# Work out the checksum of a speed of −40 and a turn of 39 with pencil and paper, and also that of a speed and a
+# turn of −1. Does the rule "256 less the other three bytes" give it?
 
 
 # %% name="command"
@@ -238,13 +249,23 @@ def unwrap(values):
 # %%
 check("14-unwrap")
 
-# %% [markdown]
-# Ten times a second eMIR sends a status: a `*`, 17 bytes as hexadecimal digits, and a `/`. The path counter is
-# byte 14. An emulated eMIR drives along a corridor by your `command`, ahead at 40 cm/s and then back at 20 cm/s.
-# **Predict first.** What will the raw counter look like?
+# %%
+ask(
+    "ex14-raw",
+    "Ten times a second eMIR sends a status: a `*`, 17 bytes as hexadecimal digits, and a `/`. The "
+    "path counter is byte 14. An emulated eMIR drives along a corridor by your `command`, 4 m ahead "
+    "at 40 cm/s and then 2 m back at 20 cm/s. **What does the raw counter look like over time?**",
+    {
+        "it rises to 127 and stays there": "a byte does not stop at its largest value. One more is −128.",
+        "it rises to about 400 and falls to about 200": "so does the way. But a byte ends at 127.",
+        "a saw-tooth: it rises, jumps down, rises again, and on the way back it falls and jumps up": "every time it passes 127 it goes on at −128, and the other way round.",
+        "a saw-tooth that only rises: a counter counts": "it is signed, and counts down when the robot backs.",
+    },
+    right="a saw-tooth: it rises, jumps down, rises again, and on the way back it falls and jumps up",
+)
 
 
-# %% name="corridor"
+# %% name="corridor" answers="ex14-raw"
 @attempt
 def _():
     from slamlab.devices.emir.commands import info
@@ -266,7 +287,7 @@ def _():
     views.show(fig, alt=f"{between}, and the way that rises and then falls.")
 
 
-# %% [markdown]
+# %% [markdown] answers="ex14-raw"
 # The saw-tooth is what the robot sends, and the other line is where it was. One count is about 1 cm, so it went
 # some 4 m ahead and half of that back.
 
@@ -307,12 +328,22 @@ def way(begin, steps):
     return (begin + counts + 128) % 256 - 128, counts
 
 
-# %% [markdown]
-# **Predict first.** Here are three such drivers and two ways. Which of the drivers does the first way find, and
-# which does the second?
+# %%
+ask(
+    "ex14-found",
+    "The next cell has three such drivers and two ways. **How many of the three drivers do the two "
+    "ways find together?**",
+    {
+        "none": "one of them mends nothing at all, and 300 counts do not fit into a byte.",
+        "one": "the way ahead finds one. The way back finds that one and another.",
+        "two": "the one that mends nothing, and on the way back also the one that forgets the sign.",
+        "all three": "the third one remembers the last hundred readings. Neither way has as many.",
+    },
+    right="two",
+)
 
 
-# %% name="three-drivers"
+# %% name="three-drivers" answers="ex14-found"
 @attempt
 def _():
     drivers = {
@@ -325,7 +356,7 @@ def _():
         print(f"{name:>5} finds:", ", ".join(found))
 
 
-# %% [markdown]
+# %% [markdown] answers="ex14-found"
 # The way ahead finds one driver, the way back finds two, and no way of seven readings will ever find the third.
 
 
@@ -355,5 +386,10 @@ check("14-trials")
 # %% [markdown]
 # Which of your ways is worth the most? Guess, then leave out one after the other and ask the check again.
 #
-# **Next:** bytes have become points and ways, and you know what trials can find. Lesson 13 matched such scans,
-# and lesson 15 makes a map of them that closes.
+# ## Done?
+#
+# Save the notebook. The cell below then says what the grader will say about it; the grader sends other bytes.
+#
+# **Next:** bytes have become points and ways, and you know what trials can find.
+# [Lesson 13](../notebooks/13_scan_matching.ipynb) matched such scans, and
+# [lesson 15 · Closing the loop](../notebooks/15_closing_the_loop.ipynb) makes a map of them that closes.

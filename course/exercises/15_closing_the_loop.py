@@ -22,7 +22,7 @@
 import numpy as np
 
 from slamlab import views
-from slamlab.checks import attempt, check
+from slamlab.checks import ask, attempt, check
 from slamlab.geometry import between, compose, wrap
 from slamlab.layers import Poses, Segments
 
@@ -75,10 +75,22 @@ check("15-error")
 # - If pose $i$ moves, $e$ changes by the opposite.
 # - If pose $i$ *turns*, all that it sees swings round it. Only the part
 #   $\mathrm{Rot}(\theta_i)^{\mathsf T}(p_j - p_i)$ of $e$ holds $\theta_i$, so the swing is the derivative of that.
-#
-# **Predict first.** Pose $j$ stands straight ahead of pose $i$, and $z$ does not turn. Which entry of the swing is
-# zero, and what sign has the other?
-#
+
+# %%
+ask(
+    "ex15-swing",
+    "Pose $j$ stands straight ahead of pose $i$. Now pose $i$ turns a little to the *left*. **Where "
+    "does pose $j$ go, as seen from pose $i$?**",
+    {
+        "to the left, too": "the robot turns, and the world does not turn with it.",
+        "to the right, the farther the longer the arm": "what a robot sees swings the other way round it, on an arm as long as the distance.",
+        "to the right, by the same at any distance": "the angle is the same at any distance. How far the pose goes is the angle times the distance.",
+        "nowhere: it is straight ahead": "it was. The robot looks elsewhere now.",
+    },
+    right="to the right, the farther the longer the arm",
+)
+
+# %% [markdown]
 # **Your task.** Derive the swing, and return $J_i$ and $J_j$, for the same edges as in task 1.
 
 
@@ -113,7 +125,7 @@ check("15-jacobians")
 # The $J$ of an edge has $J_i$ in the columns of pose $i$, $J_j$ in those of pose $j$, and zeros elsewhere. So an edge
 # adds to four blocks of $\Lambda_x$, and to two parts of the sum on the right.
 #
-# Edges say only how poses lie to each other, so without more $\Lambda_x$ is singular: **hold pose 0**. Then add
+# Edges say only how poses lie relative to each other, so without more $\Lambda_x$ is singular: **hold pose 0**. Then add
 # $\delta$ to the poses, number by number, and wrap the headings.
 #
 # **Your task.** Take one step and return the new poses. Do not take more, because whoever calls `step` goes on. Use
@@ -149,10 +161,20 @@ def step(poses, edges):
 # %%
 check("15-step")
 
-# %% [markdown]
-# A robot drives round a hall, ten poses, and its wheels tell each turn too small. At the end it sees the start, one
-# step ahead. **Before you run it:** after how many steps do you expect to see no more change? Then move the
-# slider.
+# %%
+ask(
+    "ex15-steps",
+    "A robot drives round a hall, ten poses, and its wheels report each turn of 36° as 31°. At the "
+    "end it sees the start, one step ahead. **After how many steps of Gauss and Newton do you see no "
+    "more change?**",
+    {
+        "one: least squares is solved at once": "it would be, if e were linear in the poses. Over such turns it is bent.",
+        "three": "the first step goes astray, for e bends. From then on it is nearly straight.",
+        "about twenty: each step mends a little": "so it would be downhill along the slope. Gauss and Newton step to where the bottom would be if e "
+        "were straight.",
+    },
+    right="three",
+)
 
 
 # %% name="hall"
@@ -176,7 +198,7 @@ def chi2(poses, edges):
     return sum(e @ information @ e for e, information in found)
 
 
-# %% name="watch"
+# %% name="watch" answers="ex15-steps"
 @attempt
 def _():
     start, edges = hall()
@@ -196,7 +218,7 @@ def _():
     views.explore(draw, alt="A ring of ten poses and its loop after some steps.", steps=(0, 6, 3))
 
 
-# %% [markdown]
+# %% [markdown] answers="ex15-steps"
 # The first step takes $e$ for straight over turns that are far from small, so it only halves $\chi^2$. The second
 # puts nearly all right, and after the third nothing moves. Every turn has got its share.
 
@@ -214,7 +236,8 @@ def _():
 # Such an edge belongs into the same graph as all others. Only its $e$ is now one number, and $J_i$ and $J_j$ are single
 # rows. What does a small motion of pose $i$ do to $d$, and how much of that changes the length of $d$?
 #
-# **Predict first.** A radio sits at the centre of its robot. Which entry of $J_i$ is zero, and why?
+# One case is easy to check: if a radio sits at the centre of its robot, one entry of $J_i$ is zero. Which one, and
+# why?
 #
 # **Your task.** Return $e$ and the two rows. The radios are at least 10 cm apart. They may sit at the centres, and the
 # robots may look in any direction.
@@ -248,13 +271,23 @@ def range_edge(x_i, x_j, r, a_i, a_j):
 # %%
 check("15-range")
 
-# %% [markdown]
-# The hall again, but this time nobody sees the start. Instead the robot hears a radio that stands where it began, and
-# the radio on its mast tells it nine distances, one at each pose. **Before you run it:** no distance says anything about
-# a direction. Can nine of them mend nine turns?
+# %%
+ask(
+    "ex15-nine",
+    "The hall again, but this time nobody sees the start. Instead the robot hears a radio that stands "
+    "where it began, and the radio on its mast tells it nine distances, one at each pose. **Can nine "
+    "distances mend nine turns?**",
+    {
+        "no: no distance says anything about a direction": "by itself it does not. But the wheels know the shape of each step, and only some bends of the "
+        "whole way fit all distances.",
+        "nearly": "the distances say how the steps must be bent together. A little is left open.",
+        "only with a second radio: with one the whole way may be turned about it": "pose 0 is held, and the heading of the first step with it.",
+    },
+    right="nearly",
+)
 
 
-# %% name="heard"
+# %% name="heard" answers="ex15-nine"
 @attempt
 def _():
     start, edges = hall()
@@ -285,7 +318,7 @@ def _():
     views.show(fig, alt="An open ring of poses beside the true one, and a ring that lies on it.")
 
 
-# %% [markdown]
+# %% [markdown] answers="ex15-nine"
 # Nearly. The wheels know the shape of each step, and the distances tell how the steps must be bent for all of them to
 # fit. What is left of the error is what the distances leave open.
 
@@ -305,8 +338,8 @@ def weight(chi2, phi):
 
 
 # %% [markdown]
-# The hall once more, with its true loop and a liar: an edge that claims that pose 6 was next to pose 1. **Before you run
-# it:** what will the hall look like if the liar is trusted, and what if both loops are weighed? ($\Phi$ begins large and
+# The hall once more, with its true loop and a liar: an edge that claims that pose 6 was next to pose 1.
+# The picture shows the hall with the true loop alone, with the liar trusted, and with both loops weighed. ($\Phi$ begins large and
 # shrinks from step to step, because at the start the true loop looks as false as the liar.)
 
 
@@ -477,4 +510,9 @@ def _():
 
 
 # %% [markdown]
-# **Next:** point `slamlab run … --estimator graph` at a log of your own.
+# ## Done?
+#
+# Save the notebook. The cell below then says what the grader will say about it; the grader draws other graphs. If you
+# have a log of your own, point `slamlab run … --estimator graph` at it.
+#
+# **Next:** [lesson 16 · Your own SLAM](../notebooks/16_your_own_slam.ipynb) hands you the whole robot.

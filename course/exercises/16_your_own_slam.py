@@ -13,8 +13,8 @@
 #
 # | | |
 # | --- | --- |
-# | `step(reading)` | is called for each reading, about every 0.4 m. `reading.odometry` is the motion since the last one as the wheels tell it, `[x, y, θ]` in the frame of the pose before; `reading.scan` is a lidar scan, whose `points()` are (n, 2) in the robot's frame; `reading.scan.ranges` and `.angles`, (n,), are its beams. In a scan that was lost no beam has a range. Of being carried away the odometry tells nothing |
-# | `pose` | where it believes to be now, `[x, y, θ]`, in a frame of its choice |
+# | `step(reading)` | is called for each reading, about every 0.4 m. `reading.odometry` is the motion since the last one as the wheels tell it, `[x, y, θ]` in the frame of the pose before; `reading.scan` is a lidar scan, whose `points()` are (n, 2) in the robot's frame; `reading.scan.ranges` and `.angles`, (n,), are its beams. In a scan that was lost no beam has a range. The odometry says nothing of being carried away |
+# | `pose` | where it believes it is now, `[x, y, θ]`, in a frame of its choice |
 # | `trajectory()` | all poses as it believes them *now*, (n, 3). It is asked for at the end |
 # | `map()` | points on the walls, (n, 2), in the same frame as `trajectory()` |
 # | `covariance` | how sure it is of `pose`, (3, 3), or `None` for no claim |
@@ -25,17 +25,28 @@
 # together may take 50 s of CPU, a single reading 1 s. Lengths are in metres and angles in radians.
 
 # %%
-from slamlab.checks import attempt, check
+from slamlab.checks import ask, attempt, check
 
 # %% name="my-slam" solved="project/solution.py" given="project/template.py"
 # course/project/solution.py, handed out as course/project/template.py
 
 # %% [markdown]
 # ## Drive it
-#
-# This cell drives your SLAM through a practice world: a furnished floor that nobody has drawn, with
-# doors, corridors and loops. Black is where the robot drove, orange what the wheels alone believe,
-# blue what your SLAM says. **Before you run it the first time:** how far will blue be from orange?
+
+# %%
+ask(
+    "ex16-blue",
+    "The next cell drives your SLAM through a practice world: a furnished floor that nobody has "
+    "drawn, with doors, corridors and loops. Black is where the robot drove, orange is what the "
+    "wheels alone say, blue what your SLAM says. **Before you change anything in `MySlam`, where does "
+    "the blue track lie?**",
+    {
+        "on the black one, nearly": "it would have to use the scan. Read what its step does with it.",
+        "on the orange one": "so far it adds up what the wheels tell, and that is what the orange track does.",
+        "between the two": "that would take some use of what was scanned. Read what its step does.",
+    },
+    right="on the orange one",
+)
 
 
 # %% name="drive"
@@ -73,7 +84,7 @@ def _():
 # with a new `MySlam()`, and two more in which a scan is lost.
 #
 # What lesson 13 teaches is enough: match each scan with what was seen lately, beginning where the
-# wheels say. Who has solved exercise 13 holds all the pieces.
+# wheels say. If you have solved exercise 13, you hold all the pieces.
 
 # %%
 check("16-corridor")
@@ -83,9 +94,9 @@ check("16-corridor")
 #
 # Now the robot drives once round a block and 3 m farther, so that it sees its beginning again. On
 # the way, at a corner, six scans are lost, and the wheels turn a tenth of a radian too much there. No
-# matching of neighbours can know of it. Back at the start, the poses have to be off by less
+# matching of neighbours can notice it. Back at the start, the poses have to be off by less
 # than 0.1 m. `trajectory()` is asked for at the end, and all its poses together have to be off by less
-# than 0.12 m: who closes a loop learns something about the poses before, too.
+# than 0.12 m: closing a loop tells something about the poses before it, too.
 #
 # Lesson 15 has the way: look for an old pose near the present one, match with the scans round it, and let a
 # graph share out the error. A map of the whole drive against which each scan is matched may do as well.

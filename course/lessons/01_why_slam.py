@@ -4,8 +4,8 @@
 # **Afterwards you will be able to** explain why a robot that only counts the turns of its wheels
 # cannot draw a map, predict how fast its error grows, and say what SLAM adds.
 #
-# **45 minutes.** You need [00 · Start here](00_start_here.ipynb) before, and from school sine, cosine and
-# the standard deviation.
+# **45 minutes.** **Before:** [00 · Start here](00_start_here.ipynb); sine, cosine and the standard
+# deviation, as you know them from school.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* one idea carries this lesson: a map is only as good as the poses it is drawn
@@ -67,7 +67,7 @@ ask(
     "misjudged by 1 %, and they slip a little. The lap is 42 m long and ends exactly where it began. "
     "**By how much does dead reckoning miss the start?**",
     {
-        "by about 10 cm": "this would be 0.3 % of the way, as if nothing but lengths were wrong.",
+        "by about 10 cm": "this would be 0.3 % of the distance, as if nothing but lengths were wrong.",
         "by about half a metre": "more than 0.3 % of the way is the right feeling, but far more.",
         "by more than 2 m": "wheels that differ also turn the robot, and a turn bends all that "
         "follows.",
@@ -108,8 +108,8 @@ views.show(
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=3
 # ## From unequal wheels to a wrong heading
 #
-# While the robot moves, its left wheel rolls a way $s_{\mathrm{left}}$ and its right one
-# $s_{\mathrm{right}}$, on two circles about one centre whose radii differ by the distance $B$
+# While the robot moves, its left wheel rolls a distance $s_{\mathrm{left}}$ and its
+# right one $s_{\mathrm{right}}$, on two circles about one centre whose radii differ by the distance $B$
 # between the wheels. The heading therefore changes by
 #
 # $$ \Delta\theta = \frac{s_{\mathrm{right}} - s_{\mathrm{left}}}{B}. \tag{01.2} $$
@@ -129,8 +129,8 @@ ask(
     wrong={
         0.42: "this is the angle in radians.",
         0.57: "this is what one metre does, and the robot drives 42 of them.",
-        0.126: "this is the difference of the two ways in metres; divide it by B.",
-        1.08: "this is 0.3 % of a full turn, but the angle depends on the way and on B.",
+        0.126: "this is the difference of the two distances in metres; divide it by B.",
+        1.08: "this is 0.3 % of a full turn, but the angle depends on the distance and on B.",
     },
 )
 
@@ -167,7 +167,7 @@ ask(
         "one corridor with thicker walls": "this is what noise of the lidar would do; the poses are "
         "metres off.",
         "two corridors, one across the other": "each pass draws the corridor where the robot "
-        "believed to be.",
+        "believed it was.",
         "points all over the place": "neighbouring poses agree well with each other, so each pass "
         "by itself looks tidy.",
     },
@@ -325,7 +325,7 @@ for way in (5, 20, 80):
 #
 # $$ \operatorname{Var}(\text{along}) = n\, \sigma_d^2. \tag{01.4} $$
 #
-# Its root, the error, grows as $\sqrt{n}$: twice as large after four times the way.
+# Its root, the error, grows as $\sqrt{n}$: twice as large over four times the distance.
 #
 # For the **heading**, look at a single error first. Think of the rest of the track as cut from
 # cardboard: the error turns it about the place where it is made.
@@ -363,7 +363,7 @@ print(f"200 000 robots: {across.var() / (0.01 * 0.5) ** 2:.1f} σ² d²")
 # $$ \operatorname{Var}(\text{across}) = \sigma^2 d^2 \sum_{k=1}^{n} (n-k)^2
 # \approx \tfrac{1}{3}\, \sigma^2 d^2\, n^3. \tag{01.6} $$
 #
-# The error grows as $n\sqrt{n}$: eightfold after four times the way.
+# The error grows as $n\sqrt{n}$: eightfold over four times the distance.
 
 # %% slideshow={"slide_type": "subslide"} name="growth"
 ways = np.array([2.5, 5, 10, 20, 40, 80])
@@ -387,8 +387,8 @@ views.show(fig, f"Length errors rise with slope {slow:.1f} on the axes, heading'
 # %% [markdown]
 # On doubly logarithmic axes a power is a straight line, and its exponent is the slope:
 # {= slow:.1f =} for lengths, {= fast:.1f =} for headings. After 5 m both errors seem bearable. After
-# 80 m the one of headings is {= heading[-1] / length[-1]:.0f =} times the other. **What is only
-# added up runs away.**
+# 80 m the one of headings is {= heading[-1] / length[-1]:.0f =} times the other. **Errors that
+# only ever add up run away.**
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=3
 # ## See the cloud
@@ -423,7 +423,7 @@ views.explore(
 )
 
 # %% [markdown]
-# On a way of 30 m, errors of 1.5° a step make the cloud
+# Over 30 m, errors of 1.5° a step make the cloud
 # {= straight_drives(30, 0, np.radians(1.5), rng)[:, 1].std():.1f =} m wide (one standard deviation).
 # Lengths that are wrong by a whole 20 % make it only
 # {= straight_drives(30, 0.2, 0, rng)[:, 0].std():.1f =} m long. And no ellipse fits an arc well:
@@ -444,7 +444,7 @@ ask(
     "01-cure",
     "**Do the ends of the corridor meet now?**",
     {
-        "exactly": "each match errs by a little, and what is only added up runs away.",
+        "exactly": "each match errs by a little, and errors that only ever add up run away.",
         "to within centimetres": "the walls give away the heading far better than the wheels do.",
         "no better than before: it starts from the odometry": "it starts there, but the walls "
         "correct each step before the next begins.",
@@ -506,7 +506,7 @@ for name, (far, turned) in zip(("odometry", "icp"), per_step, strict=True):
 # ends nearer to the start than the odometry of the same drive. Now look at the steps: it measures
 # their *length* hardly better than the wheels do, but their *turn*
 # {= per_step[0, 1] / per_step[1, 1]:.0f =} times better. The cure works where
-# the harm was done. It is no full cure: its errors add up too, but they are smaller.
+# the harm was done. It is not a full cure: its errors add up too, but they are smaller.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=4
 # ## The same on a real robot
@@ -515,7 +515,7 @@ for name, (far, turned) in zip(("odometry", "icp"), per_step, strict=True):
 # {= intel_maps.stored().minutes:.0f =} minutes through the Intel Research Lab in Seattle, along the
 # same corridors several times. Dirk Hähnel recorded {= intel_maps.stored().readings =} scans of
 # 180 beams, and what the wheels said. The log is not ours to give away, but you get the points of
-# two maps that we made from it: by odometry, and by `icp` with the settings of above.
+# two maps that we made from it: by odometry, and by `icp` with the settings from above.
 
 # %% slideshow={"slide_type": "subslide"} name="ask-again"
 ask(
@@ -600,7 +600,7 @@ views.show(
 #
 # Now draw such maps with functions of your own:
 # [exercise 01](../exercises/ex01_why_slam.ipynb), 60 min. It asks how the error grows on a drive of
-# any shape, and what a robot can mend that comes home now and then.
+# any shape, and what a robot that comes home now and then can mend.
 #
 # After that, [02 · Sensors and worlds](02_sensors_and_worlds.ipynb) looks at the scans: what a
 # sensor sees of a room, and how it errs.

@@ -68,7 +68,7 @@ sp.Eq(sp.MatMul(M, sp.Matrix(sp.symbols("r tau"))), p_1, evaluate=False)
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # Such a system has one solution unless its determinant is zero. The first line below is $r$, and
-# the second is $\tau$; below the fraction bar stands, up to its sign, the determinant:
+# the second is $\tau$; below the fraction bar you find the determinant, up to its sign:
 
 # %% slideshow={"slide_type": "fragment"} name="solution" tags=["nbval-check-output"]
 r_and_tau = (M.inv() * p_1).applyfunc(sp.simplify)
@@ -411,8 +411,8 @@ views.explore(
 # choose it with Tab and move it with the arrow keys; a click into the rows lets you change numbers,
 # or add a wall. *Undo* takes it back.
 #
-# Predict: if you pull the corner $(-2.4, -3.2)$ to the right, will more of the bay in the lower
-# left come into sight, or less? And which points vanish when you add the pillar `-1 -1 0.2`?
+# Pull the corner $(-2.4, -3.2)$ to the right: does more of the bay in the lower left come into
+# sight, or less? And which points vanish when you add the pillar `-1 -1 0.2`?
 
 
 # %% slideshow={"slide_type": "fragment"} name="editor"
@@ -529,8 +529,8 @@ views.explore(
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=2
 # ## An infrared sensor: a voltage falls
 #
-# The robot of the MAK thesis carries a Sharp GP2D120. It sends out infrared light and looks, from a
-# few centimetres aside, at the angle under which the spot on the wall appears. This is called
+# The robot of the MAK thesis carries a Sharp GP2D120. It sends out infrared light and looks, from
+# a few centimetres to the side, at the angle under which the spot on the wall appears. This is called
 # *triangulation*. The farther the wall, the less the angle still changes, and the sensor's voltage
 # $U$ behaves roughly as
 #
@@ -556,8 +556,8 @@ sp.Abs(sp.diff(kappa / U, U)).subs(U, kappa / r) * sigma_U
 #
 # An *ultrasonic* sensor sends out a cone of sound and hears the first echo, from whatever direction
 # in the cone it comes. Here a lidar, the infrared sensor and an ultrasonic sensor look at the MAK
-# thesis' arena of cardboard boxes, from the same place. Before you look: which sees most, which
-# only what is near, and what becomes of corners in the third?
+# thesis' arena of cardboard boxes, from the same place. See which of them shows most, which
+# only what is near, and what becomes of corners in the third.
 
 # %% slideshow={"slide_type": "fragment"} name="three-sensors" tags=["folded"]
 arena, stands = worlds.arena(), np.array([-0.12, -0.2, np.radians(100)])
@@ -669,8 +669,8 @@ views.explore(
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # Three errors arise. Only whole ticks are counted. The wheel *slips*, and then it turns farther
-# than it travels, or less far. And the way of a tick is the wheel's circumference divided by the
-# slots, which is wrong if the wheel is larger than one believes.
+# than it travels, or less far. And a tick stands for the wheel's circumference divided by the
+# slots, which is wrong if the wheel is larger than believed.
 
 # %% slideshow={"slide_type": "subslide"} name="ask-wheels"
 ask(
@@ -716,7 +716,7 @@ for name, errors in wheel_errors.items():
     print(f"{name:18}", "  ".join(told), "mm after 1, 4, 16 m")
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="02-wheels"
-# After sixteen times the way the ticks err by as little as before, slip by
+# Over sixteen times the distance the ticks err by as little as before, slip by
 # {= wheel_errors["slip"][2][1] / wheel_errors["slip"][0][1]:.1f =} times as much, and the wrong
 # wheel by
 # {= wheel_errors["wheels 1 % larger"][2][0] / wheel_errors["wheels 1 % larger"][0][0]:.0f =} times.
@@ -749,7 +749,7 @@ views.show(
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # On the left you see a room some {= np.ptp(walk[np.abs(walk[:, 1]) < 2, 0]):.0f =} m wide, open at
 # the top to a hallway that ends {= walk[:, 1].max():.0f =} m away. (Points are rounded to
-# {= 100 * a2_at_rest.CELL:.0f =} cm.) At a first look the two scans are of one kind.
+# {= 100 * a2_at_rest.CELL:.0f =} cm.) At first sight the two scans are alike.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### The number of points a turn
@@ -1017,7 +1017,7 @@ views.show(
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # The preset follows the real device; at worst, its σ is {= apart:.2f =} times the real one. The
-# guess is level. On which side would a filter suffer that believed in the guess?
+# guess is level. Where would a filter that believed in the guess suffer, near by or far away?
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### A list of what is missing
@@ -1055,8 +1055,8 @@ views.show(
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=1
 # ## What comes next
 #
-# You can compute what a sensor sees, carry it into the world, and test what somebody claims of its
-# noise.
+# You can compute what a sensor sees, carry it into the world, and test what somebody claims about
+# its noise.
 #
 # **Exercise:** [cast rays, hear echoes, place a scan, and find the noise of a sensor in a busy
 # room](../exercises/ex02_sensors_and_worlds.ipynb), 60 minutes.

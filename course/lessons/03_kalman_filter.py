@@ -548,7 +548,7 @@ views.explore(
 # Look back: nowhere did the derivation ask what *shape* the errors have. It used their means, their
 # covariances, and the fact that slips and noises are unrelated to the errors so far.
 #
-# So let us take errors whose density is no bell curve. A range finder is good most of the time, but
+# So let us take errors whose density is not a bell curve. A range finder is good most of the time, but
 # two readings in a hundred are far off, because somebody walks by. Altogether its $\sigma$ is again
 # 0.3 m, so $R$ is the same, and so is the gain.
 
@@ -816,8 +816,8 @@ for name, values in rms.items():
 # ## Does the filter tell the truth?
 #
 # Look at (03.8), (03.11), (03.15) and (03.16) once more: $P$ is made of its start, $F$, $Q$, $H$
-# and $R$. **No measurement enters it.** The filter would believe in its $P$ if every measurement
-# were nonsense. So somebody else has to ask whether it is true.
+# and $R$. **No measurement enters it.** The filter would believe in its $P$ even if every
+# measurement were nonsense. So somebody else has to ask whether it is true.
 #
 # An estimate is **consistent** with $P$ if its errors are, in no direction, larger on average than
 # $P$ says. In a formula, the following matrix has no eigenvalue below zero:

@@ -137,7 +137,7 @@ ask(
     "Now σ of the heading is 0.6 rad (34°). Still the filter believes in f(x̂), the end of a robot "
     "with just the believed heading. Where do the 1000 robots end **on average**?",
     {
-        "at f(x̂): left and right cancel": "the errors to the sides do cancel. But who heads off to "
+        "at f(x̂): left and right cancel": "the errors to the sides do cancel. But a robot that heads off to "
         "a side also gets less far ahead, on whichever side.",
         "nearer to the start than f(x̂)": "every robot that heads off to a side gets less far ahead "
         "than the believed one, and none gets farther.",
@@ -397,8 +397,8 @@ ask(
         "turned. Its heading has turned along with the landmarks.",
         "some ranges have changed by up to 1 m": "they would if only the robot had been shifted. The "
         "landmarks came along.",
-        "exactly what it saw before": "ranges and bearings depend on where things stand to each other, "
-        "and that is as before.",
+        "exactly what it saw before": "ranges and bearings depend on where things stand relative to "
+        "each other, and that is as before.",
     },
     right="exactly what it saw before",
 )
@@ -575,8 +575,8 @@ ask(
     "The new landmark n has just been placed. What is the covariance of its error and that of landmark i, "
     "which the robot does not see at the moment?",
     {
-        "zero: the two were never seen together": "they need not be. Landmark i hangs together with the "
-        "robot, and n was placed from where the robot believes to be.",
+        "zero: the two were never seen together": "they need not be. The error of i is tied to the "
+        "robot's, and n was placed from where the robot believed it was.",
         "not zero": "the error of the robot is in n, and it has something in common with that of i.",
         "unknown, until both are seen at once": "(04.16) says all that is needed.",
     },
@@ -767,7 +767,7 @@ f_steered = sp.Matrix([X_ahead, Y_ahead, theta + T * V / B * sp.sin(gamma)])
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # Nothing: it is (04.5) again. Whatever drives a robot, an error of its heading swings the step that it
-# makes. Only $W$ is another, for the noise is in $V$ and $\gamma$ now:
+# makes. Only $W$ differs, for the noise is in $V$ and $\gamma$ now:
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 W_steered = f_steered.jacobian([V, gamma])

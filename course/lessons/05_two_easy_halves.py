@@ -205,7 +205,7 @@ ask(
     "largest?",
     {
         "at the end, because errors add up": "the wheels' errors do, but each sight of a known "
-        "landmark is a fresh reference, which does not depend on the way driven.",
+        "landmark is a fresh reference, which does not depend on how far it drove.",
         "where it has seen no landmark for a while": "between sights only (05.4) is at work, and "
         "the ellipse grows; the next sight makes it small again.",
         "they are equally large everywhere": "that needs a landmark in sight at every step, from "
@@ -251,7 +251,7 @@ views.show(
 # ## How much of a map is needed?
 #
 # The map may hold only some of the landmarks, and the robot may see less far, or farther.
-# Predict where the ellipses swell before you move a slider.
+# Move a slider, and watch where the ellipses swell.
 
 
 # %% slideshow={"slide_type": "fragment"} tags=["folded"]
@@ -369,8 +369,8 @@ held = {s: agreeing_poses.share_inside(*where_may_it_be(1, s)[1:]) for s in (0.1
 #
 # Now go back to one landmark and change what is known of the heading. An arc bends, an ellipse cannot: at
 # 0.1 rad it holds {= 100 * held[0.1]:.0f =} % of the poses, at 1.5 rad {= 100 * held[1.5]:.0f =} %. An EKF that
-# starts with no idea of its heading cannot be trusted. One may rather try several headings and keep the
-# one with which the sights agree.
+# starts with no idea of its heading cannot be trusted. It is better to try several headings and keep
+# the one with which the sights agree.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # Nothing in (05.5) insists on a range and a bearing. Another sensor brings another $h$. Differentiate it, and

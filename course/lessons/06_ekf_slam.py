@@ -324,7 +324,7 @@ views.show(
 # landmark $b$. After each event we draw its **correlations**, $P_{ij} / (\sigma_i \sigma_j)$. They have no
 # unit, so positions, headings and landmarks fit into one picture.
 #
-# Before you look: which blocks will be white, at each of the three moments?
+# Look for the white blocks at each of the three moments: why is nothing shared there?
 
 # %% slideshow={"slide_type": "fragment"}
 Q_SLIP, moments = np.diag([0.05, 0.03, 0.02]) ** 2, {}
@@ -773,7 +773,7 @@ views.explore(
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Are the Jacobians taken at the wrong place?
 #
-# A filter takes them where it believes to be. We can be kinder, and take them at the truth, which only a
+# A filter takes them where it believes that the robot is. We can be kinder, and take them at the truth, which only a
 # simulation knows.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]

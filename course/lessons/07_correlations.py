@@ -157,8 +157,8 @@ sighting(P, seen)
 # innovation with the same noise in it, so from now on they share an error. Landmark 2 is untouched:
 # two zeros and the old $P_{22}$.
 #
-# **Try** `seen = sp.BlockMatrix([[Z(2, 3), -H_p, H_p]])`, a sensor that tells only how landmark 2
-# lies to landmark 1. The robot's row stays as it was, and $P_{12}$ is born at once.
+# **Try** `seen = sp.BlockMatrix([[Z(2, 3), -H_p, H_p]])`, a sensor that tells only how landmark
+# 2 lies relative to landmark 1. The robot's row stays as it was, and $P_{12}$ is born at once.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* Say it with people. Two friends set their watches by each other. If one watch
@@ -226,8 +226,8 @@ for when, blocks in (("first", first), ("second", second)):
 # A block that is not zero may still be small. So we look at the correlation, $\rho = P_{ij} /
 # (\sigma_i \sigma_j)$, a pure number between −1 and 1.
 #
-# Take a corridor, where all is one number, and landmarks of which nothing was known before. Each
-# is put where the robot believes to see it. Its error is the robot's, plus that of the sensor. If
+# Take a corridor, where each place is a single number, and landmarks of which nothing was known before. Each
+# is put where the robot believes that it sees it. Its error is the robot's, plus that of the sensor. If
 # the robot drives between the two sightings, which adds $Q$, the two errors share
 # $P_{\mathrm{rr}}$ and nothing else:
 #
@@ -869,7 +869,7 @@ for name, covariance in (("landmarks", P_end), ("vectors", D @ P_end @ D.T)):
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # There is less, but not none: without a compass all vectors share the turn of the map. Distances and
-# angles do not even share that. To drop what is left does less harm than to drop $P_{ij}$. But
+# angles do not even share that. Dropping what is left does less harm than dropping $P_{ij}$. But
 # it *is* dropped, and the vectors round a closed loop no longer add up to zero unless one sees to it.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=5

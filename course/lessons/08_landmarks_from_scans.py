@@ -70,7 +70,7 @@ views.show(fig, "Left, readings that stand alone before the walls; right, nothin
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # In the left room, some readings stand alone before the walls: these are the legs of tables. On the right there
 # is nothing but lines. A single reading on a wall is never seen again, since the next beam falls beside
-# it; the *wall* is. People walk, and one leg looks like the other. Walls, and the corners in which they meet,
+# it; the *wall* is. People walk, and one leg looks like another. Walls, and the corners in which they meet,
 # are all we ask for. This lesson is about them; but first, briefly, legs.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=4
@@ -873,8 +873,8 @@ H_line.step("differentiate", differentiate())
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # The first row of $H_{\mathrm r}$ is the wall's normal, with a minus: driving along the wall changes nothing. One wall
-# never says how far along it the robot is; for that it takes a second one, not parallel to the first. Of the
-# heading every wall tells, wherever it stands: that is the $-1$.
+# never says how far along it the robot is; for that it takes a second one, not parallel to the first. Every
+# wall tells something about the heading, wherever it stands: that is the $-1$.
 #
 # The package has both as functions, and the machine compares:
 
@@ -897,7 +897,7 @@ for name, steps in {"H_robot_line": H_robot_line, "H_line": H_line}.items():
 # %% slideshow={"slide_type": "fragment"}
 ask(
     "08-foot",
-    "A robot drives along a known wall. It believes to be at x = **0.5 ± 0.3 m** and is truly at x = **1.0 m**. It "
+    "A robot drives along a known wall. It believes that it is at x = **0.5 ± 0.3 m** and is truly at x = **1.0 m**. It "
     "looks at the wall ten times. What does Smolec's filter believe of x then?",
     {
         "about 1.0 m, and surer": "a wall says nothing about how far along it the robot is. Ten looks say "
@@ -1069,13 +1069,13 @@ far_A, far_B = np.sqrt(nees(SEEN - EXPECTED, innovation_covariance(0.05, 0.15)))
 # $$\sqrt{v^{\mathsf T} S^{-1} v}, \tag{08.11}$$
 #
 # with the innovation $v$, its angle wrapped. It is a number of standard deviations; here {= far_A:.1f =} to A and
-# {= far_B:.1f =} to B. Now make the robot sure of its heading and unsure of its place, and the answer turns over.
+# {= far_B:.1f =} to B. Now make the robot sure of its heading and unsure of its place, and the answer flips.
 # Pythagoras would never change his mind.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=3
 # ## The gate
 #
-# From which distance on is it no wall of the map, but a new one? If the pairing is true and $S$ is right, the
+# Beyond which distance is it not a wall of the map, but a new one? If the pairing is true and $S$ is right, the
 # *square* of the Mahalanobis distance is $\chi^2$ with two degrees of freedom. It exceeds a threshold $\tau$ with the probability
 #
 # $$\Pr\left( v^{\mathsf T} S^{-1} v > \tau \right) = e^{-\tau/2}. \tag{08.12}$$
@@ -1169,7 +1169,7 @@ views.explore(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="08-trial"
-# The robot makes 40 scans on a small loop in a furnished room, where round pillars look flat from here and there. Choose
+# The robot makes 40 scans on a small loop in a furnished room, where round pillars look flat from some places. Choose
 # $N$ and the lives: can you keep all false walls out, and all true ones in?
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"] answers="08-trial"
@@ -1181,8 +1181,8 @@ for (n, lives), false in table.items():
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="08-trial"
 # Most false walls go as $N$ grows, since noise rarely makes the same wall three times running. At $N = 5$,
 # {= np.sum(~table[1, 3]) - np.sum(~table[5, 3]) =} true ones have gone with them, and {= table[5, 3].sum() =} false wall
-# is still there: the side of a pillar that is passed slowly looks flat in scan after scan. To see a thing again is no
-# proof where the error is the same again.
+# is still there: the side of a pillar that is passed slowly looks flat in scan after scan. Seeing a thing again
+# proves nothing where the error is the same again.
 #
 # Lives decide how long a wall may wait. With a single one, a wall that is missed once starts anew: with $N = 3$ that
 # leaves {= np.sum(~table[3, 1]) =} true walls and {= table[3, 1].sum() =} false ones. With forty it is

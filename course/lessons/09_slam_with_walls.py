@@ -682,7 +682,7 @@ wide_way, wide_P, _ = spoilt_walls.driven(sources["situation-2"], wide_open, fou
 wide_off = spoilt_walls.errors(sources["situation-2"], wide_way)
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# In the first picture the walls are drawn over and over, and the blue way has left the black one. With
+# In the first picture the walls are drawn over and over, and the blue track has left the black one. With
 # degrees in the Jacobians, a wider gate does not help either: opened to 60, it leaves
 # {= len(wide_open.mak.ids) =} walls in the map and a NEES of {= nees(wide_off[10:], wide_P[10:]).mean():.0f =}.
 # The fault is in $P$, and no gate takes it out.
@@ -854,7 +854,7 @@ for name in sources:
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Deeper: a round tower
 #
-# A round tower of 1.5 m radius stands beside the way. Move the robot, and watch what is found.
+# A round tower of 1.5 m radius stands beside the robot's path. Move the robot, and watch what is found.
 
 
 # %% slideshow={"slide_type": "fragment"} tags=["folded"]
@@ -1022,7 +1022,7 @@ Markdown("\n".join(rows))
 # {= -100 * sound["drives"]["cone model"]["more_m"] / sound["drives"]["odometry"]["rms_m"]:.0f =} % of
 # odometry's error.
 #
-# Is it honest? The wheels of this robot are unequal for good, and at the last of five moments its mean
+# Is it honest? The wheels of this robot are permanently unequal, and at the last of five moments its mean
 # NEES is {= sound["nees"]["cone model"][-1]:.1f =}, above the band of {= sound["band_95"][0]:.1f =} to
 # {= sound["band_95"][1]:.1f =}. With wheels that slip by chance alone it is
 # {= sound["nees"]["cone model, wheels slip"][-1]:.1f =}. So most of what is wrong is odometry's model.
@@ -1030,8 +1030,8 @@ Markdown("\n".join(rows))
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## In print
 #
-# Optional: what Smolec's master's thesis, whose system this is, prints otherwise. Of his program there
-# are figures only, so "printed" means his text and his formulas.
+# Optional: what Smolec's master's thesis, whose system this is, prints otherwise. Only figures of his
+# program are printed, so "printed" means his text and his formulas.
 #
 # | place | printed | right | harm |
 # |---|---|---|---|
@@ -1042,7 +1042,7 @@ Markdown("\n".join(rows))
 # | §4.4 | the first landmark within the offset | the nearest | wrong where two are near |
 # | map | a landmark at first sight | after some sightings | with windows, more walls than there are |
 # | program | predict after pairing | predict first | heading off while it turns; or lost |
-# | protocol | SCAN measures once and waits | it streams until STOP | who waits gets an old turn |
+# | protocol | SCAN measures once and waits | it streams until STOP | whoever waits gets an old turn |
 #
 # The first two and the seventh are rows of the table in part two; the third is (09.5). The others:
 
@@ -1174,7 +1174,7 @@ pictures(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# The way jumps by metres, and the room is drawn over and over.
+# The track jumps by metres, and the room is drawn over and over.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Is it our choice of a constant?

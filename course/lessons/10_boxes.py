@@ -468,7 +468,7 @@ views.explore(
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # Go back to 0 edges and press ▶. The left edge forbids what lies above it; the box ends where that edge leaves the box on the
 # right. The upper left corner stays, though it is forbidden: a box has no slanted sides. Then widen the robot's box or its
-# heading, and see how little a robot can teach that hardly knows where it is.
+# heading, and see how little a robot that hardly knows where it is can teach.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* Ask whether another order of the edges gives another box. Try it: reverse
@@ -927,7 +927,7 @@ print({name: f"off by {100 * error:.0f} cm" for name, error in steady.rms().item
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=1
 # ## What you can do now
 #
-# You can bound a drive over a whole box, cut boxes by the edges of a sighting, keep angles over the seam, and say what a
+# You can bound a drive over a whole box, cut boxes by the edges of a sighting, compare angles across the seam, and say what a
 # guarantee rests on, and what it costs.
 #
 # **What comes next:** [lesson 11](11_samples.ipynb) keeps neither a box nor an ellipse, but a cloud of samples. In

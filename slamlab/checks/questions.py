@@ -1,4 +1,4 @@
-"""Questions of a lesson: choices or a number, a reason for each answer; none is graded."""
+"""Questions of a notebook: choices or a number, a reason for each answer; none is graded."""
 
 import html
 from dataclasses import dataclass

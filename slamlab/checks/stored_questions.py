@@ -1,4 +1,4 @@
-"""What the lessons ask, as stored: a notebook asks by the id, so that no code tells answers."""
+"""What lessons and exercises ask, as stored: a notebook asks by the id, and no code tells answers."""
 
 import json
 from importlib import resources
@@ -9,7 +9,7 @@ def stored_question(id):
 
     Parameters
     ----------
-    id : str such as "04-leaning"
+    id : str such as "04-leaning", of an exercise "ex04-sign"
 
     Returns
     -------
@@ -19,8 +19,8 @@ def stored_question(id):
     ------
     ValueError : there is no such question
     """
-    lesson = id.split("-")[0]
-    file = resources.files("slamlab").joinpath("data", "questions", f"{lesson}.json")
+    notebook = id.split("-")[0]
+    file = resources.files("slamlab").joinpath("data", "questions", f"{notebook}.json")
     asked = json.loads(file.read_text(encoding="utf-8")) if file.is_file() else {}
     if id not in asked:
         raise ValueError(f"there is no question {id!r}: its text, and what is right, must be given")

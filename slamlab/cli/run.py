@@ -211,7 +211,8 @@ def picture(result, naive=None):
     if naive is not None:
         groups["naive"] = [replace(layer, name="naive") for layer in naive.layers()]
     shown = [(title, group) for title, group in groups.items() if group]
-    fig, all_axes = panels([title for title, _ in shown], size=(6 * len(shown), 6))
+    told = {"naive": "naive: by odometry alone", "corrected": "corrected: by all that was sensed"}
+    fig, all_axes = panels([told[title] for title, _ in shown], size=(6 * len(shown), 6))
     for ax, (title, group) in zip(all_axes, shown, strict=True):
         for layer in group:
             around = f"{layer.name} 95 %"

@@ -50,11 +50,11 @@ def keep_check(task, points, of):
 
 
 def keep_answer(question, answer, right):
-    """Keep the answer to a question of a lesson.
+    """Keep the answer to a question.
 
     Parameters
     ----------
-    question : str, its id such as "04-leaning"
+    question : str, its id such as "04-leaning", of an exercise "ex04-sign"
     answer : str or float
     right : bool
     """
@@ -64,7 +64,7 @@ def keep_answer(question, answer, right):
         entry.setdefault("first", answer)
         entry |= {"answer": answer, "right": right, "times": entry["times"] + 1, "last": now}
 
-    _keep(question[:2], change)
+    _keep(question.split("-")[0], change)
 
 
 def keep_validation(exercise, points, of):

@@ -45,6 +45,8 @@ MEANINGS = {
     "guide": Meaning("#BBBBBB", "fill", "nothing of its own: grids, fills, help lines"),
 }
 COLOURS = {name: meaning.colour for name, meaning in MEANINGS.items()}
+# what a legend says of a layer that has no other label than such a name; else the name itself
+IN_LEGENDS = {"naive": "odometry alone", "corrected": "estimate"}
 DASHES = {  # of those whose lines are told apart by more than their colour
     name: meaning.mark
     for name, meaning in MEANINGS.items()

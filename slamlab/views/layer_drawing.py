@@ -8,7 +8,7 @@ from matplotlib.patches import Ellipse, Rectangle
 from matplotlib.path import Path
 
 from slamlab.layers import Boxes, Ellipses, Grid, Points, Poses, Samples, Segments
-from slamlab.views.colours import COLOURS, DASHES
+from slamlab.views.colours import COLOURS, DASHES, IN_LEGENDS
 from slamlab.views.figures import panels
 from slamlab.views.legends import legend_below
 
@@ -40,7 +40,7 @@ def draw(ax, layer, **style):
     """
     usual = colour(layer)
     function, _ = _KINDS[type(layer)]
-    usual = {"color": usual, "label": layer.name}
+    usual = {"color": usual, "label": IN_LEGENDS.get(layer.name, layer.name)}
     if layer.name in DASHES and type(layer) in _OF_LINES:
         usual["linestyle"] = DASHES[layer.name]
     artists = function(ax, layer, usual | style)
@@ -70,7 +70,7 @@ def colour(layer):
 
 
 def side_by_side(layers_by_title, size=(11, 5), shared=True):
-    """Maps side by side for comparison, such as naive (odometry only) beside corrected.
+    """Maps side by side for comparison, such as that of odometry alone beside a corrected one.
 
     Parameters
     ----------
@@ -84,9 +84,9 @@ def side_by_side(layers_by_title, size=(11, 5), shared=True):
     """
     fig, all_axes = panels(list(layers_by_title), size, shared)
     for ax, layers in zip(all_axes, layers_by_title.values(), strict=True):
-        named = layers.items() if isinstance(layers, dict) else ((x.name, x) for x in layers)
+        named = layers.items() if isinstance(layers, dict) else ((None, x) for x in layers)
         for label, layer in named:
-            draw(ax, layer, label=label)
+            draw(ax, layer, **({"label": label} if label else {}))
     legend_below(fig)
     return fig, all_axes
 

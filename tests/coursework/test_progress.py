@@ -40,6 +40,13 @@ def test_a_check_an_answer_and_a_validation_are_kept(course):
     assert set(kept["minutes"]) == {"04", "ex04"}
 
 
+def test_the_minutes_of_an_answer_count_for_the_notebook_that_asked(course):
+    progress_records.keep_answer("ex04-left", "C", True)
+    kept = progress_file.read(course)
+    assert kept["questions"]["ex04-left"]["right"]
+    assert set(kept["minutes"]) == {"ex04"}
+
+
 @pytest.mark.parametrize("name", [folder.OFF, "NBGRADER_EXECUTION", "PYTEST_VERSION"])
 def test_nothing_is_kept_where_no_student_sits(course, monkeypatch, name):
     monkeypatch.setenv(name, "1")

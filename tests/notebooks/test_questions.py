@@ -1,14 +1,18 @@
-"""Questions of the lessons: kept apart, so that no notebook's code tells an answer."""
+"""Questions of lessons and exercises: kept apart, so that no notebook's code tells an answer."""
+
+import sys
 
 import nbformat
 import pytest
 
 from course import asking
-from course.source import ROOT, read, sources
+from course.derive import FOLDERS
+from course.source import ROOT, read
 from slamlab.checks import ask
 from slamlab.checks.stored_questions import stored_question
+from slamlab.coursework.progress_file import NAME
+from tests.notebooks import EXERCISES, LESSONS, name
 
-LESSONS = [path for path in sources() if path.parent.name == "lessons"]
 NUMBER = """first()
 ask(
     "04-far", "How far?", right=2.5, tolerance=0.1,
@@ -28,16 +32,46 @@ def test_what_is_computed_cannot_be_stored():
         asking.asked('ask("04-a", "?", right=len(x), tolerance=1)')
 
 
-@pytest.mark.parametrize("path", LESSONS, ids=lambda path: path.stem)
-def test_what_a_lesson_asks_in_full_is_what_its_notebook_asks(path):
+def questions(source):
+    """What a source asks, in full."""
+    code = [cell.text for cell in source.cells if cell.type == "code"]
+    return [told for told in map(asking.asked, code) if told]
+
+
+@pytest.mark.parametrize("path", LESSONS + EXERCISES, ids=name)
+def test_what_a_source_asks_in_full_is_what_its_notebooks_ask(path):
     source = read(path)
-    found = [asking.asked(cell.text) for cell in source.cells if cell.type == "code"]
-    for told in filter(None, found):
+    found = questions(source)
+    for told in found:
         assert stored_question(told.pop("id")) == told
-    notebook = nbformat.read(ROOT / "notebooks" / source.file, as_version=4)
-    asked = [cell.source for cell in notebook.cells if asking.asks(cell.source)]
-    assert len(asked) == len(list(filter(None, found)))
-    assert all(set(asking.asked(code)) <= {"id", "unit"} for code in asked)
+    for folder in FOLDERS[source.kind]:
+        notebook = nbformat.read(ROOT / folder / source.file, as_version=4)
+        asked = [cell.source for cell in notebook.cells if asking.asks(cell.source)]
+        assert len(asked) == len(found)
+        assert all(set(asking.asked(code)) <= {"id", "unit"} for code in asked)
+
+
+@pytest.mark.parametrize("path", EXERCISES, ids=name)
+def test_an_exercise_asks_a_few_questions_and_what_answers_them_is_folded(path):
+    source = read(path)
+    assert 1 <= len(questions(source)) <= 3
+    for folder in FOLDERS[source.kind]:
+        for cell in nbformat.read(ROOT / folder / source.file, as_version=4).cells:
+            if "answers" in cell.metadata.get("slamlab", {}):
+                hidden = "outputs_hidden" if cell.cell_type == "code" else "source_hidden"
+                assert cell.metadata["jupyter"][hidden]
+
+
+def test_nobody_is_asked_where_nbgrader_runs_the_notebook(monkeypatch, tmp_path, capsys):
+    for folder in ("notebooks", "exercises"):
+        (tmp_path / folder).mkdir()
+    monkeypatch.chdir(tmp_path / "exercises")
+    monkeypatch.delenv("PYTEST_VERSION")
+    monkeypatch.setenv("NBGRADER_EXECUTION", "autograde")
+    monkeypatch.setitem(sys.modules, "ipywidgets", None)  # a grader may lack the widgets
+    assert ask("ex06-who") is None
+    assert capsys.readouterr().out == ""
+    assert not (tmp_path / NAME).exists()
 
 
 def test_an_unknown_question_says_so():

@@ -24,6 +24,6 @@ def test_every_value_stands_on_its_strip_and_a_limit_runs_across():
 
 def test_layers_side_by_side_are_called_by_their_names_or_as_one_says():
     layer = Points("corrected", np.zeros((2, 2)))
-    for given, called in (([layer], "corrected"), ({"scans": layer}, "scans")):
+    for given, called in (([layer], "estimate"), ({"scans": layer}, "scans")):
         fig, _ = views.side_by_side({"map": given})
         assert [text.get_text() for text in fig.legends[0].get_texts()] == [called]

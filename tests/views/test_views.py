@@ -59,12 +59,12 @@ def test_panels_that_share_nothing_show_each_map_at_its_own_scale():
     assert right.get_xlim() == (0, 1)
 
 
-def test_points_stand_where_they_are_and_carry_their_layers_name_and_colour():
+def test_points_stand_where_they_are_and_carry_label_and_colour_of_their_layer():
     _, ax = views.axes()
     xy = np.array([[1.0, 2.0], [3.0, -1.0]])
     (line,) = views.draw(ax, Points("corrected", xy))
     assert np.array_equal(line.get_xydata(), xy)
-    assert line.get_label() == "corrected"
+    assert line.get_label() == "estimate"
     assert line.get_color() == views.COLOURS["corrected"]
 
 
@@ -134,7 +134,7 @@ def test_side_by_side_draws_each_layer_in_its_panel():
     assert [len(left.lines), len(right.lines)] == [1, 0]
     assert left.get_legend() is None
     (legend,) = fig.legends
-    assert [text.get_text() for text in legend.get_texts()] == ["walls", "naive"]
+    assert [text.get_text() for text in legend.get_texts()] == ["walls", "odometry alone"]
 
 
 def test_a_figure_reaches_the_notebook_as_a_picture_with_its_text(stored):

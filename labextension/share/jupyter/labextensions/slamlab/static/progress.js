@@ -35,7 +35,7 @@ async function read(contents, folder) {
 
 function state(item, progress) {
   const done = progress[item.kind === "task" ? "tasks" : "questions"]?.[item.id];
-  const name = item.id.replace(/^\d+-/, "");
+  const name = item.id.replace(/^(ex)?\d+-/, "");
   if (item.kind === "question") {
     return { mark: done ? "✓" : "○", text: name, words: `question ${name}: ${done ? "answered" : "open"}` };
   }

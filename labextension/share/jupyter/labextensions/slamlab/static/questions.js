@@ -1,4 +1,4 @@
-// Questions of a lesson (slamlab.checks.ask), found in the code that asks them.
+// Questions of a notebook (slamlab.checks.ask), found in the code that asks them.
 
 // The question that a cell's code asks: {id, unit}, unit "" where there is none; undefined if it asks nothing.
 export function questionIn(source) {
