@@ -206,14 +206,30 @@ def test_numbers_that_must_not_be_rounded_are_not():
     assert any(np.array_equal(case.inputs["v"][0], row) for row in SETS[MAIN]["v"])
 
 
-def test_a_covariance_stays_one_when_it_is_rounded():
+def test_a_rounded_case_keeps_what_is_promised():
+    task = dataclasses.replace(TURN, rounds=lambda i: np.hypot(*i["v"].T) > 1.7)
+    answers, run = answered(WRONG["too long"], task)
+    case = cases.smallest(task, SETS, answers, run)
+    broken = dataclasses.replace(task, rounds=lambda i: 1 / 0)
+    assert np.hypot(*case.inputs["v"][0]) > 1.7
+    assert set(case.inputs["v"][0]) <= {1, 1.3, 1.4, 1.5, 1.6, 1.7, 1.8, 1.9, 2}
+    unrounded = cases.smallest(broken, SETS, answers, run)
+    assert any(np.array_equal(unrounded.inputs["v"][0], row) for row in SETS["no angle"]["v"])
+
+
+@pytest.mark.parametrize("columns", [2, 3])
+def test_a_covariance_stays_one_when_it_is_rounded(columns):
     rng = np.random.default_rng(3)
     for _ in range(100):
-        root = rng.normal(size=(3, 3))
+        root = rng.normal(size=(3, columns))
         P = root @ root.T * rng.uniform(1e-4, 10)
+        before = np.linalg.eigvalsh(P)
         for digits in cases.DIGITS:
             rounded = cases._rounded(P[None], digits)
-            assert rounded is None or np.linalg.eigvalsh(rounded[0]).min() > 0
+            if rounded is not None:  # as sure of nothing as before, and no surer of anything else
+                after = np.linalg.eigvalsh(rounded[0])
+                assert after.min() > (0 if columns == 3 else -1e-9 * before.max())
+                assert (after >= 0.1 * before - 1e-9 * before.max()).all()
 
 
 @pytest.mark.parametrize(

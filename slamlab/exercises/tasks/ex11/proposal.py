@@ -120,6 +120,14 @@ def _law(name, points, says, asks, main=False):
 
 
 ALL = ("weights",)
+
+
+def _promised(i):
+    """(k,) whether samples go where they look, and positive weights sum to one."""
+    went = np.abs(_driven(i["before"], _drives(i)) - i["after"])[..., :2].max(axis=(1, 2)) < 1e-9
+    return went & (i["weights"] > 0).all(axis=1) & (np.abs(i["weights"].sum(axis=1) - 1) < 1e-9)
+
+
 PROPOSAL = Task(
     id="11-proposal",
     title="Samples from another drawing",
@@ -160,4 +168,5 @@ PROPOSAL = Task(
         Probe("two samples", lambda r: looks(r, 3, 2), ALL),
         Probe("many samples", lambda r: looks(r, 2, 60), ALL),
     ),
+    rounds=_promised,
 )

@@ -102,6 +102,15 @@ def _law(name, points, says, asks, main=False):
 
 
 OTHERS = ("near",)
+
+
+def _promised(i):
+    """(k,) whether ranges are positive, and no sample is at a landmark."""
+    off = i["rows"][:, :, None, :2] - i["p"][:, None]
+    away = np.linalg.norm(off, axis=-1).min(axis=(1, 2)) > 0.1
+    return away & (i["z"][..., 0] > 0).all(axis=1)
+
+
 WEIGH = Task(
     id="11-weigh",
     title="Weigh: logarithms of likelihoods",
@@ -140,4 +149,5 @@ WEIGH = Task(
         Probe("whole numbers", _whole, OTHERS),
     ),
     parts=lambda i, o: {"logs": _differences(o["logs"]), "finite": o["finite"]},
+    rounds=_promised,
 )

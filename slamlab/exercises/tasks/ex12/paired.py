@@ -117,6 +117,12 @@ PROBES = (
     Probe("whole numbers", _whole),
 )
 
+
+def _promised(i):
+    """(k,) whether six drives are left, no two of which have the same difference."""
+    return np.array([len(d) >= 6 and np.diff(d).min() > 1e-9 for d in _differences(i)])
+
+
 PAIRED = Task(
     id="12-paired",
     title="Two filters on the same drives",
@@ -149,4 +155,5 @@ PAIRED = Task(
     ),
     probes=PROBES,
     parts=lambda i, o: {"low": o["result"][:, 0], "high": o["result"][:, 1]},
+    rounds=_promised,
 )
