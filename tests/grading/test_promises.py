@@ -8,7 +8,8 @@ from slamlab.exercises import cases, catalogue
 from slamlab.exercises.drives import StudentError
 from slamlab.exercises.task import OPEN_SEED
 
-ROUNDED = {one.task.id: one for id in catalogue.EXERCISES for one in programs(id) if one.task.rounds}
+ALL = [one for id in catalogue.EXERCISES for one in programs(id)]
+ROUNDED = {one.task.id: one for one in ALL if one.task.rounds}
 PROMISING = [id for id, one in ROUNDED.items() if callable(one.task.rounds)]
 ROWS, TIMES = 4, 2  # of each set, and how often each is rounded
 

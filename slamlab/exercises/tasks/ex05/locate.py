@@ -132,6 +132,7 @@ LOCATE = Task(
             asks="Expected at 179°, seen at −179°: by how much is the landmark off?",
             main=False,
             **MEAN,
+            after=("mean",),
         ),
         equals(
             "covariance",

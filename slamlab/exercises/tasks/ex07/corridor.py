@@ -158,6 +158,7 @@ CORRIDOR = Task(
             _honest,
             why=_dishonest,
             asks="Has anything been counted twice, or been forgotten that P should remember?",
+            after=("mean", "covariance"),
         ),
     ),
     rounds=_promised,

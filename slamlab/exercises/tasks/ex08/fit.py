@@ -110,6 +110,7 @@ FIT_LINE = Task(
             asks="Does any division in your way there have Σ(x − x̄)² or Σ(y − ȳ)² below?",
             step=_on_the_way,
             main=False,
+            after=("least",),
         ),
         Law(
             "outward",

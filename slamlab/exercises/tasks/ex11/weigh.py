@@ -97,8 +97,8 @@ def _step(i):
     }
 
 
-def _law(name, points, says, asks, main=False):
-    return Law(name, points, says, _same, why=_why, asks=asks, step=_step, main=main)
+def _law(name, points, says, asks, **more):
+    return Law(name, points, says, _same, why=_why, asks=asks, step=_step, **more)
 
 
 OTHERS = ("near",)
@@ -123,19 +123,22 @@ WEIGH = Task(
             2,
             "samples differ by half the difference of vᵀ R⁻¹ v, summed over the landmarks",
             "What is v for one sample and one landmark? How many numbers are summed up?",
-            main=True,
         ),
         _law(
             "behind",
             1,
             "so they do where a landmark is right behind",
             "A landmark is expected at 179° and seen at −179°. By how much was the sample wrong?",
+            main=False,
+            after=("near",),
         ),
         _law(
             "far",
             1,
             "so they do where samples are so far off that their likelihood is zero to a float",
             "What is the logarithm of e⁻¹⁰⁰⁰? And what does NumPy make of np.log(np.exp(-1000))?",
+            main=False,
+            after=("near",),
         ),
     ),
     probes=(

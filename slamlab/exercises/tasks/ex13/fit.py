@@ -114,6 +114,7 @@ BEST_MOTION = Task(
             "singular value is the least?",
             step=_on_the_way,
             main=False,
+            after=("turn",),
         ),
     ),
     probes=(
