@@ -63,6 +63,10 @@ def format_law(law, waits=False) -> str:
     law : LawResult
     waits : bool, whether a law is broken without which this one cannot hold
     """
+    if not law.failed and law.points < law.max_points:
+        return (
+            f"✓ {law.says} (0 of {points(law.max_points)}: it counts beside another law that holds)"
+        )
     if not law.failed:
         return f"✓ {law.says} ({points(law.points)})"
     if waits:

@@ -165,7 +165,6 @@ def draw(weights, rng):
         (TEETH, "np.linspace(rng.random() / n, 1, n)"),
         (TEETH, "np.linspace(0, 1, n) + rng.random() / n"),
         (TEETH, "np.linspace(rng.random() / n, 1 - 1 / n, n)"),
-        (TEETH, "np.linspace(0, 1 - 1 / n, n - 1 or 1) + rng.random() / n"),
         (TEETH, "np.linspace(1 / n, 1, n) - rng.random()"),
     ),
     Slip(
