@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from slamlab.exercises import case_text, cases
 from slamlab.exercises.drives.input_sets import MAIN, run_sets
 from slamlab.exercises.law import Law, equals
+from slamlab.exercises.report import format_verdict
 from slamlab.exercises.run_task import run_and_tell
 from slamlab.exercises.task import OPEN_SEED, UNCHANGED, Probe
 from slamlab.grading import feedback, gradebook_rows, judge
@@ -114,6 +115,34 @@ def test_it_says_what_was_given_returned_and_wanted():
     np.testing.assert_allclose(json.loads(lines[5]), 2 * v)
     assert lines[6] == "and should return"
     np.testing.assert_allclose(json.loads(lines[7]), v)
+
+
+def test_numbers_that_look_alike_are_told_where_they_differ():
+    task = dataclasses.replace(TURN, rounds=False)
+    case = told(lambda v, angle: turn(v, angle) * [1, 1.00003], task)
+    got, want = re.search(r"most of all result\[1\]: (\S+) instead of (\S+)$", case).groups()
+    assert float(got) == pytest.approx(1.00003 * float(want))
+    assert "most of all" not in told(lambda v, angle: 2 * v)
+
+
+def test_a_law_that_builds_on_a_broken_one_is_not_told_as_broken_too():
+    turned = TURN.laws[0]
+    later = dataclasses.replace(turned, name="far", says="and so it is far off", after=("turned",))
+    task = dataclasses.replace(TURN, laws=(turned, later))
+    verdict = run_and_tell(task, {"turn": lambda v, angle: 2 * v})
+    said = format_verdict(task, verdict)
+    assert verdict.points == 0
+    assert "✗ turns left: broken by" in said
+    assert "– and so it is far off: builds on a law that is broken (0 of 2 points)" in said
+    alone = dataclasses.replace(TURN, laws=(dataclasses.replace(turned, after=("other",)),))
+    assert "✗ turns left" in format_verdict(alone, verdict)
+
+
+def test_a_tick_without_points_says_why():
+    tick = Law("sized", 1, "has a size", lambda i, o: True, alone=False)
+    task = dataclasses.replace(TURN, laws=(*TURN.laws, tick))
+    said = format_verdict(task, run_and_tell(task, {"turn": lambda v, angle: np.cos(v)}))
+    assert "✓ has a size (0 of 1 point: it counts beside another law that holds)" in said
 
 
 def test_where_no_law_knows_the_answer_it_says_why_this_one_cannot_be():

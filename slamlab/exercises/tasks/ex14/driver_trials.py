@@ -67,8 +67,8 @@ def objection(o):
             at = np.flatnonzero(steps == -128)[0]
             return "half a round", (
                 f"In way {k}, reading {at + 1} is {values[at]:g} and the next is "
-                f"{values[at + 1]:g}. That is half a round, ahead or back: a right driver may return "
-                "either."
+                f"{values[at + 1]:g}. That is half a round, ahead or back: right drivers differ "
+                "here."
             )
         right = faulty_drivers.right(values)
         if not np.array_equal(counts, right):
