@@ -16,7 +16,7 @@ def odometry(left, right, tick, base):
 """,
     "in many little steps": """
 def odometry(left, right, tick, base):
-    steps = 3000
+    steps = 1000
     d, turn = (left + right) / 2 * tick / steps, (right - left) * tick / base / steps
     heading = turn * (np.arange(steps) + 0.5)
     return np.array([d * np.cos(heading).sum(), d * np.sin(heading).sum(), turn * steps])
@@ -239,7 +239,7 @@ SLIPS = (
         "more than a few degrees.",
         (END, "[(l + r) / 2, (l + r) / 2 * turn / 2, turn]"),
         (CHORD, "chord = (l + r) / 2 * (1 - (turn / 2) ** 2 / 6)"),
-        Edit("in many little steps", (("steps = 3000", "steps = 10"),)),
+        Edit("in many little steps", (("steps = 1000", "steps = 10"),)),
     ),
     Slip(
         "begin-of-each-step",
