@@ -81,7 +81,7 @@ def _():
 # The first milestone is a corridor, 9 m long, with a few niches and a cheap lidar of 120 beams. The
 # wheels go astray by half a metre and more. At the end your poses have to be at most half as far
 # off as those of the wheels; the better half of the points is for 0.3 m. Two drives are tried, each
-# with a new `MySlam()`, and two more in which a scan is lost.
+# with a new `MySlam()`, and in each of them a scan is lost on the way.
 #
 # What lesson 13 teaches is enough: match each scan with what was seen lately, beginning where the
 # wheels say. If you have solved exercise 13, you hold all the pieces.

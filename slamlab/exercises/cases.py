@@ -13,6 +13,7 @@ from slamlab.exercises.outputs import degenerate, measured
 
 MOST_RUNS = 60  # of a student's function, to shrink a case
 DIGITS = (1, 2, 3)
+KEPT = 0.2  # share of a covariance's eigenvalues, at least, when it is rounded
 
 
 @dataclass(frozen=True)
@@ -111,16 +112,31 @@ def _shrunk(task, case, run):
     if not task.rounds or not case.one:
         return case
     for name in case.inputs:
-        for digits in DIGITS:
-            array = _rounded(case.inputs[name], digits)
-            if array is None:
-                continue
-            inputs = {**case.inputs, name: array}
+        for inputs in rounder(task, case.inputs, name):
             outputs = _tried(task, run, inputs)
             if _fails(task, case.law, inputs, outputs):
                 case = Case(case.law, case.probe, inputs, outputs, True)
                 break
     return case
+
+
+def rounder(task, inputs, name):
+    """Inputs with one array rounded, the roundest first, that keep what the task promises.
+
+    Parameters
+    ----------
+    task : Task
+    inputs : name to array of one row
+    name : str, of the array
+
+    Yields
+    ------
+    name to array
+    """
+    for digits in DIGITS:
+        array = _rounded(inputs[name], digits)
+        if array is not None and task.are_inputs({**inputs, name: array}):
+            yield {**inputs, name: array}
 
 
 def _same_failure(found, error):
@@ -156,12 +172,17 @@ def _rounded(array, digits):
     rounded = np.round(array, digits - 1 - int(np.floor(np.log10(np.abs(array).max()))))
     if np.array_equal(rounded, array):
         return None
-    return rounded if _covariance(rounded) or not _covariance(array) else None
+    return rounded if _as_definite(rounded, array) else None
 
 
-def _covariance(array):
-    """Whether an array holds symmetric matrices that are positive definite."""
+def _as_definite(rounded, array):
+    """Whether matrices that were covariances still are, and those that had an inverse have one."""
     if array.ndim < 2 or array.shape[-1] != array.shape[-2]:
-        return False
-    turned = np.swapaxes(array, -1, -2)
-    return np.allclose(array, turned) and bool((np.linalg.eigvalsh(array) > 0).all())
+        return True
+    if not np.allclose(array, np.swapaxes(array, -1, -2)):
+        return True
+    before, after = np.linalg.eigvalsh(array), np.linalg.eigvalsh(rounded)
+    dust = 1e-12 * np.abs(before).max(axis=-1, keepdims=True)
+    if (before < -dust).any():  # a symmetric matrix that is no covariance
+        return True
+    return bool(((after >= KEPT * before) & (after >= -dust)).all())

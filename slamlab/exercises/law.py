@@ -30,6 +30,8 @@ class Law:
     asks : str, a question that leads on, for ``hint``
     step : inputs -> name to number or array, quantities on the way to the answer, for ``hint``
     main : bool, whether it is judged on the random inputs; else on the probes that name it only
+    after : names of laws without which it cannot hold: while one of them is broken it is not told
+        as broken, too
     alone : bool, whether it earns by itself; else, as many an answer that was computed of nothing
         obeys it, such as a sign, only beside a law that does
     """
@@ -44,6 +46,7 @@ class Law:
     step: Callable[[Arrays], Mapping] | None = None
     main: bool = True
     alone: bool = True
+    after: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -84,7 +87,7 @@ def equals(name, points, says, want, parts=None, angles=None, tolerance=TOLERANC
         them; None: all of ``want``
     angles : output's name to the index, on the last axis, of what counts modulo 2π
     tolerance : float, share of the largest number wanted in a row
-    more : ``asks``, ``step``, ``main``, ``alone`` of :class:`Law`
+    more : ``asks``, ``step``, ``main``, ``alone``, ``after`` of :class:`Law`
 
     Returns
     -------

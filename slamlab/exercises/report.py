@@ -40,7 +40,9 @@ def format_verdict(task: Task, verdict: Verdict) -> str:
     lines = [f"{mark} {task.id} · {task.title}: {earned}"]
     if verdict.problem:
         lines.append(f"  {verdict.problem}")
-    lines += [f"  {format_law(law)}" for law in verdict.laws]
+    broken = {law.name for law in verdict.laws if law.failed}
+    waiting = {law.name for law in task.all_laws if broken.intersection(law.after)}
+    lines += [f"  {format_law(law, law.name in waiting)}" for law in verdict.laws]
     problems = dict.fromkeys(p for law in verdict.laws for p in law.where.values() if p)
     lines += [f"  {problem}" for problem in problems]
     # JupyterLab breaks longer lines in the middle of a word
@@ -53,10 +55,22 @@ def format_verdict(task: Task, verdict: Verdict) -> str:
     return "\n".join(lines)
 
 
-def format_law(law) -> str:
-    """Format the result of one law: what it asks, whether it holds, which inputs broke it."""
+def format_law(law, waits=False) -> str:
+    """Format the result of one law: what it asks, whether it holds, which inputs broke it.
+
+    Parameters
+    ----------
+    law : LawResult
+    waits : bool, whether a law is broken without which this one cannot hold
+    """
+    if not law.failed and law.points < law.max_points:
+        return (
+            f"✓ {law.says} (0 of {points(law.max_points)}: it counts beside another law that holds)"
+        )
     if not law.failed:
         return f"✓ {law.says} ({points(law.points)})"
+    if waits:
+        return f"– {law.says}: builds on a law that is broken (0 of {points(law.max_points)})"
     return f"✗ {law.says}{_broken(law)} (0 of {points(law.max_points)})"
 
 

@@ -72,7 +72,8 @@ class Task:
     probes : edges of what is promised
     parts : (inputs, outputs) -> name to array: what can be wrong by itself, in a form all right
         solutions share (angles wrapped, sets sorted), for recognising slips; None: the outputs
-    rounds : bool, whether inputs stay inputs when their numbers are rounded, for showing a case
+    rounds : whether inputs stay inputs when their numbers are rounded, for showing a case: bool, or
+        inputs -> bool or (n,) bool, whether they keep what the task's text promises
     """
 
     id: str
@@ -85,7 +86,7 @@ class Task:
     needs: tuple[str, ...] = ()
     probes: tuple[Probe, ...] = ()
     parts: Callable[[Arrays, Arrays], Arrays] | None = None
-    rounds: bool = True
+    rounds: bool | Callable[[Arrays], np.ndarray | bool] = True
 
     @property
     def all_laws(self):
@@ -111,6 +112,13 @@ class Task:
         digest = hashlib.sha256(seed + b"\0" + self.id.encode()).digest()
         rng = np.random.default_rng(np.frombuffer(digest, dtype="<u4"))
         return {MAIN: self.inputs(rng)} | {probe.name: probe.inputs(rng) for probe in self.probes}
+
+    def are_inputs(self, inputs) -> bool:
+        """Whether inputs, perhaps rounded ones, keep what the task's text promises."""
+        if not callable(self.rounds):
+            return self.rounds
+        with np.errstate(all="ignore"):
+            return bool(np.all(_safely(self.rounds, inputs)))
 
     def judges(self, law, name):
         """Whether a law is judged on a set of inputs: on ``MAIN``, or on a probe by its name."""
@@ -190,9 +198,9 @@ class Task:
         return ~np.atleast_1d(np.asarray(holds, dtype=bool))
 
 
-def _safely(claim, inputs, outputs):
+def _safely(claim, *arrays):
     # what came back can be such that a decomposition, an index or a size fails: then nothing holds
     try:
-        return claim(inputs, outputs)
+        return claim(*arrays)
     except Exception:
         return False

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from slamlab.exercises import case_text, cases
 from slamlab.exercises.drives.input_sets import MAIN, run_sets
 from slamlab.exercises.law import Law, equals
+from slamlab.exercises.report import format_verdict
 from slamlab.exercises.run_task import run_and_tell
 from slamlab.exercises.task import OPEN_SEED, UNCHANGED, Probe
 from slamlab.grading import feedback, gradebook_rows, judge
@@ -116,6 +117,34 @@ def test_it_says_what_was_given_returned_and_wanted():
     np.testing.assert_allclose(json.loads(lines[7]), v)
 
 
+def test_numbers_that_look_alike_are_told_where_they_differ():
+    task = dataclasses.replace(TURN, rounds=False)
+    case = told(lambda v, angle: turn(v, angle) * [1, 1.00003], task)
+    got, want = re.search(r"most of all result\[1\]: (\S+) instead of (\S+)$", case).groups()
+    assert float(got) == pytest.approx(1.00003 * float(want))
+    assert "most of all" not in told(lambda v, angle: 2 * v)
+
+
+def test_a_law_that_builds_on_a_broken_one_is_not_told_as_broken_too():
+    turned = TURN.laws[0]
+    later = dataclasses.replace(turned, name="far", says="and so it is far off", after=("turned",))
+    task = dataclasses.replace(TURN, laws=(turned, later))
+    verdict = run_and_tell(task, {"turn": lambda v, angle: 2 * v})
+    said = format_verdict(task, verdict)
+    assert verdict.points == 0
+    assert "✗ turns left: broken by" in said
+    assert "– and so it is far off: builds on a law that is broken (0 of 2 points)" in said
+    alone = dataclasses.replace(TURN, laws=(dataclasses.replace(turned, after=("other",)),))
+    assert "✗ turns left" in format_verdict(alone, verdict)
+
+
+def test_a_tick_without_points_says_why():
+    tick = Law("sized", 1, "has a size", lambda i, o: True, alone=False)
+    task = dataclasses.replace(TURN, laws=(*TURN.laws, tick))
+    said = format_verdict(task, run_and_tell(task, {"turn": lambda v, angle: np.cos(v)}))
+    assert "✓ has a size (0 of 1 point: it counts beside another law that holds)" in said
+
+
 def test_where_no_law_knows_the_answer_it_says_why_this_one_cannot_be():
     law = Law(
         "turned",
@@ -206,14 +235,30 @@ def test_numbers_that_must_not_be_rounded_are_not():
     assert any(np.array_equal(case.inputs["v"][0], row) for row in SETS[MAIN]["v"])
 
 
-def test_a_covariance_stays_one_when_it_is_rounded():
+def test_a_rounded_case_keeps_what_is_promised():
+    task = dataclasses.replace(TURN, rounds=lambda i: np.hypot(*i["v"].T) > 1.7)
+    answers, run = answered(WRONG["too long"], task)
+    case = cases.smallest(task, SETS, answers, run)
+    broken = dataclasses.replace(task, rounds=lambda i: 1 / 0)
+    assert np.hypot(*case.inputs["v"][0]) > 1.7
+    assert set(case.inputs["v"][0]) <= {1, 1.3, 1.4, 1.5, 1.6, 1.7, 1.8, 1.9, 2}
+    unrounded = cases.smallest(broken, SETS, answers, run)
+    assert any(np.array_equal(unrounded.inputs["v"][0], row) for row in SETS["no angle"]["v"])
+
+
+@pytest.mark.parametrize("columns", [2, 3])
+def test_a_covariance_stays_one_when_it_is_rounded(columns):
     rng = np.random.default_rng(3)
     for _ in range(100):
-        root = rng.normal(size=(3, 3))
+        root = rng.normal(size=(3, columns))
         P = root @ root.T * rng.uniform(1e-4, 10)
+        before = np.linalg.eigvalsh(P)
         for digits in cases.DIGITS:
             rounded = cases._rounded(P[None], digits)
-            assert rounded is None or np.linalg.eigvalsh(rounded[0]).min() > 0
+            if rounded is not None:  # as sure of nothing as before, and no surer of anything else
+                after = np.linalg.eigvalsh(rounded[0])
+                assert after.min() > (0 if columns == 3 else -1e-9 * before.max())
+                assert (after >= 0.1 * before - 1e-9 * before.max()).all()
 
 
 @pytest.mark.parametrize(

@@ -105,6 +105,20 @@ def test_who_is_worse_than_the_wheels_is_told_so(make, name):
     assert (found.points, found.diagnosis) == (0, name)
 
 
+def test_a_map_may_be_to_come_but_is_no_list_of_numbers():
+    def mapping(answer):
+        return type("Mapping", (Solution,), {"map": lambda self: answer()})
+
+    def to_come():
+        raise NotImplementedError
+
+    found = verdict(CORRIDOR, mapping(lambda: np.zeros(7)))
+    assert (found.points, found.kind) == (0, "malformed")
+    assert "map() has shape (7,), not (n, 2)" in found.problem
+    assert verdict(CORRIDOR, mapping(to_come)).full
+    assert verdict(CORRIDOR, mapping(lambda: None)).full
+
+
 @pytest.mark.parametrize(
     ("claim", "laws", "name"),
     [

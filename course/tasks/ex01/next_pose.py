@@ -218,6 +218,7 @@ SLIPS = (
         (TURN, "(heading + np.pi / 2) % np.pi - np.pi / 2"),
         (TURN, "heading - np.pi * np.sign(heading) * (abs(heading) > np.pi)"),
         (TURN, "np.arcsin(np.sin(heading))"),
+        (TURN, "np.fmod(heading, np.pi)"),
     ),
     Slip(
         "clipped",

@@ -148,6 +148,13 @@ SLIPS = (
         Edit("anew", ((" + Q", ""),)),
     ),
     Slip(
+        "Q-twice-or-late",
+        "Q is added twice in a step, or after the update: the truth slips once, before it is measured.",
+        (STEP, STEP.replace("x, P = update(x, P,", "x, P = update(x, P + Q,")),
+        (STEP, STEP.replace("(x, P, F, Q)", "(x, P, F, 0 * Q)") + "\n        P = P + Q"),
+        (STEP, STEP + "\n        P = P + Q"),
+    ),
+    Slip(
         "Q-deviation",
         "Q holds variances already, in squared units: it is added as it is, without a square or root.",
         ("predict(x, P, F, Q)", "predict(x, P, F, Q @ Q)"),

@@ -113,6 +113,11 @@ SLIPS = (
         "An inverse of H turns a measurement into a state as if there were neither noise nor a belief. "
         "How sure both are must decide.",
         "def gain(P, H, R):\n    return np.linalg.pinv(H)",
+        """
+def gain(P, H, R):
+    W = np.linalg.inv(R)
+    return np.linalg.pinv(H.T @ W @ H) @ H.T @ W
+""",
     ),
     Slip(
         "R-for-S",

@@ -72,6 +72,12 @@ def anew(*pairs):
     return Edit("anew", pairs)
 
 
+def _gated(far):
+    """The update of those that refuse what is so far off."""
+    gate = f"if v @ np.linalg.solve(S, v) {far}:\n        return x, P\n    "
+    return "K = gain(P, H, R)", gate + "K = gain(P, H, R)"
+
+
 SLIPS = (
     Slip(
         "x-lost",
@@ -264,6 +270,11 @@ SLIPS = (
         "belief and measurement are two terms, each weighted by its own information.",
         Edit("information", (("before @ x + weight @ z", "weight @ z"),)),
         Edit("information", (("before @ x + weight @ z", "x + weight @ z"),)),
+    ),
+    Slip(
+        "refused",
+        "Some measurements were refused because they are far off. All are to be taken in here.",
+        *(_gated(f"> {most}") for most in ("9", "9 * len(v)", "16", "3.84", "13.8")),
     ),
 )
 

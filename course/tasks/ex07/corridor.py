@@ -107,6 +107,12 @@ SLIPS = (
         ("H[0], H[i] = -1, 1", "H[0], H[i] = 1, -1"),
     ),
     Slip(
+        "sides-lost",
+        "A door behind the robot has a negative distance, and the sign is lost on the way.",
+        (_x, "x + K * (abs(z) - abs(H @ x))"),
+        (_x, "x + K * (abs(z) - H @ x)"),
+    ),
+    Slip(
         "signs-of-H",
         "A sight is the door's place *less* the robot's: the two entries of H have different signs.",
         ("H[0], H[i] = -1, 1", "H[0], H[i] = 1, 1"),

@@ -159,6 +159,15 @@ def draw(weights, rng):
         (TEETH, "(rng.random() + np.arange(n)) / max(n - 1, 1)"),
     ),
     Slip(
+        "linspace",
+        "np.linspace takes its end in, so that n teeth leave n − 1 gaps: they stand too far apart, or the "
+        "last one never moves.",
+        (TEETH, "np.linspace(rng.random() / n, 1, n)"),
+        (TEETH, "np.linspace(0, 1, n) + rng.random() / n"),
+        (TEETH, "np.linspace(rng.random() / n, 1 - 1 / n, n)"),
+        (TEETH, "np.linspace(1 / n, 1, n) - rng.random()"),
+    ),
+    Slip(
         "half-shift",
         "The comb is shifted by half of what it may be: samples at one end of each gap lose.",
         (TEETH, "(rng.random() / 2 + np.arange(n)) / n"),

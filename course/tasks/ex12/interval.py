@@ -130,7 +130,17 @@ SLIPS = (
         (MIDDLE, "middle = (k / n + z**2 / n) / (1 + z**2 / n)"),
         (MIDDLE, "middle = (k / n - z**2 / (2 * n)) / (1 + z**2 / n)"),
         (MIDDLE, "middle = k / n / (1 + z**2 / n)"),
-        (MIDDLE, "middle = (k / n + z / (2 * n)) / (1 + z**2 / n)"),
+    ),
+    Slip(
+        "z-not-squared",
+        "Square the inequality with all that stands in it: z comes out as z² wherever it has no root beside it.",
+        (MIDDLE, MIDDLE.replace("z**2 / (", "z / (")),
+        (HALF, HALF.replace("z**2 / (4", "z / (4")),
+        [(MIDDLE, MIDDLE.replace("z**2", "z"))],
+        [(HALF, HALF.replace("z**2", "z"))],
+        [(MIDDLE, MIDDLE.replace("z**2", "z")), (HALF, HALF.replace("z**2", "z"))],
+        [(MIDDLE, MIDDLE.replace("1 + z**2", "1 + z")), (HALF, HALF.replace("1 + z**2", "1 + z"))],
+        Edit("the roots of the quadratic", (("1.96**2 / n", "1.96 / n"),)),
     ),
     Slip(
         "root-without-its-rest",

@@ -93,6 +93,10 @@ SLIPS = (
         "The reading at which a filter strays counts no more. Which one is the last that does?",
         (FIRST, FIRST.replace("strayed[0]", "strayed[0] + 1")),
         [(FIRST, FIRST.replace("strayed[0]", "strayed[0] + 1")), (LEFT, "if end > 1:")],
+        [
+            (FIRST, FIRST.replace("strayed[0]", "strayed[0] + 1")),
+            (LEFT, "if not len(strayed) or end > 1:"),
+        ],
     ),
     Slip(
         "one-reading-less",
@@ -108,6 +112,12 @@ SLIPS = (
             (
                 FIRST,
                 "near = (a <= limit) & (b <= limit)\n        end = near.sum()\n        a, b = a[near], b[near]",
+            )
+        ],
+        [
+            (
+                FIRST,
+                "near = (a <= limit) & (b <= limit)\n        end = near.sum() * near[0]\n        a, b = a[near], b[near]",
             )
         ],
     ),
@@ -237,6 +247,10 @@ SLIPS = (
             f"return {ENDS}",
             f"t = 1.2533 * 1.96\n    return {MEANS.replace('np.mean(diff', 'np.median(diff')}",
         ),
+        (f"return {ENDS}", f"t = 2\n    return {MEANS}"),
+        (f"return {ENDS}", f"t = 1.96\n    return {MEANS.replace(', ddof=1', '')}"),
+        (f"return {ENDS}", f"t = 1.96 * np.sqrt(n)\n    return {MEANS}"),
+        (f"return {ENDS}", f"t = 1.96 * np.sqrt(n)\n    return {MEANS.replace(', ddof=1', '')}"),
     ),
     Slip(
         "share-of-drives",

@@ -158,6 +158,8 @@ SLIPS = (
                 + "\n        source = source[kept]\n        keep = max(int(share * len(source)), 2)",
             )
         ],
+        (FIT, FIT + "\n        source = source[kept]\n        keep = int(share * len(source))"),
+        (FIT, FIT + "\n        source = moved[kept]\n        keep = int(share * len(source))"),
     ),
     Slip(
         "trimmed-at-the-end",

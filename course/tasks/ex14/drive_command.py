@@ -60,7 +60,7 @@ BYTE = '{byte:02X}"'
 SLIPS = (
     Slip(
         "as printed",
-        "256 − 1 − T − R is the thesis' rule: below zero when the bytes add to more than 255, and "
+        "256 − 1 − speed − turn is the thesis' rule: below zero when the bytes add to more than 255, and "
         "then '-1' stands in the frame. A byte is what is left of it modulo 256.",
         (CHECK, "256 - sum(data)"),
     ),

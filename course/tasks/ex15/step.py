@@ -176,6 +176,19 @@ SLIPS = (
         _in(("H[I, J] +=", "H[I, J] ="), ("H[J, I] +=", "H[J, I] =")),
         _in(("b[I] +=", "b[I] ="), ("b[J] +=", "b[J] =")),
         _in(("H[I, I] +=", "H[I, I] ="), ("H[J, J] +=", "H[J, J] =")),
+        _in(*((f"b[{k}] +=", f"b[{k}] =") for k in "I")),
+        _in(*((f"b[{k}] +=", f"b[{k}] =") for k in "J")),
+        _in(*((f"H[{k}, {k}] +=", f"H[{k}, {k}] =") for k in "I")),
+        _in(*((f"H[{k}, {k}] +=", f"H[{k}, {k}] =") for k in "J")),
+        _in(
+            *((f"{part} +=", f"{part} =") for part in ("H[I, I]", "H[I, J]", "H[J, I]", "H[J, J]"))
+        ),
+        ("b += J.T", "b = J.T"),
+        [
+            ("H += J.T", "H = J.T"),
+            ("b += J.T", "b = J.T"),
+            ("np.linalg.solve(H[3:, 3:], b[3:])", "np.linalg.pinv(H[3:, 3:]) @ b[3:]"),
+        ],
     ),
     Slip(
         "no-cross-blocks",

@@ -108,6 +108,7 @@ MISS = Task(
             3,
             "so far it errs where they err in both manners",
             "All errors are independent. Which of their numbers can be added up?",
+            after=("lengths", "headings"),
         ),
     ),
     probes=(

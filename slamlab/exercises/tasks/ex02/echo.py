@@ -140,6 +140,12 @@ def _parts(inputs, outputs):
     return {name: both[kind == name] for name in WAYS}
 
 
+def _promised(inputs):
+    """Whether walls have a length, and are :func:`_sure`."""
+    w = inputs["walls"][..., 2:] - inputs["walls"][..., :2]
+    return (np.hypot(w[..., 0], w[..., 1]) > 0.001).all() and _sure(inputs)
+
+
 ECHO = Task(
     id="02-echo",
     title="The first echo",
@@ -194,4 +200,5 @@ ECHO = Task(
     ),
     parts=_parts,
     needs=("02-ray-wall",),
+    rounds=_promised,
 )

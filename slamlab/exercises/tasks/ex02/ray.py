@@ -112,6 +112,15 @@ NEVER_MET = Diagnosis(
     lambda inputs, outputs: not outputs["met"].any(),
 )
 
+
+def _promised(inputs):
+    """(n,) whether walls have a length, and beams do not just touch the ends of one."""
+    w = inputs["wall"][:, 2:] - inputs["wall"][:, :2]
+    t, s = crossing(inputs["p"], inputs["phi"], inputs["wall"])
+    clear = (np.minimum(abs(s), abs(s - 1)) > 0.002) & (abs(t) > 0.001)
+    return (np.hypot(*w.T) > 0.001) & (clear | (kinds(inputs) == "parallel"))
+
+
 RAY_WALL = Task(
     id="02-ray-wall",
     title="A beam and a wall",
@@ -156,4 +165,5 @@ RAY_WALL = Task(
     ),
     diagnoses=(NEVER_MET,),
     parts=_parts,
+    rounds=_promised,
 )

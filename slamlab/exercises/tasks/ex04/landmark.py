@@ -82,6 +82,11 @@ def _shapes(inputs):
     return {"P_nn": (n, 2, 2), "P_rn": (n, 3, 2)}
 
 
+def _promised(inputs):
+    """(n,) whether ranges are positive, and headings known to 0.05 rad."""
+    return (inputs["z"][:, 0] > 0) & (inputs["P"][:, 2, 2] < 0.0501**2)
+
+
 TASK = Task(
     id="04-new-landmark",
     title="The covariance of a new landmark",
@@ -118,4 +123,5 @@ TASK = Task(
         Probe("a pose that is all but certain", _sure_pose),
         Probe("a sensor that is all but exact", _sharp_sensor),
     ),
+    rounds=_promised,
 )

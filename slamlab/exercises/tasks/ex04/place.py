@@ -66,6 +66,11 @@ def _parts(inputs, outputs):
     }
 
 
+def _promised(inputs):
+    """(n,) whether ranges are positive."""
+    return inputs["z"][:, 0] > 0
+
+
 TASK = Task(
     id="04-jxr-jz",
     title="J_xr and J_z of a new landmark",
@@ -101,4 +106,5 @@ TASK = Task(
         Probe("angles whose sum goes beyond π", _beyond),
     ),
     parts=_parts,
+    rounds=_promised,
 )

@@ -85,6 +85,11 @@ def _row(name, points, says, row, asks):
     )
 
 
+def _promised(inputs):
+    """(n,) whether the landmark is not at the robot itself."""
+    return np.hypot(*(inputs["p"] - inputs["x"][:, :2]).T) > 0.1
+
+
 TASK = Task(
     id="04-h-robot",
     title="H, the robot's part",
@@ -119,4 +124,5 @@ TASK = Task(
         Probe("headings at π and beyond", _turned),
     ),
     parts=_parts,
+    rounds=_promised,
 )

@@ -190,6 +190,13 @@ def _parts(inputs, outputs):
     return {"mean": mean, "place": S[:, :2, :2], "cross": cross, "heading": S[:, 2, 2]}
 
 
+def _promised(inputs):
+    """(n,) whether σ of heading, distance and wheels are as the text says."""
+    P, C = (np.einsum("nii->ni", inputs[name]) for name in ("P", "C"))
+    near, most = np.abs(inputs["u"][:, 0]) <= 6, np.square([0.601, 0.301])
+    return near & (P[:, 2] < 0.801**2) & (most > C).all(axis=1)
+
+
 TASK = Task(
     id="04-unsure-drive",
     title="A drive with an unsure heading",
@@ -260,4 +267,5 @@ TASK = Task(
         Probe("headings near ±π", _turned),
     ),
     parts=_parts,
+    rounds=_promised,
 )

@@ -87,6 +87,13 @@ def _on_the_way(inputs):
 
 MEAN = {"angles": {"x": 2}, "step": _on_the_way}
 
+
+def _promised(inputs):
+    """(n,) whether the landmark is not under the robot."""
+    away = np.hypot(*(inputs["p"] - inputs["x"][:, :2]).T) > 0.1
+    return away & (inputs["z"][:, 0] > 0)
+
+
 LOCATE = Task(
     id="05-locate",
     title="Where am I: one known landmark",
@@ -125,6 +132,7 @@ LOCATE = Task(
             asks="Expected at 179°, seen at −179°: by how much is the landmark off?",
             main=False,
             **MEAN,
+            after=("mean",),
         ),
         equals(
             "covariance",
@@ -135,4 +143,5 @@ LOCATE = Task(
             step=_on_the_way,
         ),
     ),
+    rounds=_promised,
 )

@@ -109,6 +109,12 @@ def _first_step(inputs):
 
 EXACTLY = ("mean", "covariance")
 
+
+def _promised(inputs):
+    """(n,) whether all r are positive."""
+    return (inputs["r"] > 0).all(axis=1)
+
+
 CORRIDOR = Task(
     id="07-corridor",
     title="SLAM in a corridor",
@@ -152,6 +158,8 @@ CORRIDOR = Task(
             _honest,
             why=_dishonest,
             asks="Has anything been counted twice, or been forgotten that P should remember?",
+            after=("mean", "covariance"),
         ),
     ),
+    rounds=_promised,
 )

@@ -62,6 +62,13 @@ def _innovation(inputs):
     return {"S": S, "S_xv": inputs["P_a"] - inputs["P_ab"]}
 
 
+def _promised(inputs):
+    """(n,) whether the covariance of all four numbers can be inverted."""
+    P_ab = inputs["P_ab"]
+    found = np.linalg.eigvalsh(np.block([[inputs["P_a"], P_ab], [T(P_ab), inputs["P_b"]]]))
+    return found[:, 0] > 1e-5 * found[:, 3]
+
+
 FUSE = Task(
     id="07-fuse",
     title="Two estimates that share an error",
@@ -96,4 +103,5 @@ FUSE = Task(
             step=_innovation,
         ),
     ),
+    rounds=_promised,
 )

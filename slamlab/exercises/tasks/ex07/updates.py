@@ -125,6 +125,7 @@ TWO_UPDATES = Task(
             asks="Which covariance does the robot have when it sees p2: that from before it saw "
             "p1?",
             step=_innovation("H_2", _first),
+            after=("first",),
         ),
         equals(
             "linked",
@@ -135,6 +136,7 @@ TWO_UPDATES = Task(
             tolerance=EXACT,
             asks="The robot stood 10 cm further left than it thought. Which of the two moves, "
             "then?",
+            after=("both",),
         ),
     ),
 )

@@ -75,6 +75,11 @@ def _on_the_way(inputs):
     return {"∂p/∂(ρ₁, α₁)": first, "∂p/∂(ρ₂, α₂)": second}
 
 
+def _promised(inputs):
+    """(n,) whether walls are 10° from parallel."""
+    return np.abs(np.linalg.det(_normals(inputs))) > np.sin(np.radians(10))
+
+
 CORNER = Task(
     id="08-corner",
     title="Where two walls meet",
@@ -113,4 +118,5 @@ CORNER = Task(
         Probe("large errors", lambda rng: pairs(rng, 1, alpha=(0.2, 0.3))),
     ),
     parts=lambda inputs, outputs: {name: outputs[name] for name in ("p", "P")},
+    rounds=_promised,
 )

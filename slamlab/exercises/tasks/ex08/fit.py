@@ -77,6 +77,12 @@ def _parts(inputs, outputs):
     return {"rho": rho, "normal": direction(alpha)}
 
 
+def _promised(inputs):
+    """(n,) whether points are in several places, on no line through the origin, and one is best."""
+    least, most = np.linalg.eigvalsh(scatter(inputs["points"])).T
+    return (most > 0) & (least < 0.9 * most) & (total(inputs["points"])[:, 0] > 0.01)
+
+
 FIT_LINE = Task(
     id="08-fit-line",
     title="A wall's line",
@@ -104,6 +110,7 @@ FIT_LINE = Task(
             asks="Does any division in your way there have Σ(x − x̄)² or Σ(y − ȳ)² below?",
             step=_on_the_way,
             main=False,
+            after=("least",),
         ),
         Law(
             "outward",
@@ -128,4 +135,5 @@ FIT_LINE = Task(
         Probe("a wall that nearly passes through the origin", _of(10, rho=(0.1, 0.2), noise=0.01)),
     ),
     parts=_parts,
+    rounds=_promised,
 )

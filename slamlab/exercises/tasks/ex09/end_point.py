@@ -91,6 +91,12 @@ def _changed(rows=2, **factors):
     return inputs
 
 
+def _promised(inputs):
+    """(n,) whether beam and normal are less than 80° apart, and r is positive."""
+    n, beam, r = _geometry(inputs)
+    return ((n * beam).sum(axis=1) > np.cos(np.radians(80))) & (r > 0)
+
+
 END_POINT = Task(
     id="09-end",
     title="Where a wall ends",
@@ -137,4 +143,5 @@ END_POINT = Task(
             step=_on_the_way,
         ),
     ),
+    rounds=_promised,
 )

@@ -155,6 +155,7 @@ UPDATE = Task(
             asks="Expected at 179°, seen at −179°: by how much is the normal off?",
             main=False,
             **MEAN,
+            after=("mean",),
         ),
         equals(
             "P",

@@ -106,6 +106,11 @@ def _law(name, points, says, which, asks):
     return Law(name, points, says, _are(*which), want=lines, asks=asks, step=_on_the_way)
 
 
+def _promised(given):
+    """(n,) whether r is not less than its bound, and d_abs well below a right angle."""
+    return (given["z"][:, 0] >= given["bounds"][:, 0]) & (sighting(given)[1] < 1.3)
+
+
 EDGES = Task(
     id="10-edges",
     title="The edges of a sighting",
@@ -147,4 +152,5 @@ EDGES = Task(
     parts=lambda given, out: {
         name: unit(out["result"])[:, k] for k, name in enumerate(("far", "near", "left", "right"))
     },
+    rounds=_promised,
 )

@@ -52,6 +52,16 @@ def _law(name, points, says, holds, asks):
     return Law(name, points, says, holds, want=sharpened, asks=asks, step=_on_the_way)
 
 
+def _promised(given):
+    """(n,) whether boxes overlap or are apart, and one piece of the heading agrees."""
+    r, o = given["robot"], given["box"]
+    gaps = [np.maximum(o[:, k] - r[:, k + 1], r[:, k] - o[:, k + 1]) for k in (0, 2)]
+    right, left = sharpened(given)["result"].T
+    wide = np.ptp(given["heading"], axis=1) + np.ptp(told(given), axis=1)
+    one_piece = (left >= right - 1e-9) & (wide < 2 * np.pi - 0.01)
+    return (np.abs(np.max(gaps, axis=0)) > 0.005) & (overlap(given) | one_piece)
+
+
 HEADING = Task(
     id="10-heading",
     title="The heading after a sighting",
@@ -94,4 +104,5 @@ HEADING = Task(
         "apart": turned(out["result"])[~overlap(given)],
         "overlapping": turned(out["result"])[overlap(given)],
     },
+    rounds=_promised,
 )

@@ -172,6 +172,13 @@ def _law(name, points, says, holds, asks):
     return Law(name, points, says, holds, want=want, asks=asks, step=_on_the_way)
 
 
+def _promised(given):
+    """(n,) whether no circle just touches a box."""
+    least, most = (np.hypot(*side) for side in zip(*_apart(given), strict=True))
+    near, far = given["r"] - given["bound"], given["r"] + given["bound"]
+    return (np.abs(least - far) > 0.001) & (np.abs(most - near) > 0.001)
+
+
 RING = Task(
     id="10-ring",
     title="A range alone",
@@ -220,6 +227,7 @@ RING = Task(
         "far": out["box"][np.logical_and(*_split(given))],
         "near": out["box"][_matters(given)[1]],
     },
+    rounds=_promised,
 )
 
 

@@ -111,15 +111,24 @@ def _at_rest(rng):
     return i | {"after": i["before"].copy(), "u": 0 * i["u"], "m": i["m"] - i["u"][:, None]}
 
 
-def _law(name, points, says, asks, main=False):
+def _law(name, points, says, asks, main=False, after=()):
     def step(i):
         less = "log density of the wheels less that of the drawing"
         return {"d and Δθ of each sample": _drives(i), less: _logs(i)}
 
-    return equals(name, points, says, _wanted, asks=asks, step=step, main=main, tolerance=1e-6)
+    more = {"asks": asks, "step": step, "main": main, "after": after}
+    return equals(name, points, says, _wanted, tolerance=1e-6, **more)
 
 
 ALL = ("weights",)
+
+
+def _promised(i):
+    """(k,) whether samples go where they look, and positive weights sum to one."""
+    went = np.abs(_driven(i["before"], _drives(i)) - i["after"])[..., :2].max(axis=(1, 2)) < 1e-9
+    return went & (i["weights"] > 0).all(axis=1) & (np.abs(i["weights"].sum(axis=1) - 1) < 1e-9)
+
+
 PROPOSAL = Task(
     id="11-proposal",
     title="Samples from another drawing",
@@ -139,6 +148,7 @@ PROPOSAL = Task(
             "so they are where each sample has a covariance of its own",
             "How high is the hill of a wide Gaussian, and how high that of a narrow one?",
             main=True,
+            after=("alike",),
         ),
         _law(
             "far",
@@ -146,6 +156,7 @@ PROPOSAL = Task(
             "so they are where densities are too small for a float",
             "Is p itself ever needed? Which number may be taken off all logarithms without "
             "changing a weight?",
+            after=("weights",),
         ),
     ),
     probes=(
@@ -160,4 +171,5 @@ PROPOSAL = Task(
         Probe("two samples", lambda r: looks(r, 3, 2), ALL),
         Probe("many samples", lambda r: looks(r, 2, 60), ALL),
     ),
+    rounds=_promised,
 )

@@ -97,11 +97,20 @@ def _step(i):
     }
 
 
-def _law(name, points, says, asks, main=False):
-    return Law(name, points, says, _same, why=_why, asks=asks, step=_step, main=main)
+def _law(name, points, says, asks, **more):
+    return Law(name, points, says, _same, why=_why, asks=asks, step=_step, **more)
 
 
 OTHERS = ("near",)
+
+
+def _promised(i):
+    """(k,) whether ranges are positive, and no sample is at a landmark."""
+    off = i["rows"][:, :, None, :2] - i["p"][:, None]
+    away = np.linalg.norm(off, axis=-1).min(axis=(1, 2)) > 0.1
+    return away & (i["z"][..., 0] > 0).all(axis=1)
+
+
 WEIGH = Task(
     id="11-weigh",
     title="Weigh: logarithms of likelihoods",
@@ -114,19 +123,22 @@ WEIGH = Task(
             2,
             "samples differ by half the difference of vᵀ R⁻¹ v, summed over the landmarks",
             "What is v for one sample and one landmark? How many numbers are summed up?",
-            main=True,
         ),
         _law(
             "behind",
             1,
             "so they do where a landmark is right behind",
             "A landmark is expected at 179° and seen at −179°. By how much was the sample wrong?",
+            main=False,
+            after=("near",),
         ),
         _law(
             "far",
             1,
             "so they do where samples are so far off that their likelihood is zero to a float",
             "What is the logarithm of e⁻¹⁰⁰⁰? And what does NumPy make of np.log(np.exp(-1000))?",
+            main=False,
+            after=("near",),
         ),
     ),
     probes=(
@@ -140,4 +152,5 @@ WEIGH = Task(
         Probe("whole numbers", _whole, OTHERS),
     ),
     parts=lambda i, o: {"logs": _differences(o["logs"]), "finite": o["finite"]},
+    rounds=_promised,
 )

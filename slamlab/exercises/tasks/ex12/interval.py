@@ -6,7 +6,7 @@ import numpy as np
 from scipy.stats import beta, binom
 
 from slamlab.exercises.drives.ex12 import DRIVES
-from slamlab.exercises.law import Law
+from slamlab.exercises.law import Diagnosis, Law
 from slamlab.exercises.task import Probe, Task
 
 SHARES = np.linspace(0.02, 0.98, 193)
@@ -117,6 +117,12 @@ def _why_narrows(i, o):
     )
 
 
+def _certain(i, o):
+    """Whether 0 of n, or n of n, is taken for certain."""
+    low, high = o["result"].T
+    return (high[i["k"] == 0] < SLACK).all() or (low[i["k"] == i["n"]] > 1 - SLACK).all()
+
+
 INTERVAL = Task(
     id="12-interval",
     title="How sure is a share?",
@@ -155,6 +161,14 @@ INTERVAL = Task(
             _narrows,
             why=_why_narrows,
             asks="How does the scatter of k/n depend on n?",
+        ),
+    ),
+    diagnoses=(
+        Diagnosis(
+            "drawn-from-the-count",
+            "0 of n is taken for certain, or n of n: who draws from the share that was counted, "
+            "or lets that share scatter, never sees there what was not counted.",
+            _certain,
         ),
     ),
     probes=(

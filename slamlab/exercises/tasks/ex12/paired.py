@@ -6,7 +6,7 @@ from math import comb
 import numpy as np
 
 from slamlab.exercises.drives.ex12 import DRIVES
-from slamlab.exercises.law import equals
+from slamlab.exercises.law import ROUNDING, Diagnosis, equals
 from slamlab.exercises.task import Probe, Task
 
 ROWS = 8
@@ -48,6 +48,20 @@ def _differences(i):
     count = alive.sum(axis=2)
     a, b = np.sqrt((both**2 * alive).sum(axis=3) / np.maximum(count, 1))
     return [np.sort((x - y)[n > 0]) for x, y, n in zip(a, b, count, strict=True)]
+
+
+def _with_calm_ones(rng):
+    """Studies of which some have no drive on which a filter strays."""
+    both = studies(rng), studies(rng, stray=0, rows=2)
+    return {name: np.concatenate([some[name] for some in both]) for name in both[0]}
+
+
+def _between(i, o):
+    """Whether no end is a difference, although on these drives nobody strays."""
+    beyond = np.maximum(i["errors_a"], i["errors_b"]).max(axis=(1, 2)) > i["limit"]
+    pairs = zip(_differences(i), o["result"], beyond, strict=True)
+    off = [np.abs(ends - d[:, None]).min() for d, ends, away in pairs if not away]
+    return min(off) > ROUNDING
 
 
 def too_few(n):
@@ -117,11 +131,17 @@ PROBES = (
     Probe("whole numbers", _whole),
 )
 
+
+def _promised(i):
+    """(k,) whether six drives are left, no two of which have the same difference."""
+    return np.array([len(d) >= 6 and np.diff(d).min() > 1e-9 for d in _differences(i)])
+
+
 PAIRED = Task(
     id="12-paired",
     title="Two filters on the same drives",
     drive=DRIVES["12-paired"],
-    inputs=studies,
+    inputs=_with_calm_ones,
     shapes={"result": (2,)},
     laws=(
         _law(
@@ -138,6 +158,7 @@ PAIRED = Task(
             "each drive counts up to the reading before either filter strays",
             "On one drive A strays at reading 7 and B at reading 4. Which readings of A count, and "
             "which of B? And if A is near again at reading 9?",
+            after=("coins",),
         ),
         _law(
             "left out",
@@ -145,8 +166,19 @@ PAIRED = Task(
             "a drive that has no such reading is left out, of n as well",
             "How many coins were thrown, if some drives say nothing?",
             main=False,
+            after=("until",),
+        ),
+    ),
+    diagnoses=(
+        Diagnosis(
+            "between-differences",
+            "Your ends are none of the differences. How many of these lie below μ changes "
+            "only where μ passes one of them, so both ends are differences: there is no bell to "
+            "lay over them, and nothing to draw at random.",
+            _between,
         ),
     ),
     probes=PROBES,
     parts=lambda i, o: {"low": o["result"][:, 0], "high": o["result"][:, 1]},
+    rounds=_promised,
 )

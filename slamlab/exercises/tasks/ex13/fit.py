@@ -71,6 +71,14 @@ def _parts(inputs, outputs):
     return {"Rot": T[:, :2, :2], "t": T[:, :2, 2], "last row": T[:, 2]}
 
 
+def _promised(inputs):
+    """(n,) whether one turn is best: no cloud is a single place, nor do all turns fit alike."""
+    clouds = (inputs[name] @ [1, 1j] for name in ("source", "target"))
+    a, b = (cloud - cloud.mean(axis=1, keepdims=True) for cloud in clouds)
+    size = np.linalg.norm(a, axis=1) * np.linalg.norm(b, axis=1)
+    return (size > 0) & (np.abs((a.conj() * b).sum(axis=1)) > 0.01 * size)
+
+
 BEST_MOTION = Task(
     id="13-best-motion",
     title="The best motion of paired points",
@@ -106,6 +114,7 @@ BEST_MOTION = Task(
             "singular value is the least?",
             step=_on_the_way,
             main=False,
+            after=("turn",),
         ),
     ),
     probes=(
@@ -120,4 +129,5 @@ BEST_MOTION = Task(
         Probe("whole numbers", _whole),
     ),
     parts=_parts,
+    rounds=_promised,
 )

@@ -57,6 +57,7 @@ MORE = judged_at(
         "each further round seeks new pairs from where the source lies by then",
         matched,
         asks="What is different at the beginning of the second round from that of the first?",
+        after=("round",),
     ),
     lambda rounds: rounds > 1,
 )

@@ -67,6 +67,7 @@ MORE = _either(
         "each further round seeks and sorts the pairs anew and keeps as large a share",
         want,
         asks="A pair was long in the first round, so it was left out. May it come back?",
+        after=("round",),
     )
 )
 
@@ -74,7 +75,7 @@ TRIMMED = Task(
     id="13-trimmed",
     title="Trimmed ICP",
     drive=DRIVES["13-trimmed"],
-    inputs=lambda rng: crowded(rng, [1, 1, 2, 3, 14], [27, 31, 30, 33, 28]),
+    inputs=lambda rng: crowded(rng, [1, 1, 2, 3, 5], [27, 31, 30, 33, 28]),
     shapes={"result": (3, 3)},
     laws=(
         judged_at(ONE, lambda rounds: rounds <= 1),
@@ -82,6 +83,7 @@ TRIMMED = Task(
     ),
     needs=("13-best-motion",),
     probes=(
+        Probe("many rounds", lambda rng: crowded(rng, [14], [28])),
         Probe("no rounds", lambda rng: crowded(rng, [0, 0], [3], (4, 7), 2)),
         Probe("a share of nearly one", lambda rng: crowded(rng, [1, 3], [9], (8, 12), 2)),
         Probe("two pairs kept of six", lambda rng: crowded(rng, [1, 1], [2], (6, 8), 0, 1)),

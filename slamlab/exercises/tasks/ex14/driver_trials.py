@@ -51,26 +51,31 @@ def objection(o):
     ways = ways_of(o)
     readings = len(o["values"])
     if not ways or readings > READINGS or len(ways) > WAYS:
-        most = f"There may be {WAYS} ways and {READINGS} readings at most, and one way at least."
-        return "too much", f"{most} These are {len(ways)} and {readings}."
+        return "too much", (
+            f"Your trials are {len(ways)} ways with {readings} readings in all. At least one way "
+            f"and at most {WAYS} may be tried, with {READINGS} readings at most."
+        )
     for k, (values, counts) in enumerate(ways, 1):
         whole = (values == np.rint(values)) & (values >= -128) & (values <= 127)
         if not whole.all():
-            return "no byte", f"Way {k} holds {values[~whole][0]:g}, which no signed byte can be."
+            return "no byte", (
+                f"In way {k}, reading {1 + np.flatnonzero(~whole)[0]} is {values[~whole][0]:g}. A "
+                "signed byte is a whole number from −128 to 127."
+            )
         steps = faulty_drivers.ring(np.diff(values))
         if (steps == -128).any():
             at = np.flatnonzero(steps == -128)[0]
-            pair = f"{values[at]:g} to {values[at + 1]:g}"
             return "half a round", (
-                f"Way {k} goes from {pair}, half a round: right drivers differ on whether that is "
-                "ahead or back."
+                f"In way {k}, reading {at + 1} is {values[at]:g} and the next is "
+                f"{values[at + 1]:g}. That is half a round, ahead or back: right drivers differ "
+                "here."
             )
         right = faulty_drivers.right(values)
         if not np.array_equal(counts, right):
             at = np.flatnonzero(counts != right)[0]
             return "wrong counts", (
-                f"In way {k} a right driver gives {right[at]:g} at reading {at + 1} and not "
-                f"{counts[at]:g}: it would be taken for a wrong one."
+                f"In way {k}, at reading {at + 1}, your trials expect {counts[at]:g} counts, and a "
+                f"right driver returns {right[at]:g}. They would take it for a faulty one."
             )
     return None
 

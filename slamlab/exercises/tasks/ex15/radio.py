@@ -109,6 +109,13 @@ PROBES = (
     Probe("one pair", lambda rng: ranges(rng, 1)),
 )
 
+
+def _promised(inputs):
+    """(n,) whether the radios are 10 cm apart."""
+    ends = (inputs[name] for name in ("x_i", "x_j", "a_i", "a_j"))
+    return np.linalg.norm(_between(*ends), axis=1) > 0.1
+
+
 RADIO = Task(
     id="15-range",
     title="An edge by radio",
@@ -142,4 +149,5 @@ RADIO = Task(
     ),
     probes=PROBES,
     parts=_parts,
+    rounds=_promised,
 )
