@@ -398,7 +398,7 @@ seen_live = views.live(
     colours=AS_IN_THE_THESIS,
     title="Rooms and walls",
     seed=1,
-    size=(900, 400),
+    size=(900, 340),
 )
 
 # %% [markdown] slideshow={"slide_type": "subslide"}

@@ -18,6 +18,7 @@ MINUTE = 60_000  # ms
 PATIENCE = 3  # minutes for a page to be ready, and for a deck to begin: a guard against hanging
 KERNEL = {"name": "python3", "display_name": "Python 3 (ipykernel)", "language": "python"}
 COMMAND = "slamlab:lecture"
+SPARE = ".ink.spare.json"  # beside the ink, read where that is torn
 
 _READY = """() => {
   const panel = window.jupyterapp?.shell.currentWidget;
@@ -145,8 +146,9 @@ def shown(notebook, screen=SCREEN):
         home, course = Path(folder), Path(folder) / "course"
         course.mkdir()
         _copy(notebook, course / notebook.name, home / "data")
-        if ink_of(notebook).exists():
-            shutil.copy(ink_of(notebook), course)
+        for ink in (ink_of(notebook), notebook.with_suffix(SPARE)):
+            if ink.exists():
+                shutil.copy(ink, course)
         data = Path(os.environ.get("SLAMLAB_DATA") or DATA_FOLDER).resolve()
         # the copy has the course's recordings, and what it is asked is nobody's progress
         with jupyterlab(home, {"SLAMLAB_DATA": data, OFF: 1}) as address:

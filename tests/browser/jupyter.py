@@ -14,6 +14,8 @@ from tests.patience import PATIENCE
 __all__ = ["Unavailable", "Visit", "chromium", "jupyterlab"]
 EXTENSION = ROOT / "labextension" / "share" / "jupyter"
 IDLE = ".jp-Notebook-ExecutionIndicator[data-status=idle]"  # out of sight on a narrow page
+# anywidget gives up after two seconds, on a busy machine: the cell run again shows the widget
+BUSY = "[anywidget] Failed to initialize model."
 
 # what was never in sight is not laid out, and further cells come a while after those before them
 LOOK_THROUGH = """async (patience) => {

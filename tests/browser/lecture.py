@@ -49,6 +49,10 @@ SEEN = """() => {
     };
 }""".replace("LETTERS_OF_A_FIGURE", "12")  # 9 pt at the width a figure has in a notebook
 
+LAID_OUT = """(width) => {
+    const { style } = document.querySelector(".slamlab-deck .jp-WindowedPanel-viewport");
+    return Math.abs(style.zoom * parseFloat(style.getPropertyValue("--slamlab-width")) - width) < 1;
+}"""
 PAINTED = "() => new Promise((done) => requestAnimationFrame(() => setTimeout(done)))"
 
 
@@ -68,6 +72,11 @@ class Lecture:
         self.page.locator(".slamlab-lecture-start").click()
         self.page.wait_for_selector(".slamlab-deck .slamlab-bar")
         self.press("Home")
+
+    def resize(self, width, height):
+        """Give the window another size and wait until the slide is laid out for it."""
+        self.page.set_viewport_size({"width": width, "height": height})
+        self.page.wait_for_function(LAID_OUT, arg=width)
 
     def press(self, key):
         """Press a key and wait until what it does is painted."""

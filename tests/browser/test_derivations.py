@@ -3,7 +3,9 @@
 import nbformat
 import pytest
 
+from tests.browser.lecture import Lecture
 from tests.browser.live import fresh
+from tests.patience import until
 
 NAME = "derivation.ipynb"
 DERIVED = """\
@@ -70,6 +72,18 @@ def test_a_derivation_is_played_back_and_forth_by_mouse_and_keyboard(derived):
     assert press("next line", " ") == 2
     assert press("all lines") == 4
     assert not derived.errors
+
+
+def test_on_a_slide_a_derivation_run_again_stands_at_the_line_it_stood_at(derived):
+    lecture = Lecture(derived)
+    lecture.start()
+    lecture.press("PageDown")
+    lecture.press("PageDown")
+    assert lines_seen(derived) == 3
+    stop = lecture.seen["stop"]
+    lecture.press("Control+Enter")
+    derived.page.wait_for_function("() => !document.querySelector('.slamlab-notice').textContent")
+    until(lambda: (lecture.seen["stop"], lines_seen(derived)) == (stop, 3))
 
 
 def test_a_derivation_keeps_nobody_out(derived):

@@ -194,6 +194,39 @@ def test_a_damaged_file_is_kept_aside_and_told(visit, lab_folder):
     until(lambda: len(strokes(lecture)) == 1)
 
 
+def test_a_server_killed_while_it_writes_loses_no_ink(lecture):
+    kept, page = ink(lecture), lecture.page
+    spare = kept.with_suffix(".spare.json")
+
+    def torn(file, y):
+        """Draw, while the server writes no more than a part of a file; then load all again."""
+
+        def kill(route):
+            if route.request.method != "PUT":
+                return route.continue_()
+            file.write_text('{"version": 1, "strokes": [{')
+            return route.abort()
+
+        page.route(f"**/api/contents/**/{file.name}*", kill)
+        draw(page, *on(lecture, "img.slamlab-figure", (0.1, y), (0.9, y)))
+        page.locator(".slamlab-notice", has_text="could not be saved").wait_for()
+        page.reload()
+        page.locator(".jp-NotebookPanel .jp-Cell").first.wait_for()
+        page.unroute_all()
+        lecture.start()
+        lecture.press("Home", "PageDown", "PageDown", "i")
+
+    lecture.press("i")
+    draw(page, *on(lecture, "img.slamlab-figure", (0.1, 0.2), (0.9, 0.2)))
+    until(lambda: len(strokes(lecture)) == 1)
+    torn(spare, 0.5)
+    count(lecture, 1)  # the file is whole
+    torn(kept, 0.8)
+    count(lecture, 2)  # the spare is, with what was drawn last
+    until(lambda: len(strokes(lecture)) == 2)
+    assert not list(kept.parent.glob(f"{kept.stem}.damaged*"))
+
+
 def test_the_presenters_window_shows_it(lecture):
     presenter = lecture.presenter()
     lecture.press("i")

@@ -5,7 +5,7 @@ import shutil
 import pytest
 
 from course.source import ROOT
-from tests.browser.jupyter import Visit, jupyterlab
+from tests.browser.jupyter import BUSY, Visit, jupyterlab
 
 pytestmark = pytest.mark.walk
 NOTEBOOKS = [
@@ -14,8 +14,6 @@ NOTEBOOKS = [
     for path in sorted((ROOT / folder).glob("*.ipynb"))
 ]
 PICTURES = ".jp-OutputArea-output img"
-# anywidget gives up after two seconds, on a busy machine: the cell run again shows the widget
-BUSY = "[anywidget] Failed to initialize model."
 LIMIT = 800_000  # of a lesson's file [bytes], outputs of a run included
 
 

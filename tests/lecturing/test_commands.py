@@ -72,6 +72,9 @@ def test_notes_stand_on_upright_white_pages(write, tmp_path):
     assert not re.search(rb"(\.7\d* ){3}rg", data), "JupyterLab's grey is below the notes"
 
 
+TORN = '{"version": 1, "strokes": [{'  # a file of ink
+
+
 def stroke(cell, colour="blue"):
     """A stroke on the first text of a cell."""
     anchor = {"cell": cell, "kind": "text", "nth": 0}
@@ -85,16 +88,18 @@ def test_a_handout_has_the_ink_and_says_which_it_lacks(write, tmp_path, capsys):
     cells = [cell.id for cell in nbformat.read(notebook, as_version=4).cells]
     ink = notebook.with_suffix(".ink.json")
     strokes = [stroke(cells[0]), stroke(cells[3], "red"), stroke("no cell")]
-    ink.write_text(json.dumps({"version": 1, "strokes": strokes}))
+    ink.write_text(TORN)
+    spare = notebook.with_suffix(".ink.spare.json")
+    spare.write_text(json.dumps({"version": 1, "strokes": strokes}))
     assert main(["handout", str(notebook), "--out", str(out)]) == 1
     assert set(re.findall(rb"([\d.]+ [\d.]+ [\d.]+) RG", pages(out)[2])) >= {BLUE, RED}
     assert "is gone: 1" in capsys.readouterr().err
 
-    ink.write_text('{"version": 1, "strokes": [{')
+    spare.unlink()
     assert main(["handout", str(notebook), "--out", str(out)]) == 1
     assert "could not be read" in capsys.readouterr().err
     assert pages(out)[0] == 2
-    assert ink.read_text() == '{"version": 1, "strokes": [{'
+    assert ink.read_text() == TORN
 
 
 def test_what_is_no_notebook_is_told(tmp_path, capsys):

@@ -82,7 +82,7 @@ class Audience {
     } catch (error) {
       this.status.textContent = error instanceof TypeError
         ? "The class's process does not answer. Press a, end it, and open it again." : String(error.message);
-      this.deck.layer.append(this.strip);
+      this.deck.bar.node.append(this.strip);
       if (!this.status.isConnected) this.strip.append(this.status);
       return null;
     }
@@ -201,7 +201,7 @@ class Audience {
     }
     this.status.textContent = "";
     this.strip.replaceChildren(button("ask the class", () => this.open(question)), this.status);
-    this.deck.layer.append(this.strip);
+    this.deck.bar.node.append(this.strip);
   }
 
   async open(question) {
@@ -234,7 +234,7 @@ class Audience {
       ? button("close the poll", () => this.closePoll())
       : button("done", () => this.done());
     this.strip.replaceChildren(bars, ...hands, last, this.status);
-    this.deck.layer.append(this.strip);
+    this.deck.bar.node.append(this.strip);
     this.label();
   }
 

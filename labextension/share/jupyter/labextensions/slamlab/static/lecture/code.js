@@ -7,11 +7,19 @@ import { questionIn } from "../questions.js";
 const SHORT = 6; // lines that need no folding
 const SUBJECT = "code"; // tag of a cell whose code is what the slide is about
 const SHOWS = /^(views\.|ax\.|fig\b|plt\.|display\(|with |for |@|\)|\]|\}|\w+ = \(?f?["'])/; // says little
+const DRAWS = /^((\w+ = )?views\.|[)\]}])/; // the figure says more
+
+const outerLines = (source) => source.split("\n").filter((line) => /^[^\s#]/.test(line));
+
+// Whether code is to be read as it stands: it is short, and no long call that only shows something.
+function isTold(source) {
+  const lines = source.trim().split("\n").length;
+  return lines === 1 || (lines <= SHORT && !outerLines(source).every((line) => DRAWS.test(line)));
+}
 
 // The line that stands for folded code: the last statement that does more than show something.
 function tellingLine(source) {
-  const lines = source.split("\n").filter((line) => line.trim() && !line.startsWith("#"));
-  const outer = lines.filter((line) => /^\S/.test(line));
+  const outer = outerLines(source);
   const telling = outer.findLast((line) => !SHOWS.test(line)) ?? outer[0] ?? "";
   return telling;
 }
@@ -34,7 +42,7 @@ export function foldCode(cell) {
   const source = cell.model.sharedModel.getSource();
   const subject = cell.model.getMetadata("tags")?.includes(SUBJECT);
   const asks = Boolean(questionIn(source));
-  cell.node.classList.toggle("slamlab-folded", asks || (!subject && source.trim().split("\n").length > SHORT));
+  cell.node.classList.toggle("slamlab-folded", asks || (!subject && !isTold(source)));
   let line = cell.node.querySelector(".slamlab-telling");
   if (!line) {
     line = element("code", "slamlab-telling");

@@ -102,22 +102,25 @@ export class Deck {
     this.#unscroll();
     this.signature = this.#signature();
     Object.assign(this.layer.dataset, { stop: this.at, stops: this.stops.length, shrink: this.shown.shrink });
+    this.aim = this.stops[this.at];
     this.changed.emit(this);
     this.#prepare();
   }
 
   goToSlide(number) { this.go(this.#first(number)); }
 
-  // The same stop anew, after its content changed, or the size of all.
+  // The same stop anew, after its content changed, or the size of all. A cell that runs has no steps for
+  // a while: the stop that was gone to is aimed at until they are back.
   again(all = true) {
     if (!this.panel.node.classList.contains(PANEL)) return;
-    const here = this.stops[this.at];
+    const { aim } = this;
     if (all) this.layouts.clear();
-    else this.layouts.delete(here.slide);
+    else this.layouts.delete(aim.slide);
     this.gather();
-    this.at = this.#first(here.slide);
-    this.#pages(here.slide);
-    this.go(Math.max(this.#first(here.slide), this.#reached(here)));
+    this.at = this.#first(aim.slide);
+    this.#pages(aim.slide);
+    this.go(Math.max(this.#first(aim.slide), this.#reached(aim)));
+    this.aim = aim;
   }
 
   key(key, does, action) { this.keys.set(key, { does, action }); }
@@ -167,6 +170,7 @@ export class Deck {
     notebook.activeCellIndex = this.cell;
     panel.update();
     notebook.activate();
+    requestAnimationFrame(() => notebook.scrollToItem(this.cell, "start"));
   }
 
   // The pages of a slide; laid out for the first time they may bring stops that were not known.

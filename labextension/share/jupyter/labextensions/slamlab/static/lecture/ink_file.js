@@ -1,4 +1,6 @@
-// Ink is kept in a file beside its notebook, NAME.ink.json, never in the notebook.
+// Ink is kept in a file beside its notebook, NAME.ink.json, never in the notebook. The server writes a file
+// in place: killed while it writes, it leaves a torn one. So what is kept is written first to a spare,
+// NAME.ink.spare.json, and one of the two is whole at any time.
 
 import { isStroke } from "./strokes.js";
 
@@ -10,10 +12,12 @@ let last = Promise.resolve(); // reading waits for writing: a deck may be starte
 export class InkFile {
   constructor(contents, notebook, tell) {
     Object.assign(this, { contents, tell });
-    this.path = `${notebook.replace(/\.ipynb$/, "")}.ink.json`;
+    const name = notebook.replace(/\.ipynb$/, "");
+    Object.assign(this, { path: `${name}.ink.json`, spare: `${name}.ink.spare.json` });
   }
 
-  // The strokes that are kept; none if there is no file. A damaged file is put aside: undefined.
+  // The strokes that are kept; none if there is no file. A damaged file is put aside, undefined, unless its
+  // spare is whole.
   async read() {
     await last;
     const folder = this.path.split("/").slice(0, -1).join("/");
@@ -21,8 +25,13 @@ export class InkFile {
     if (!listed.some(({ path }) => path === this.path)) return []; // asking for none would be an error
     for (const pause of [0, PAUSE]) { // another window may be writing it
       await new Promise((done) => { setTimeout(done, pause); });
-      const strokes = strokesIn(await this.#text());
+      const strokes = strokesIn(await this.#text(this.path));
       if (strokes) return strokes;
+    }
+    const spared = listed.some(({ path }) => path === this.spare) && strokesIn(await this.#text(this.spare));
+    if (spared) {
+      await this.#write(this.path, spared); // before the spare is written again
+      return spared;
     }
     const aside = this.#free(listed.map(({ path }) => path));
     await this.contents.rename(this.path, aside);
@@ -37,9 +46,7 @@ export class InkFile {
     this.timer = setTimeout(() => this.flush(), PAUSE);
   }
 
-  // Write now what is still to be written; one after another. The server writes in place and puts the
-  // former file back if that fails; only a server that is killed while it writes leaves a torn one.
-  // It renames onto no file that exists, so a new file under another name would leave a moment with none.
+  // Write now what is still to be written; one after another.
   flush() {
     clearTimeout(this.timer);
     last = last.then(async () => {
@@ -47,7 +54,7 @@ export class InkFile {
       if (!strokes) return;
       this.waiting = undefined;
       try {
-        await this.contents.save(this.path, { type: "file", format: "text", content: asText(strokes) });
+        for (const path of [this.spare, this.path]) await this.#write(path, strokes);
       } catch (error) {
         this.waiting ??= strokes;
         this.tell(`The ink could not be saved (${error.message}); the next stroke tries again.`);
@@ -56,10 +63,14 @@ export class InkFile {
     return last;
   }
 
-  // The text of the file; undefined if it is none.
-  async #text() {
+  #write(path, strokes) {
+    return this.contents.save(path, { type: "file", format: "text", content: asText(strokes) });
+  }
+
+  // The text of a file; undefined if it is none.
+  async #text(path) {
     try {
-      return (await this.contents.get(this.path, { type: "file", format: "text", content: true })).content;
+      return (await this.contents.get(path, { type: "file", format: "text", content: true })).content;
     } catch (error) {
       if (error.response?.status === 400) return undefined; // not UTF-8
       throw error;
