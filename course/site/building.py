@@ -1,5 +1,6 @@
 """Build the site: pages are prepared in a folder of their own, then set by Sphinx."""
 
+import re
 import shutil
 import subprocess
 import sys
@@ -52,19 +53,20 @@ def build(out, work=WORK, rendered=None, whole=True):
     )
     if done.returncode:
         raise SiteError("Sphinx has something to say: see above")
-    _level_captions(html)
+    _mend_lists(html)
     shutil.rmtree(out, ignore_errors=True)
     shutil.copytree(html, out, ignore=shutil.ignore_patterns(".buildinfo*", "objects.inv"))
     (out / ".nojekyll").touch()  # GitHub Pages leaves folders with _ away otherwise
     return failed
 
 
-def _level_captions(folder):
-    """Give captions of lists of pages the level that Sphinx leaves away; screen readers want it."""
+def _mend_lists(folder):
+    """Mend what screen readers stumble over: captions without a level, lists right within lists."""
     for path in folder.rglob("*.html"):
         text = path.read_text(encoding="utf-8")
-        levelled = text.replace('class="caption" role="heading"', f'class="caption" {_LEVEL}')
-        path.write_text(levelled, encoding="utf-8")
+        mended = text.replace('class="caption" role="heading"', f'class="caption" {_LEVEL}')
+        mended = re.sub(r"</li>\s*<ul>|</ul>(?=\s*(?:<li>|</ul>))", "", mended)
+        path.write_text(mended, encoding="utf-8")
 
 
 def katex_modules(work):

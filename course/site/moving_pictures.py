@@ -1,12 +1,13 @@
 """In place of ``views.explore`` and ``views.live``: pictures of a slider's values, and films."""
 
 import base64
-import io
 from math import ceil
 
 import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from PIL import Image
 
+from course.site.steady_layout import SteadyLayout
 from slamlab import films
 from slamlab.views import sliders
 from slamlab.views.arrangement import arrange
@@ -40,7 +41,7 @@ class Renderer:
         """Render every value of each control, the others as they first stand."""
         widgets = {name: sliders._control(name, given) for name, given in controls.items()}
         first = {name: widget.value for name, widget in widgets.items()}
-        told, known = [], {}
+        told, known, layout = [], {}, SteadyLayout()
         usual = MOST_VALUES if len(widgets) == 1 else MOST_OF_SEVERAL
         for name, widget in widgets.items():
             values, said = values_of(widget, MOST_PLAYED if name == play else usual)
@@ -49,7 +50,7 @@ class Renderer:
                 chosen = first | {name: value}
                 key = repr(chosen)
                 if key not in known:
-                    known[key] = self._picture(draw(**chosen), alt, chosen, len(known))
+                    known[key] = self._picture(draw(**chosen), alt, chosen, len(known), layout)
                 shown.append(known[key])
             told.append(
                 {
@@ -90,16 +91,17 @@ class Renderer:
             stepper.close()
             self._tell({"film": shipped(file), "title": called, "alt": alt})
 
-    def _picture(self, fig, alt, chosen, number):
+    def _picture(self, fig, alt, chosen, number, layout):
         """A figure as a lossless WebP, and its alternative text."""
         said = alt(**chosen) if callable(alt) else alt
         file = self._folder / f"{self._stem()}-{number}.webp"
-        arrange(fig)
+        canvas = FigureCanvasAgg(fig)
+        arrange(fig, layout)
         fig.set_layout_engine("none")  # all has its place
-        drawn = io.BytesIO()
         # the notebook's are drawn for screens of two pixels; of so many pictures one has to do
-        fig.savefig(drawn, format="png", dpi=fig.dpi, pil_kwargs={"compress_level": 0})
-        picture = Image.open(drawn).convert("RGB").quantize(PALETTE, dither=Image.Dither.NONE)
+        canvas.draw()  # once, where savefig would draw twice
+        drawn = Image.fromarray(np.asarray(canvas.buffer_rgba())).convert("RGB")
+        picture = drawn.quantize(PALETTE, dither=Image.Dither.NONE)
         picture.convert("RGB").save(file, "WEBP", lossless=True, quality=75, method=4)
         return file.name, f"{words(fig)} {said.strip()}"
 

@@ -10,22 +10,13 @@ MOST_LAYOUTS = 5  # the layout is made anew until nothing moves any more
 STILL = 1e-3  # of the figure: what moves by less stands still
 
 
-def arrange(fig):
-    """Give titles and legends of a figure their room: nothing covered, nothing cut off.
+def lay_out(fig):
+    """Lay out until nothing moves: maps of equal scale shrink as others grow, or the reverse.
 
     Parameters
     ----------
     fig : Figure
     """
-    _lay_out(fig)
-    if any([_wrap_title(fig, ax) for ax in fig.axes]):
-        _lay_out(fig)
-    if make_room(fig):
-        _lay_out(fig)
-
-
-def _lay_out(fig):
-    """Lay out until nothing moves: maps of equal scale shrink as others grow, or the reverse."""
     engine = fig.get_layout_engine()
     if engine is None:
         return
@@ -36,6 +27,21 @@ def _lay_out(fig):
         if before is not None and np.allclose(places, before, atol=STILL):
             return
         before = places
+
+
+def arrange(fig, lay_out=lay_out):
+    """Give titles and legends of a figure their room: nothing covered, nothing cut off.
+
+    Parameters
+    ----------
+    fig : Figure
+    lay_out : callable(Figure), gives the axes their places
+    """
+    lay_out(fig)
+    if any([_wrap_title(fig, ax) for ax in fig.axes]):
+        lay_out(fig)
+    if make_room(fig):
+        lay_out(fig)
 
 
 def _wrap_title(fig, ax):

@@ -74,6 +74,10 @@ class LivePage:
         x, y, degrees = map(float, told.groups())
         return np.array([x, y, np.radians(degrees)])
 
+    def steps(self):
+        """How many readings the page tells of."""
+        return int(re.search(r"step (\d+)", self.status.text_content())[1])
+
     def go_to(self, x, y):
         """Turn to a place and drive there, by the pose that the page tells.
 

@@ -11,7 +11,8 @@ from axe_playwright_python.sync_playwright import Axe
 
 from course import pack
 from course.site import building, in_pack, looking
-from tests.patience import PATIENCE
+from tests.browser.firefox import Missing, firefox
+from tests.patience import PATIENCE, until
 from tests.setup.test_pack import all_programs, solutions
 
 pytestmark = pytest.mark.slow
@@ -25,6 +26,14 @@ PAGES = (
     "literature",
 )
 MOVING = "notebooks/01_why_slam.html"
+TO_ITS_START = """
+(film) => {
+  const [scrubber, speed] = ["input", "select"].map((name) => film.querySelector(name));
+  [scrubber.value, speed.value] = [0, 5];
+  scrubber.dispatchEvent(new Event("input"));
+  return film.querySelector("input").value;
+}
+"""
 LOADED = "document.fonts.ready.then(() => document.readyState == 'complete')"
 
 
@@ -56,6 +65,13 @@ def unpacked(work):
     pack.pack(target, pack.contents(pages=pages))
     zipfile.ZipFile(target).extractall(work.parent)
     return work.parent / pack.TOP
+
+
+@pytest.fixture(scope="module")
+def page_of_09(work):
+    """The page of lesson 09 with its films, of the rooms that a robot drives through."""
+    assert building.build(work.parent / "with_films", work, {"09"}, whole=False) == []
+    return work.parent / "with_films" / "notebooks" / "09_slam_with_walls.html"
 
 
 @pytest.fixture(params=SCREENS)
@@ -135,8 +151,50 @@ def test_the_film_of_the_first_page_plays_to_its_end(look):
     watch_first_film(look("index.html"))
 
 
+def test_the_film_of_the_first_page_plays_to_its_end_in_firefox(site):
+    watch_in_firefox(site / "index.html")
+
+
+@pytest.mark.soak
+def test_the_films_of_lesson_09_play_to_their_ends(visitor, page_of_09):
+    page = visitor(page_of_09)
+    for place in page.locator(".slamlab-film").all():
+        watch_film(page, place)
+
+
+@pytest.mark.soak
+def test_the_films_of_lesson_09_play_to_their_ends_in_firefox(page_of_09):
+    watch_in_firefox(page_of_09)
+
+
+def watch_in_firefox(file):
+    try:
+        with firefox() as tab:
+            tab.open(file.as_uri())
+            count = tab.evaluate("document.querySelectorAll('.slamlab-film').length")
+            for at in range(count):
+                watch_there(tab, f"document.querySelectorAll('.slamlab-film')[{at}]")
+            assert count and tab.wrong == []
+    except Missing as reason:
+        pytest.skip(str(reason))
+
+
+def watch_there(tab, film):
+    tab.evaluate(f"{film}.scrollIntoView()")
+    until(lambda: tab.evaluate(f"!!{film}.querySelector('.slamlab-live')?.dataset.frame"))
+    assert tab.evaluate(f"({TO_ITS_START})({film})") == "0"
+    tab.evaluate(f"{film}.querySelector('button').click()")
+    until(lambda: tab.evaluate(f"{film}.querySelector('button').textContent") == "▶ play")
+    last = tab.evaluate(f"{film}.querySelector('input').max")
+    assert int(last) > 100
+    until(lambda: tab.evaluate(f"{film}.querySelector('.slamlab-live').dataset.frame") == last)
+
+
 def watch_first_film(page):
-    place = page.locator(".slamlab-film").first
+    watch_film(page, page.locator(".slamlab-film").first)
+
+
+def watch_film(page, place):
     place.scroll_into_view_if_needed()
     film = place.locator(".slamlab-live[data-frame]")
     film.wait_for()

@@ -12,7 +12,9 @@ import serial
 
 from course.source import ROOT
 from slamlab import worlds
+from slamlab.devices.clock import Clock
 from slamlab.devices.emir import Emir
+from slamlab.devices.emulator import emulator_runner
 from slamlab.devices.emulator.emulator_runner import EmulatorRunner, run_emulators
 from slamlab.devices.emulator.fault_injection import HELP, inject_fault
 from slamlab.devices.emulator.pseudo_terminal import BUFFER_SIZE
@@ -113,6 +115,29 @@ def test_what_does_not_fit_is_counted_to_the_byte():
             time.sleep(0.01)
     assert len(end._waiting) <= BUFFER_SIZE
     port.close()
+
+
+class Watch:
+    """A device that notes what time it is told."""
+
+    def __init__(self):
+        self.times = []
+
+    def feed(self, data, now):
+        self.times.append(now)
+        return b""
+
+
+def test_while_the_machine_stands_still_so_does_the_emulated_world(monkeypatch):
+    class Stalling(Clock):
+        def now(self):
+            return 1e3 * super().now()
+
+    monkeypatch.setattr(emulator_runner, "Clock", Stalling)
+    watch = Watch()
+    with EmulatorRunner({"watch": (watch, TcpServer())}):
+        until(lambda: len(watch.times) > 5)
+    assert (np.diff(watch.times) <= emulator_runner.LONGEST_STEP + 1e-9).all()
 
 
 def test_a_second_client_is_sent_away():

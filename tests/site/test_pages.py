@@ -9,7 +9,7 @@ from course.site.moving_outputs import films_alone
 from course.site.moving_pictures import values_of
 from course.site.pages_of_notebooks import page, without_links
 from course.site.questions import question
-from course.site.symbols import plain_forms
+from course.site.symbols import plain_forms, spelled
 from slamlab.views.sliders import _control
 
 FILES = {"04": "04_models_and_jacobians"}
@@ -112,13 +112,21 @@ def test_text_that_explains_an_answer_is_folded_too():
     [
         (r"\psi", {"ψ"}),
         (r"P_{\mathrm{ri}} = \Lambda", {"P_ri", "Λ"}),
-        (r"\hat{x}_{k}", {"x"}),
+        (r"\hat{x}_{k}", {"x_k"}),
+        (r"\hat x_{k-1} + \bar p", {"x_k", "p"}),
+        (r"H_{\mathrm r} P_{j\mathrm r}", {"H_r", "P_jr"}),
+        (r"\Delta\theta + \Delta x_i", {"Δθ", "Δx_i"}),
+        (r"P_{\theta\theta} J_{\mathrm{r}i}^\top", {"P_θθ", "J_ri"}),
         (r"P_{r,i}", {"P_ri"}),
         (r"\varepsilon + \lambda", {"ε", "λ"}),
     ],
 )
 def test_symbols_are_found_by_their_plain_form(latex, plain):
     assert plain <= plain_forms(latex)
+
+
+def test_greek_letters_are_found_by_their_names():
+    assert spelled({"σ_x", "Δθ", "λ", "x"}) == {"sigma", "delta", "theta", "lambda"}
 
 
 def test_looking_finds_what_is_wrong_with_a_site(tmp_path):

@@ -17,6 +17,7 @@ from slamlab.devices.shutdown import close_at_exit
 from slamlab.devices.transport import open_port
 
 POLL_INTERVAL = 0.004  # between two polls of the devices [s]
+LONGEST_STEP = 0.05  # of the devices' time [s]: while the machine stands still, so do they
 LIDAR, EMIR = "lidar", "emir"  # names of the devices
 
 
@@ -34,7 +35,8 @@ class EmulatorRunner:
 
     def __init__(self, devices):
         self._devices, self.clock = devices, Clock()  # ports know real time alone
-        self.error = None
+        self.error, self._seen = None, self.clock.now()
+        self._now = self._seen
         self._thread = ReaderThread(self._step, "emulator", self._on_end, self.clock)
         self._thread.start()
         close_at_exit(self)  # after the drivers that hang on it: they were opened later
@@ -69,10 +71,14 @@ class EmulatorRunner:
             select.select(files, [], [], POLL_INTERVAL)
         else:
             stopping.wait(POLL_INTERVAL)
+        now = self.clock.now()
+        # a robot would else have driven on for all the time that nobody could look or stop it
+        self._now += min(now - self._seen, LONGEST_STEP)
+        self._seen = now
         for device, end in self._devices.values():
             received = end.receive()
             try:
-                data = device.feed(received, self.clock.now())
+                data = device.feed(received, self._now)
             except OSError:  # unplugged
                 end.unplug()
                 continue

@@ -1,0 +1,61 @@
+"""Layout of pictures that follow each other: axes stay where they are as long as all has its room.
+
+What stays does not jump while a slider moves, and most of a picture's time went into its layout.
+"""
+
+import numpy as np
+
+from slamlab.views.arrangement import lay_out
+
+KEPT = 3  # layouts: before titles are wrapped, after it, with legends below
+SLACK = 1.5  # by which words may reach further than they did [pixels]
+
+
+class SteadyLayout:
+    """Callable(Figure) that lays out a figure as one before it, if that suits.
+
+    It is of use for figures that are drawn by the same function.
+    """
+
+    def __init__(self):
+        self._known = []  # (what a figure needed, the places of its axes), the last one first
+
+    def __call__(self, fig):
+        """Give the axes of a figure their places."""
+        for needed, places in self._known:
+            if len(places) == len(fig.axes) and self._suits(fig, needed, places):
+                return
+        for ax in fig.axes:
+            ax.set_in_layout(True)
+        lay_out(fig)
+        self._known = [(_needs(fig), list(map(_place, fig.axes))), *self._known[: KEPT - 1]]
+
+    def _suits(self, fig, needed, places):
+        for ax, (original, active, anchor, aspect) in zip(fig.axes, places, strict=True):
+            ax.set_anchor(anchor)
+            ax.set_box_aspect(aspect)
+            ax.set_position(original, which="original")
+            ax.set_position(active, which="active")
+        needs = _needs(fig)
+        return needs.shape == needed.shape and (needs <= needed + SLACK).all()
+
+
+def _place(ax):
+    original, active = ax.get_position(original=True), ax.get_position()
+    return original, active, ax.get_anchor(), ax.get_box_aspect()
+
+
+def _needs(fig):
+    """How far words reach beyond each axes, and a figure's legends into it [pixels]."""
+    beyond = []
+    for ax in fig.axes:
+        tight = ax.get_tightbbox()
+        room = ax.get_window_extent()
+        if tight is not None:
+            beyond.append(
+                [room.x0 - tight.x0, room.y0 - tight.y0, tight.x1 - room.x1, tight.y1 - room.y1]
+            )
+    for legend in fig.legends:
+        box = legend.get_window_extent()
+        beyond.append([0, 0, box.width, box.height])
+    return np.array(beyond)
