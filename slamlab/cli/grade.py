@@ -121,7 +121,7 @@ def _grade(arguments, scratch):
         isolation.ensure_level(arguments.isolation)
     with (
         Gradebook(arguments.db or default_url(arguments.out), arguments.who) as book,
-        WorkerPool(arguments.isolation) as workers,
+        WorkerPool(arguments.isolation, preload=batch.named_modules(found)) as workers,
         signals_as_interrupt(),
     ):
         kept = batch.kept_policies(book)

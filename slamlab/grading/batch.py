@@ -8,7 +8,7 @@ from dataclasses import replace
 from hashlib import sha256
 from pathlib import Path
 
-from slamlab.grading import class_report, feedback, grade_tables, judge
+from slamlab.grading import class_report, feedback, forked_workers, grade_tables, judge
 from slamlab.grading.gradebook_rows import attempt_key
 from slamlab.grading.marks import mark
 from slamlab.grading.records import private_folder
@@ -167,11 +167,22 @@ def content_hashes(found):
     """
     listed = []
     for submission in sorted(found, key=lambda submission: submission.name):
-        data = b""
-        with contextlib.suppress(SubmissionError):
-            data = read_bytes(submission)
+        data = _content(submission)
         listed.append((submission.name, sha256(data).hexdigest() if data else ""))
     return listed
+
+
+def named_modules(found):
+    """Modules that submissions name, see :func:`forked_workers.named_modules`."""
+    return forked_workers.named_modules(map(_content, found))
+
+
+def _content(submission):
+    """The bytes of a submission; none where there is nothing that can be read."""
+    try:
+        return read_bytes(submission)
+    except SubmissionError:
+        return b""
 
 
 def kept_policies(book):

@@ -123,13 +123,12 @@ def _of_node(node, own):
 
 
 def _whole(node):
-    """The value of a whole number, or of a power or a shift of two; 0 for anything else."""
+    """The size of a whole number, or of two by which one is raised or shifted; 0 for others."""
     match node:
         case ast.Constant(value=int() as number):
             return number
-        case ast.BinOp(left=ast.Constant(value=int() as base), op=ast.Pow() | ast.LShift() as op,
-                       right=ast.Constant(value=int() as by)) if 0 <= by < 64 and base < 1 << 64:  # fmt: skip
-            return base << by if isinstance(op, ast.LShift) else base**by
+        case ast.BinOp(ast.Constant(int() as base), op, ast.Constant(int() as by)) if 0 <= by < 64:
+            return base**by if isinstance(op, ast.Pow) else base << by
     return 0
 
 
