@@ -31,6 +31,7 @@ COURSE = ("slamlab.grading", "slamlab.exercises")
 MODULES, CALLS = frozenset(_MODULES.split()), frozenset(_CALLS.split())
 INNER = frozenset(_INNER.split())
 """Attributes and methods by which code reaches into its interpreter, or lies about its answers."""
+BEYOND = "a number beyond all measure"
 OWN_NAMES = frozenset(("check", "attempt", "hint"))
 NUMBERS = frozenset(("ndarray", "float", "int", "complex"))  # what answers are made of
 HUGE, POWER = 1e100, 100  # numbers and powers of which no answer is made
@@ -90,46 +91,13 @@ def _of_cell(source, own):
         for word in sorted(set(re.findall(r"\w+", source[:MAX_CHARACTERS])) & (MODULES | INNER)):
             yield f"names {word}"
         return
+    by_kind = {}
     for node in nodes:
-        if isinstance(node, ast.Import | ast.ImportFrom):
-            yield from _of_import(node, own)
-        elif isinstance(node, ast.FunctionDef):
-            own.add(node.name)
-    for node in nodes:
-        yield from _of_node(node, own)
-
-
-def _of_node(node, own):
-    """The signs in one node, apart from imports."""
-    match node:
-        case ast.Attribute():
-            yield from _of_attribute(node, own)
-        case ast.Name():
-            yield from _of_name(node)
-        case ast.FunctionDef(name=name) if name in INNER:
-            yield f"defines {name}"
-        case ast.ClassDef(name=name, bases=bases):
-            made_of = {ast.unparse(base).rpartition(".")[2] for base in bases} & NUMBERS
-            yield from (f"makes {name}, a kind of {base}" for base in sorted(made_of))
-        case ast.Constant(value=str(text)) if text in INNER and text.startswith("__"):
-            yield f"names {text}"
-        case ast.Constant(value=int() | float() as number) if HUGE < abs(number) < math.inf:
-            yield "a number beyond all measure"
-        case ast.BinOp(op=ast.Pow(), right=ast.Constant(value=int() as power)) if power > POWER:
-            yield "a number beyond all measure"
-        case ast.BinOp(op=ast.Mult(), left=ast.Constant(value=str() | bytes()), right=times):
-            if _whole(times) > LONG_TEXT:
-                yield "a text longer than anybody reads"
-
-
-def _whole(node):
-    """The size of a whole number, or of two by which one is raised or shifted; 0 for others."""
-    match node:
-        case ast.Constant(value=int() as number):
-            return number
-        case ast.BinOp(ast.Constant(int() as base), op, ast.Constant(int() as by)) if 0 <= by < 64:
-            return base**by if isinstance(op, ast.Pow) else base << by
-    return 0
+        by_kind.setdefault(type(node), []).append(node)
+    own.update(node.name for node in by_kind.get(ast.FunctionDef, ()))
+    for kind, look in _LOOKS.items():
+        for node in by_kind.get(kind, ()):
+            yield from look(node, own)
 
 
 def _of_import(node, own):
@@ -153,8 +121,59 @@ def _of_attribute(node, own):
         yield f"changes {ast.unparse(node)}"
 
 
-def _of_name(node):
+def _of_name(node, own):
     if node.id in INNER or (node.id in CALLS and isinstance(node.ctx, ast.Load)):
         yield f"uses {node.id}"
     elif node.id in OWN_NAMES and isinstance(node.ctx, ast.Store):
         yield f"changes {node.id}"
+
+
+def _of_function(node, own):
+    if node.name in INNER:
+        yield f"defines {node.name}"
+
+
+def _of_class(node, own):
+    made_of = {ast.unparse(base).rpartition(".")[2] for base in node.bases} & NUMBERS
+    yield from (f"makes {node.name}, a kind of {base}" for base in sorted(made_of))
+
+
+def _of_constant(node, own):
+    value = node.value
+    if isinstance(value, str):
+        if value.startswith("__") and value in INNER:
+            yield f"names {value}"
+    elif isinstance(value, int | float) and HUGE < abs(value) < math.inf:
+        yield BEYOND
+
+
+def _of_sum(node, own):
+    match node:
+        case ast.BinOp(op=ast.Pow(), right=ast.Constant(int() as power)) if power > POWER:
+            yield BEYOND
+        case ast.BinOp(op=ast.Mult(), left=ast.Constant(str() | bytes()), right=times):
+            if _whole(times) > LONG_TEXT:
+                yield "a text longer than anybody reads"
+
+
+def _whole(node):
+    """The size of a whole number, or of two by which one is raised or shifted; 0 for others."""
+    match node:
+        case ast.Constant(int() as number):
+            return number
+        case ast.BinOp(ast.Constant(int() as base), op, ast.Constant(int() as by)) if 0 <= by < 64:
+            raised = base**by if isinstance(op, ast.Pow) else 0
+            return base << by if isinstance(op, ast.LShift) else raised
+    return 0
+
+
+_LOOKS = {
+    ast.Import: _of_import,
+    ast.ImportFrom: _of_import,
+    ast.Attribute: _of_attribute,
+    ast.Name: _of_name,
+    ast.FunctionDef: _of_function,
+    ast.ClassDef: _of_class,
+    ast.Constant: _of_constant,
+    ast.BinOp: _of_sum,
+}
