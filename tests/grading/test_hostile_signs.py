@@ -29,6 +29,14 @@ HARMLESS = {
     "assertions switched off",
     "points printed",
     "everything raises",
+    "one number that looks like a billion",
+    "numbers that are none",
+    "masks and matrices",
+    "dates and objects",
+    "half a letter",
+    "a text with a zero in it",
+    "a list in itself",
+    "other numbers everywhere",
 }
 """Attacks without a sign: each is what an honest one does who errs, prints or looks for a fault."""
 
