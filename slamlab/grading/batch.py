@@ -15,6 +15,7 @@ from slamlab.grading.marks import mark
 from slamlab.grading.records import private_folder
 from slamlab.grading.submissions import SubmissionError, read_bytes
 from slamlab.grading.term.hand_ins import find_hand_ins
+from slamlab.grading.term.lms_names import lms_name
 
 FUTURE = timedelta(minutes=5)
 """By how much the clocks of two machines may differ."""
@@ -179,8 +180,8 @@ def content_hashes(found):
 def without_future(found, listed, attempts, now):
     """Submissions whose time is yet to come, as handed in when they were first read.
 
-    A student can set the time of a file. The first time stands, so that grading again, also with
-    all anew, makes nobody late who was not.
+    A student can set the time of a file, not that of an LMS or of nbgrader. The first time stands,
+    so that grading again, also with all anew, makes nobody late who was not.
 
     Parameters
     ----------
@@ -198,7 +199,8 @@ def without_future(found, listed, attempts, now):
         first.setdefault((record.submission, record.sha256), record.handed_in)
     made = []
     for each in found:
-        told = each.handed_in
+        by_others = each.has_trusted_time or (each.when is not None and lms_name(each.name))
+        told = None if by_others else each.handed_in
         if told and datetime.fromisoformat(told) > now + FUTURE:
             when = first.get((each.name, contents.get(each.name)))
             if not when or datetime.fromisoformat(when) > now:

@@ -242,3 +242,9 @@ def test_a_time_that_is_yet_to_come_counts_as_when_it_was_first_read(tmp_path):
     assert again.handed_in == now.isoformat()
     wrong = replace(first, handed_in="2030-12-20T00:00:00+00:00")  # of an older version
     assert read(now, [wrong])[0].handed_in == now.isoformat()
+    moodle = replace(
+        submissions.find_submissions(tmp_path)[0],
+        name="Ana_1_assignsubmission_file_x.ipynb",
+        when="2031-01-01T00:00:00+00:00",
+    )
+    assert batch.without_future([moodle], [], [], now) == [moodle]  # an LMS said so
