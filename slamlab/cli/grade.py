@@ -3,6 +3,7 @@
 import os
 import sys
 import tempfile
+from datetime import UTC, datetime
 from pathlib import Path
 
 from slamlab.cli.common import UsageError, add_course_options, signals_as_interrupt, term_of
@@ -121,12 +122,14 @@ def _grade(arguments, scratch):
         isolation.ensure_level(arguments.isolation)
     with (
         Gradebook(arguments.db or default_url(arguments.out), arguments.who) as book,
-        WorkerPool(arguments.isolation) as workers,
+        WorkerPool(arguments.isolation, preload=batch.named_modules(found)) as workers,
         signals_as_interrupt(),
     ):
         kept = batch.kept_policies(book)
-        seen = book.sight(batch.content_hashes(everything))
-        known = {} if arguments.regrade else book.attempts()
+        listed, known = batch.content_hashes(everything), book.attempts()
+        seen = book.sight(listed)
+        found = batch.without_future(found, listed, known.values(), datetime.now(UTC))
+        known = {} if arguments.regrade else known
         graded = _graded(arguments, found, secret, workers, known)
         words = arguments.out, book, arguments.exercise, policy, arguments.regrade, kept
         records = with_progress(batch.store_records(graded, *words, term, seen), len(found))

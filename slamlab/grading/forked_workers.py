@@ -18,14 +18,42 @@ BOOTSTRAP = (
 )
 PRELOADED = ("numpy", "scipy.linalg", "scipy.stats", "scipy.spatial", "sympy", "matplotlib.pyplot")
 """Modules imported before the fork: those that notebooks of the course use."""
-# IPython's transformer of magics and shell lines
+# IPython's transformer of magics and shell lines, and how these begin in a notebook's file
 MAGICS_MODULE = "IPython.core.inputtransformer2"
+_MAGICS = (b'"%', b"\\n%", b'"!', b"\\n!")
 START_TIMEOUT, ANSWER_TIMEOUT = 120.0, 20.0  # of the zygote [s]
 MAX_MESSAGE_BYTES = 1 << 16  # of a control message [bytes]
 
 
 class ZygoteError(Exception):
     """The zygote does not start or does not answer; the text is its own last line of errors."""
+
+
+def named_modules(files):
+    """The modules worth importing before the fork: those that some notebook seems to name.
+
+    Parameters
+    ----------
+    files : iterable of bytes, notebooks; no more are taken than are needed
+
+    Returns
+    -------
+    tuple of str
+    """
+    missing, found = {*PRELOADED, MAGICS_MODULE}, []
+    for data in files:
+        new = [name for name in missing if _is_named(name, data)]
+        found += new
+        missing.difference_update(new)
+        if not missing:
+            break
+    return tuple(sorted(found))
+
+
+def _is_named(name, data):
+    if name == MAGICS_MODULE:
+        return any(begin in data for begin in _MAGICS)
+    return all(part.encode() in data for part in name.split("."))
 
 
 class Zygote:
@@ -37,14 +65,15 @@ class Zygote:
     ----------
     exercise : Exercise
     level : str, one of ``sandbox.LEVELS``
-    warm : bool, whether to import what notebooks usually do; worth it for more than one
+    warm : bool, whether to import beforehand at all; worth it for more than one
+    preload : names of modules besides those of the exercise
 
     Raises
     ------
     ZygoteError
     """
 
-    def __init__(self, exercise, level, warm=True):
+    def __init__(self, exercise, level, warm=True, preload=(*PRELOADED, MAGICS_MODULE)):
         self._folder = tempfile.TemporaryDirectory(prefix="slamlab-", ignore_cleanup_errors=True)
         folder = Path(self._folder.name)
         inside, outside = folder / "inside", folder / "errors"
@@ -67,7 +96,7 @@ class Zygote:
             "listed": [str(path) for path in listed],
             "home": str(home),
             "drives": exercise.drives,
-            "preload": [*PRELOADED, MAGICS_MODULE, *exercise.allows] if warm else [],
+            "preload": [*preload, *exercise.allows] if warm else [],
             "level": level,
             "drop": level == sandbox.STRICT and bubblewrap.drops_privileges(),
         }

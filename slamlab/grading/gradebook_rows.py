@@ -1,7 +1,7 @@
 """Records as a gradebook stores them: plain values, the key of an attempt, and back."""
 
 import hashlib
-from dataclasses import asdict, fields, replace
+from dataclasses import fields, is_dataclass, replace
 from datetime import UTC, datetime
 
 import sqlalchemy as sa
@@ -26,8 +26,7 @@ def stored(record):
     -------
     dict
     """
-    plain = storable(asdict(record))
-    plain = {name: value for name, value in plain.items() if name not in NOT_STORED}
+    plain = storable({n: value for n, value in vars(record).items() if n not in NOT_STORED})
     key = attempt_key(record.submission, record.sha256, record.seed, record.reason)
     return {"key": key, "submission": plain["submission"], "record": plain}
 
@@ -58,15 +57,17 @@ def attempt_key(submission, sha256, seed, reason=None):
 
 
 def storable(value):
-    """Sanitise a value for every database: no lone surrogates, no zero characters in its text."""
+    """Plain values for every database: no lone surrogates, no zero characters in their text."""
     if isinstance(value, str):
+        if value.isascii() and "\0" not in value:
+            return value
         text = value.encode("utf-8", "backslashreplace").decode("utf-8")
         return text.replace("\0", "\\x00")
     if isinstance(value, dict):
         return {storable(str(name)): storable(item) for name, item in value.items()}
     if isinstance(value, list | tuple):
         return [storable(item) for item in value]
-    return value
+    return storable(vars(value)) if is_dataclass(value) else value
 
 
 def stored_record(stored):

@@ -79,7 +79,8 @@ def grade_submission(
     known = known or {}
     try:
         notebook = submissions.read_notebook(submission)
-        names |= {"sha256": notebook.sha256, "notes": notebook.notes}
+        said = (submission.note,) if submission.note else ()
+        names |= {"sha256": notebook.sha256, "notes": (*notebook.notes, *said)}
         exercise = submissions.identify_exercise(submission, notebook, default)
         seed = seed_for(secret, exercise.id, notebook.sha256)
         names |= {"exercise": exercise.id, "seed": seed.hex()}

@@ -31,6 +31,7 @@ class Submission:
     has_trusted_time : bool, whether nbgrader, not the student, wrote the note on the time beside it
     when : str or None, the time of submission (ISO 8601) where the file does not tell it, "" where
         nothing does
+    note : str, what is odd about it; "" for nothing
     """
 
     name: str
@@ -40,6 +41,7 @@ class Submission:
     number: str | None = None
     has_trusted_time: bool = False
     when: str | None = None
+    note: str = ""
 
     @property
     def handed_in(self):

@@ -4,7 +4,7 @@ import sys
 import threading
 
 from slamlab.grading import sandbox
-from slamlab.grading.forked_workers import Zygote, ZygoteError
+from slamlab.grading.forked_workers import MAGICS_MODULE, PRELOADED, Zygote, ZygoteError
 from slamlab.grading.fresh_workers import FreshWorker
 
 CAN_FORK = sys.platform == "linux"
@@ -22,10 +22,11 @@ class WorkerPool:
     ----------
     level : str, one of ``sandbox.LEVELS``; sandboxed workers exist on Linux only
     warm : bool, whether many are to come, so that importing beforehand pays
+    preload : names of modules to import then, such as :func:`forked_workers.named_modules` tells
     """
 
-    def __init__(self, level=sandbox.NONE, warm=True):
-        self.level, self._warm = level, warm
+    def __init__(self, level=sandbox.NONE, warm=True, preload=(*PRELOADED, MAGICS_MODULE)):
+        self.level, self._imports = level, (warm, tuple(preload))
         self._mine = threading.local()
         self._all, self._lock = [], threading.Lock()
 
@@ -72,7 +73,7 @@ class WorkerPool:
         kind = exercise.drives, exercise.allows, exercise.hides
         zygote = known.get(kind)
         if zygote is None or not zygote.alive:
-            zygote = known[kind] = Zygote(exercise, self.level, self._warm)
+            zygote = known[kind] = Zygote(exercise, self.level, *self._imports)
             with self._lock:
                 self._all.append(zygote)
         return zygote

@@ -1,8 +1,6 @@
 """The overview: a table of students and exercises as plain data, short, for it has many cells."""
 
-from slamlab.exercises import catalogue
 from slamlab.grading import hostile_signs
-from slamlab.grading.term.standings import points_of
 
 NOTHING, UNGRADED, FULL, PART, NONE = "nothing", "ungraded", "full", "part", "none"
 
@@ -20,17 +18,18 @@ def overview(state):
     """
     columns = [state.standings[id] for id in state.term.course.exercises]
     asked = open_requests(state)
+    most = [exercise.points for exercise in state.exercises]  # at each cell it would take long
     return {
         "course": state.term.course.name,
         "who": state.book.who,
-        "exercises": [
-            {"id": e.id, "title": e.title, "points": e.points}
-            for e in map(catalogue.exercise, state.term.course.exercises)
-        ],
+        "exercises": [{"id": e.id, "title": e.title, "points": e.points} for e in state.exercises],
         "students": [
             {"id": s.id, "name": s.name or s.id, "section": s.section} for s in state.students
         ],
-        "rows": [[cell(one, asked) for one in mine] for mine in zip(*columns, strict=True)],
+        "rows": [
+            [cell(one, asked, points) for one, points in zip(mine, most, strict=True)]
+            for mine in zip(*columns, strict=True)
+        ],
     }
 
 
@@ -63,13 +62,14 @@ def signs(record):
     return [*record.signs, *hostile_signs.behaviour(record)]
 
 
-def cell(standing, asked):
+def cell(standing, asked, most):
     """A cell of the table.
 
     Parameters
     ----------
     standing : Standing
     asked : dict, of :func:`open_requests`
+    most : float, the points of the exercise
 
     Returns
     -------
@@ -78,7 +78,7 @@ def cell(standing, asked):
     mark = standing.mark
     if mark is None:
         return {"state": NOTHING}
-    made = {"state": _state(standing), "total": standing.total and round(standing.total, 6)}
+    made = {"state": _state(standing, most), "total": standing.total and round(standing.total, 6)}
     told = {
         "late": mark.late_penalty > 0,
         "hand": bool(mark.override_reasons or mark.remarks),
@@ -88,8 +88,8 @@ def cell(standing, asked):
     return made | {name: True for name, there in told.items() if there}
 
 
-def _state(standing):
+def _state(standing, most):
     if standing.total is None:
         return UNGRADED
-    most, earned = points_of(standing.exercise), sum(standing.mark.points.values())
+    earned = sum(standing.mark.points.values())
     return FULL if earned >= most else PART if earned > 0 else NONE

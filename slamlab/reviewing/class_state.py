@@ -31,6 +31,8 @@ class ClassState:
     def __init__(self, term, book):
         self.term, self.book = term, book
         self.students = list(term.roster.students.values())
+        # loaded now, so that the first page does not wait for it
+        self.exercises = [catalogue.exercise(id) for id in term.course.exercises]
         self._likeness = {}  # exercise to the records that were compared, and their likeness
         self._load()
 

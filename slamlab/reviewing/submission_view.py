@@ -28,7 +28,7 @@ def submission_view(state, standing):
         "exercise": {"id": exercise.id, "title": exercise.title, "points": exercise.points},
         "status": standing.status, "attempts": standing.attempts, "unread": standing.unread,
         "due": local_time(standing.due, state.term.course.zone),
-        "cell": cell(standing, open_requests(state)),
+        "cell": cell(standing, open_requests(state), exercise.points),
     }  # fmt: skip
     return told | (_handed_in(state, standing, exercise) if standing.mark else {})
 

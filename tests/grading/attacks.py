@@ -6,6 +6,8 @@ it may be run where the walls fail. CANARY is a file of the judge's, OUT the fol
 
 import json
 
+from tests.grading import attacks_by_machinery as more
+
 WRONG = """
 import numpy as np
 def double(a):
@@ -470,3 +472,13 @@ GRADED = {"latin-1", "a wrong kernel", "no metadata", "duplicated cells"}
 
 def _changed(text, **changes):
     return json.dumps({k: v for k, v in (json.loads(text) | changes).items() if v}).encode()
+
+
+for own, others in [
+    (FORGERIES, more.FORGERIES),
+    (SPIES, more.SPIES),
+    (HARMS, more.HARMS),
+    (DAMAGED, more.DAMAGED),
+]:
+    own |= others
+GRADED |= more.GRADED

@@ -167,3 +167,54 @@ def test_an_encrypted_member_is_refused(tmp_path):
     (tmp_path / "04.zip").write_bytes(data)
     (found,) = find_hand_ins(tmp_path / "04.zip", tmp_path / "scratch")
     assert "refused: damaged" in found.problem and "encrypted" in found.problem
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["a\0/../../x.ipynb", "line\nbreak.ipynb", "\u202egnp.ipynb", "./x.ipynb", " .ipynb",
+     "-rf.ipynb", "~/x.ipynb", "con.ipynb", "%2e%2e/x.ipynb", "x" * 240 + ".ipynb"],
+)  # fmt: skip
+def test_a_name_of_any_kind_stays_within_and_is_graded(tmp_path, name):
+    file = zipped(tmp_path / "w.zip", [("anna.ipynb", "{}"), (name, "{}")])
+    found = find_hand_ins(file, tmp_path / "in" / "scratch")
+    assert [s.problem for s in found] == [None] * len(found)
+    kept = [p for p in tmp_path.rglob("*") if p.is_file() and p != file]
+    assert all(p.is_relative_to(tmp_path / "in" / "scratch") for p in kept)
+    assert "anna.ipynb" in {s.name for s in found} and len(found) == (1 if "\0" in name else 2)
+
+
+@pytest.mark.parametrize(
+    ("one", "other"),
+    [("A.ipynb", "a.ipynb"), ("e\u0301.ipynb", "\u00e9.ipynb"), ("a/x.ipynb", "a")],
+)
+def test_names_that_some_systems_take_for_one_lose_nothing(tmp_path, one, other):
+    file = zipped(tmp_path / "w.zip", [(one, "{}"), (other, "{}")])
+    found = find_hand_ins(file, tmp_path / "scratch")
+    assert one in {s.name for s in found if s.problem is None}
+    kept = {p.name for p in (tmp_path / "scratch").rglob("*") if p.is_file()}
+    assert len(kept) == 2 or any(s.problem for s in found)
+
+
+def test_members_that_overlap_are_refused(tmp_path):
+    data = in_memory([("a.ipynb", b"\0" * 10_000), ("b.ipynb", "{}")])
+    second = data.rindex(b"PK\x01\x02")
+    twice = data[: second + 42] + bytes(4) + data[second + 46 :]
+    (tmp_path / "w.zip").write_bytes(twice)  # the second begins where the first does
+    found = {s.name: s.problem for s in find_hand_ins(tmp_path / "w.zip", tmp_path / "scratch")}
+    assert found["b.ipynb"] and "damaged" in found["b.ipynb"]
+
+
+def test_a_size_that_lies_is_refused(tmp_path):
+    data = bytearray(in_memory([("a.ipynb", b"x" * 10_000)]))
+    place = data.index(b"PK\x01\x02") + 24
+    data[place : place + 4] = (4).to_bytes(4, "little")
+    (tmp_path / "w.zip").write_bytes(data)
+    (found,) = find_hand_ins(tmp_path / "w.zip", tmp_path / "scratch")
+    assert "damaged" in found.problem or (found.problem is None and found.path.stat().st_size <= 4)
+
+
+def test_a_name_five_hundred_times_ends_soon_and_is_told(tmp_path):
+    with pytest.warns(UserWarning, match="Duplicate name"):
+        file = zipped(tmp_path / "w.zip", [("a.ipynb", "{}")] * 500)
+    found = find_hand_ins(file, tmp_path / "scratch")
+    assert len(found) == 500

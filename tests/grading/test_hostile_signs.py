@@ -22,12 +22,47 @@ def test_an_answer_written_from_the_lessons_has_no_sign(path):
     assert hostile_signs.signs([(1, path.read_text("utf-8"))]) == ()
 
 
-@pytest.mark.parametrize(("kind", "most_missed"), [("FORGERIES", 12), ("SPIES", 0), ("HARMS", 8)])
-def test_most_attacks_have_a_sign(kind, most_missed):
-    """Without one are those of plain arithmetic: wrong numbers, endless loops, much memory."""
+GIVEN = [(1, "import numpy as np"), (2, attacks.WRONG)]
+HARMLESS = {
+    "not a number for an answer",
+    "infinity for an answer",
+    "assertions switched off",
+    "points printed",
+    "everything raises",
+    "one number that looks like a billion",
+    "numbers that are none",
+    "masks and matrices",
+    "dates and objects",
+    "half a letter",
+    "a text with a zero in it",
+    "a list in itself",
+    "other numbers everywhere",
+}
+"""Attacks without a sign: each is what an honest one does who errs, prints or looks for a fault."""
+
+
+@pytest.mark.parametrize("kind", ["FORGERIES", "SPIES", "HARMS"])
+def test_every_attack_that_no_honest_one_writes_has_a_sign(kind):
     cells = getattr(attacks, kind)
-    missed = [name for name, cell in cells.items() if not hostile_signs.signs([(1, cell)])]
-    assert len(missed) <= most_missed, missed
+    missed = {name for name, cell in cells.items() if not hostile_signs.signs([*GIVEN, (3, cell)])}
+    assert missed == HARMLESS & set(cells)
+
+
+@pytest.mark.parametrize(
+    "source",
+    [
+        "np.clip(x, -1e9, 1e9)",
+        "best = np.inf",
+        "1e-300 + x**2",
+        "'-' * 60",
+        "class Pose: pass",
+        "try:\n    x = 1\nexcept ValueError:\n    x = 2",
+        "P.flat[0] = 1; robot.x = 3",
+        "10**6",
+    ],
+)
+def test_what_honest_ones_write_has_no_sign(source):
+    assert hostile_signs.signs([*GIVEN, (3, source)]) == ()
 
 
 def test_a_sign_names_its_cell():

@@ -3,10 +3,13 @@
 import json
 import os
 import time
+from dataclasses import replace
+from datetime import UTC, datetime, timedelta
 
 import pytest
 
-from slamlab.grading import notebooks, submissions
+from slamlab.grading import batch, notebooks, submissions
+from slamlab.grading.records import Record
 from slamlab.grading.submissions import Submission, SubmissionError
 from tests.grading.conftest import notebook
 
@@ -218,3 +221,30 @@ def test_the_exercise_is_told_by_the_command_line_the_metadata_or_the_start_of_t
         assert exercise("99_x.ipynb", notebook(exercise=None, metadata=metadata)) == "99"
     with pytest.raises(SubmissionError, match="--exercise"):
         exercise("anna 1999.ipynb", silent)
+
+
+def test_a_time_that_is_yet_to_come_counts_as_when_it_was_first_read(tmp_path):
+    lay(tmp_path, "anna.ipynb", "ben.ipynb")
+    os.utime(tmp_path / "anna.ipynb", (1_924_000_000, 1_924_000_000))
+    os.utime(tmp_path / "ben.ipynb", (1_700_000_000, 1_700_000_000))
+    listed = batch.content_hashes(submissions.find_submissions(tmp_path))
+
+    def read(now, attempts=()):
+        found = submissions.find_submissions(tmp_path)
+        return batch.without_future(found, listed, attempts, now)
+
+    now = datetime(2026, 11, 23, 12, tzinfo=UTC)
+    anna, ben = read(now)
+    assert anna.handed_in == now.isoformat() and "yet to come" in anna.note
+    assert ben.handed_in.startswith("2023-11-14") and ben.note == ""
+    first = Record("anna.ipynb", "anna", sha256=listed[0][1], handed_in=anna.handed_in)
+    again, _ = read(now + timedelta(days=30), [first])  # so that nobody becomes late by it
+    assert again.handed_in == now.isoformat()
+    wrong = replace(first, handed_in="2030-12-20T00:00:00+00:00")  # of an older version
+    assert read(now, [wrong])[0].handed_in == now.isoformat()
+    moodle = replace(
+        submissions.find_submissions(tmp_path)[0],
+        name="Ana_1_assignsubmission_file_x.ipynb",
+        when="2031-01-01T00:00:00+00:00",
+    )
+    assert batch.without_future([moodle], [], [], now) == [moodle]  # an LMS said so

@@ -8,6 +8,7 @@ import hashlib
 import json
 import secrets
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import sqlalchemy as sa
 from sqlalchemy.dialects import mysql
@@ -60,7 +61,7 @@ class Entry:
     at: str | None = None
     salt: str = field(default_factory=lambda: secrets.token_hex(16))
 
-    @property
+    @cached_property
     def text(self):
         """The body as it is stored."""
         return canonical(self.body)

@@ -76,11 +76,14 @@ class Term:
         -------
         dict, exercise to list of Standing
         """
+        marks = self._marks(records, overrides, remarks)
+        return standings(self.course, self.roster, marks, self.policy)
+
+    def _marks(self, records, overrides, remarks=None):
         mine = {}  # of each submission: with all of them at each, a class would take seconds
         for key, changed in overrides.items():
             mine.setdefault(key[0], {})[key] = changed
-        marks = [mark(r, mine.get(r.submission), self.policy, remarks) for r in records]
-        return standings(self.course, self.roster, marks, self.policy)
+        return [mark(r, mine.get(r.submission), self.policy, remarks) for r in records]
 
     def write(self, book, exercises=None):
         """Write tables and the class report from the whole gradebook, and feedback pages.
@@ -94,8 +97,8 @@ class Term:
         -------
         list of Mark, the newest of each submission
         """
-        out, overrides, found = self.course.results, book.overrides(), self.standings(book)
-        newest = [mark(r, overrides, self.policy) for r in book.latest_attempts()]
+        out, found = self.course.results, self.standings(book)
+        newest = self._marks(book.latest_attempts(), book.overrides())
         term_tables.write_term(self.course, found, newest)
         counted = [s for of_one in found.values() for s in of_one if s.mark]
         class_report.write_report(out, [standing.mark for standing in counted])
