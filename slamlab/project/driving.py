@@ -17,8 +17,8 @@ USED_UP = (
 )
 WAITED = "{:g} s have passed in all, the CPU mostly idle: does it wait or sleep?"
 NOT_FINITE = (
-    "{} of {} poses are not finite, or farther away than 1000 km: was something divided by zero, or "
-    "does the pose run off?"
+    "{} of {} poses are not finite, or farther away than 1000 km: was something divided by zero, "
+    "or does the pose run off?"
 )
 TOO_LONG = "{} took {:.1f} s of CPU, more than the {:g} s that are allowed"
 
