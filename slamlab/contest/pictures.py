@@ -97,8 +97,9 @@ def film_page(arena, drive, title, file):
     -------
     str, HTML
     """
+    shown = "" if arena.world.truth is None else "walls, the true track, "
     alt = (
-        "A map of the world from above, reading by reading: walls, the true track, odometry's, "
+        f"A map of the world from above, reading by reading: {shown}odometry's track, "
         "the estimate's, and the scans where the estimate put them."
     )
     with FilmRecorder(file, title, alt) as film:
@@ -113,8 +114,8 @@ def film_page(arena, drive, title, file):
 def _scenes(arena, drive):
     world = arena.world
     known_track = world.truth is not None
-    truth = world.truth.poses if known_track else np.empty((0, 3))
-    walls = Segments("walls", world.floor.outline() if known_track else np.empty((0, 4)))
+    truth = world.truth.poses if known_track else None
+    walls = Segments("walls", world.floor.outline()) if known_track else None
     odometry = in_the_world(arena.drives["odometry"].online, world)
     online = in_the_world(drive.online, world)
     known = np.isfinite(online).all(axis=1)
@@ -132,14 +133,18 @@ def _scenes(arena, drive):
         status = f"reading {i + 1} of {len(online)}"
         if known_track:
             status += f", {world.metres[i]:.1f} m of way"
-        yield _scene(walls, truth[: i + 1], odometry[: i + 1], own, cloud, status)
+        so_far = truth[: i + 1] if known_track else None
+        yield _scene(walls, so_far, odometry[: i + 1], own, cloud, status)
     # where there is no truth the track of the end is laid on what was given online
-    motion = aligned(drive.trajectory, truth if known_track else online)
+    there = truth if known_track else online
+    motion = aligned(np.where(np.isfinite(there), drive.trajectory, np.nan), there)
     final = drive.trajectory[np.isfinite(drive.trajectory).all(axis=1)]
     laid, points = compose(motion, final) if len(final) else final, transform(motion, drive.points)
     yield _scene(walls, truth, odometry, laid, points, "the trajectory and the map at the end")
 
 
 def _scene(walls, truth, odometry, own, points, status):
-    tracks = [Poses("truth", truth), Poses("naive", odometry), Poses("corrected", own)]
-    return Scene([walls, Points("map", points), *tracks], status)
+    layers = [Points("map", points), Poses("naive", odometry), Poses("corrected", own)]
+    if truth is not None:
+        layers = [walls, layers[0], Poses("truth", truth), *layers[1:]]
+    return Scene(layers, status)
