@@ -11,6 +11,7 @@ from slamlab import sources
 from slamlab.cli import main
 from slamlab.contest import commitment, contest_logs
 from slamlab.contest.commitment import ContestError
+from slamlab.contest.pictures import film_page, map_picture
 from slamlab.contest.ranking import by_families
 from slamlab.evaluation.relations import Relations, load_relations
 from slamlab.geometry import between
@@ -203,3 +204,11 @@ def test_the_intel_log_is_scored_by_its_published_relations():
     assert len(load_relations("intel-relations").poses) > len(log.pairs)
     at_rest = log.errors(np.zeros((len(log), 3)))
     np.testing.assert_allclose(at_rest, np.hypot(*log.relations[:, :2].T))
+
+
+def test_a_film_and_a_map_of_a_log_need_no_truth_and_no_finite_pose(tmp_path):
+    for noise in (0.1, np.nan):
+        driven = estimate(noise)
+        assert "Two tracks of a recorded log" in map_picture(arena(), driven)
+        page = film_page(arena(), driven, "hall", tmp_path / "hall.film")
+        assert "the true track" not in page
