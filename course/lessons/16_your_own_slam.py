@@ -488,6 +488,17 @@ views.explore(
 #
 # Look at the *first* moment at which things go wrong: most of what goes wrong later only follows from it.
 
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# ### Carried away
+#
+# The odometry tells nothing of it, but the scan does. In five buildings of the family `kidnapped` less than a fifth
+# of the first scan after the jump fitted where the wheels led. In ten other buildings, with people or lost scans in
+# them, more than a third of every scan fitted, unless scans had been lost just before.
+#
+# The project's solution begins a second map at such a scan. It tries each new keyframe at all places of the
+# first map, in 24 directions, and when two keyframes in a row have been found at places that agree, it joins the maps. In
+# those five buildings this earns 100 points; without it the same code had between 40 and 60.
+
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=1
 # ## What you can do now
 #

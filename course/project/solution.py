@@ -2,7 +2,9 @@
 
 Scans are matched with the points of the last keyframes, from where odometry leads. A keyframe near
 an old one is matched with the scans round that one; where it fits, the two are tied, and all
-keyframes are moved so that odometry, matches and ties agree in the sense of least squares.
+keyframes are moved so that odometry, matches and ties agree in the sense of least squares. Where a
+scan fits nowhere near, the robot has been carried: it begins a second map, and looks for itself in
+the first one.
 """
 
 import numpy as np
@@ -18,6 +20,11 @@ STEP_SIGMA = np.array([0.03, 0.03, 0.03])  # odometry of one reading [m, m, rad]
 MATCH_SIGMA = np.array([0.004, 0.004, 0.0013])  # matched motion of one reading [m, m, rad]
 LOOP_SIGMA = np.array([0.03, 0.03, 0.01])  # of a loop's tie [m, m, rad]
 POINT_SIGMA = 0.04  # of a point off its wall; too large for one, for neighbours err alike [m]
+FEW = 20  # points, too few to match with
+LOST, KNOWN = 0.25, 0.8  # share of a scan that fits: below it is lost, above it knows the place [1]
+LOST_SIGMA = np.array([5.0, 5.0, 2.0])  # of the way that it was carried [m, m, rad]
+TRIES = 12  # keyframes with which it looks for itself
+HEADINGS, POINTS, BEST = 24, 40, 25  # tried at each old keyframe; of the scan; looked at closely
 
 
 class MySlam:
@@ -29,21 +36,29 @@ class MySlam:
         self._ties = []  # (i, j, pose of j seen from i, sigma) between keyframes
         self._track = []  # for each reading: its keyframe, its pose seen from there
         self._local, self._sigma2 = None, np.zeros(3)
+        self._saw = False  # whether there was a scan last time
+        self._first = 0  # keyframe with which the present map began
+        self._old, self._guess = None, None  # the map before; where it may be there: (j, pose)
 
     def step(self, reading):
         """Predict by odometry, match with the local map, keep a keyframe, look for a loop."""
         moved = np.asarray(reading.odometry)
         guess = compose(self.pose, moved)
         cloud = with_normals(reading.scan)
-        fitted = None
-        if self._local is not None and len(cloud) > 20:
-            fitted = icp(cloud, self._local, guess, STEP_SIGMA)
-        sigma = MATCH_SIGMA if fitted is not None else STEP_SIGMA
+        sees, fitted, fits = len(cloud) > FEW, guess, np.nan
+        if self._local is not None and sees:
+            fitted, fits = icp(cloud, self._local, guess, STEP_SIGMA)
+        # after lost scans it may be in a room not seen before: then the wheels are believed
+        sure, lost = fits > 0.5, fits < LOST and self._saw
+        self._saw = sees
+        sigma = MATCH_SIGMA if sure else LOST_SIGMA if lost else STEP_SIGMA
         self._grow_covariance(moved, sigma)
-        self.pose = guess if fitted is None else fitted
+        self.pose = fitted if sure else guess
+        if lost:
+            self._begin_again()
         away = between(self._poses[-1], self.pose) if self._poses else None
         far = away is None or np.hypot(*away[:2]) > KEY_DISTANCE or abs(away[2]) > KEY_TURN
-        if far and len(cloud) > 20:
+        if (far or lost) and sees:
             self._add_keyframe(cloud)
         key = len(self._poses) - 1
         self._track.append((key, between(self._poses[key], self.pose) if key >= 0 else self.pose))
@@ -75,27 +90,60 @@ class MySlam:
         self._poses.append(self.pose)
         self._clouds.append(cloud)
         self._sigma2 = np.zeros(3)
-        if self._close_loop(j):
+        if self._close_loop(j) or self._find_itself(j):
             self._poses = optimise(self._poses, self._ties)
             self.pose = self._poses[-1]
-        self._local = Target(self._poses, self._clouds, range(max(0, j - RECENT), j + 1))
+        recent = range(max(self._first, j - RECENT), j + 1)
+        self._local = Target(self._poses, self._clouds, recent)
 
     def _close_loop(self, j):
-        """Tie keyframe j to the nearest old one, if its scan fits there."""
-        if j <= OLD:
+        """Tie keyframe j to the nearest old one of its map, if its scan fits there."""
+        first = self._first if self._old else 0
+        if j - first <= OLD:
             return False
-        old = np.array(self._poses[: j - OLD])
+        old = np.array(self._poses[first : j - OLD])
         away = np.hypot(*(old[:, :2] - self.pose[:2]).T)
-        i = int(np.argmin(away))
-        if away[i] > NEARBY:
+        i = first + int(np.argmin(away))
+        if away[i - first] > NEARBY:
             return False
-        target = Target(self._poses, self._clouds, range(max(0, i - 3), min(i + 4, j - OLD // 2)))
+        around = range(max(first, i - 3), min(i + 4, j - OLD // 2))
         wide = np.array([0.5, 0.5, 0.1])
-        found = icp(self._clouds[j], target, self.pose, wide, reach=1.0, share=0.75)
-        if found is None:
-            return False
+        target = Target(self._poses, self._clouds, around)
+        found, fits = icp(self._clouds[j], target, self.pose, wide, reach=1.0)
+        if fits > 0.75:
+            self._tie(i, j, found)
+        return fits > 0.75
+
+    def _tie(self, i, j, found):
+        """Keyframe j was found to be at a pose, by the scans round keyframe i."""
         self._ties.append((i, j, between(self._poses[i], found), LOOP_SIGMA))
         self.covariance = np.diag((LOOP_SIGMA + 0.004 * i) ** 2)
+
+    def _begin_again(self):
+        """Where it is now has nothing to do with where it was: a second map begins."""
+        self._first, self._guess = len(self._poses), None
+        self._old = Target(self._poses, self._clouds, range(self._first))
+
+    def _find_itself(self, j):
+        """Look for keyframe j in the old map; two of them have to agree."""
+        if self._old is None or j - self._first > TRIES:
+            return False
+        found, fits = search(self._clouds[j], self._old, self._poses[: self._first])
+        if fits < KNOWN:
+            return False
+        before, self._guess = self._guess, (j, found)
+        if before is None:
+            return False
+        k, there = before
+        off = between(compose(there, between(self._poses[k], self._poses[j])), found)
+        if np.hypot(*off[:2]) > 0.3 or abs(off[2]) > 0.1:
+            return False
+        # all of the second map goes where its last keyframe was found
+        steps = [between(self._poses[j], self._poses[m]) for m in range(self._first, j + 1)]
+        self._poses[self._first :] = [compose(found, step) for step in steps]
+        away = np.hypot(*(np.array(self._poses[: self._first])[:, :2] - found[:2]).T)
+        self._tie(int(np.argmin(away)), j, found)
+        self._old = None
         return True
 
 
@@ -128,15 +176,32 @@ def with_normals(scan, reach=2):
     return np.hstack([points - off[:, None] * normals, normals])[flat]
 
 
-def icp(cloud, target, guess, sigma, reach=0.5, share=0.5):
-    """Point-to-line ICP with a prior: the pose, or None where too few points fit."""
+def search(cloud, target, places):
+    """Where in a map a scan fits best, tried at some places in all directions: pose, share."""
+    turns = np.arange(HEADINGS) * 2 * np.pi / HEADINGS
+    tried = np.array([[x, y, turn] for x, y, _ in places for turn in turns])
+    few = cloud[:: max(1, len(cloud) // POINTS), :2]
+    c, s = np.cos(tried[:, 2:]), np.sin(tried[:, 2:])
+    x, y = (
+        c * few[:, 0] - s * few[:, 1] + tried[:, :1],
+        s * few[:, 0] + c * few[:, 1] + tried[:, 1:2],
+    )
+    away, _ = target.tree.query(np.stack([x, y], axis=-1), distance_upper_bound=0.6)
+    likely = np.exp(-((away / 0.25) ** 2)).mean(axis=1)
+    wide = np.array([1.0, 1.0, 0.5])
+    best = np.argsort(-likely)[:BEST]
+    return max((icp(cloud, target, tried[k], wide, reach=1.0) for k in best), key=lambda f: f[1])
+
+
+def icp(cloud, target, guess, sigma, reach=0.5):
+    """Point-to-line ICP with a prior: the pose, and the share of the points that fit."""
     x, prior = np.array(guess, dtype=float), np.diag(1 / sigma**2)
     for gate in np.maximum(0.1, reach * 0.7 ** np.arange(12)):
         points = transform(x, cloud[:, :2])
         distance, nearest = target.tree.query(points, distance_upper_bound=gate)
         hit = np.isfinite(distance)
         if hit.sum() < 15:
-            return None
+            return x, 0.0
         n, p, q = target.normals[nearest[hit]], points[hit], target.points[nearest[hit]]
         r = np.sum(n * (p - q), axis=1)
         lever = p - x[:2]
@@ -148,8 +213,7 @@ def icp(cloud, target, guess, sigma, reach=0.5, share=0.5):
         if gate <= 0.1 and np.abs(step).max() < 1e-4:
             break
     x[2] = wrap(float(x[2]))
-    fits = np.abs(r) < 0.08
-    return x if fits.sum() > share * len(cloud) else None
+    return x, np.sum(np.abs(r) < 0.08) / len(cloud)
 
 
 def optimise(poses, ties, rounds=4):

@@ -50,6 +50,21 @@ def add_parser(subparsers):
         "contest in which all may build on it; ask the class first",
     )
     parser.add_argument(
+        "--worlds",
+        metavar="N",
+        type=int,
+        help="worlds of each family (5), when the contest is made; 1 is enough for a rehearsal",
+    )
+    parser.add_argument(
+        "--log",
+        metavar="LOG",
+        action="append",
+        default=[],
+        help="a recorded log that is driven, too, and scored by its relations, when the contest is "
+        "made: a recording's name, such as intel, or LOG,RELATIONS, two files, which are named "
+        "again when it is judged; may be given several times",
+    )
+    parser.add_argument(
         "--again",
         metavar="DIR",
         type=Path,
@@ -76,13 +91,14 @@ def run(arguments) -> int:
     """Judge; 0 when all is written, 2 for wrong use, no sandbox, or a contest that does not fit."""
     # imported late: what a help text needs should come at once
     from slamlab.contest.commitment import ContestError
+    from slamlab.files.errors import SourceError
     from slamlab.grading.isolation import IsolationError
     from slamlab.grading.submissions import SubmissionError
 
     try:
         with tempfile.TemporaryDirectory(prefix="slamlab-zips-") as scratch:
             return _contest(arguments, Path(scratch))
-    except (UsageError, ContestError, SubmissionError, IsolationError) as error:
+    except (UsageError, ContestError, SubmissionError, SourceError, IsolationError) as error:
         print(f"slamlab contest: {error}", file=sys.stderr)
     except OSError as error:
         print(f"slamlab contest: {error.filename}: {error.strerror}", file=sys.stderr)
@@ -90,7 +106,7 @@ def run(arguments) -> int:
 
 
 def _contest(arguments, scratch):
-    from slamlab.contest import commitment, holding
+    from slamlab.contest import commitment, contest_logs, holding
     from slamlab.grading import isolation
     from slamlab.grading.term.hand_ins import find_hand_ins
     from slamlab.grading.worker_pool import WorkerPool
@@ -104,15 +120,25 @@ def _contest(arguments, scratch):
         raise UsageError("--again is for a contest that is over, --open for one that is not")
     if arguments.open and arguments.code:
         raise UsageError("--code is for a contest that closes: leave out --open")
-    contest = holding.contest_again(again) if again else commitment.commit(out)
+    if arguments.worlds is not None and arguments.worlds < 1:
+        raise UsageError("--worlds must be at least 1")
+    if again and arguments.worlds is not None:
+        raise UsageError("--again judges the worlds that were: leave out --worlds")
+    if again:
+        contest = holding.contest_again(again)
+    else:
+        known = (out / commitment.SECRET).exists()
+        logs = () if known else contest_logs.hashes_of(arguments.log)
+        contest = commitment.commit(out, arguments.worlds, logs)
     if arguments.folder is None:
         file = out / commitment.COMMITMENT
         print(f"{contest.commitment}\ntell this hash before the hand-in; {file} keeps it")
         return 0
+    logs = contest_logs.open_logs(contest, arguments.log)
     found = find_hand_ins(arguments.folder, scratch, out)
     isolation.ensure_level(arguments.isolation)
     with signals_as_interrupt(), WorkerPool(arguments.isolation) as workers:
-        prepared = _prepared(holding.draw_arenas(contest), contest)
+        prepared = _prepared(holding.draw_arenas(contest, logs), contest)
         with _bar() as progress:
             readable = sum(entrant.problem is None for entrant in holding.entrants(found))
             bar = progress.add_task("", total=readable * len(prepared))
@@ -129,10 +155,10 @@ def _prepared(drawn, contest):
     """The worlds, with a bar while they are drawn and the package's own estimators drive them."""
     prepared = []
     with _bar() as progress:
-        bar = progress.add_task("worlds", total=len(contest.families) * contest.worlds)
+        bar = progress.add_task("worlds", total=len(contest.places))
         for arena in drawn:
             prepared.append(arena)
-            progress.update(bar, advance=1, description=f"worlds: {arena.world.family.name}")
+            progress.update(bar, advance=1, description=f"worlds: {arena.world.name}")
     return prepared
 
 

@@ -3,6 +3,7 @@
 Read in this order:
 
 - ``commitment``: what is drawn, told by its hash before and revealed after
+- ``contest_logs``: recorded logs beside the worlds, found by their hashes
 - ``sandbox_judging``: a student's class in a worker, one reading at a time
 - ``drive_files``: what was driven, kept so that a contest goes on where it was left
 - ``class_judging``: all students in all worlds; ``holding``: a contest from folder to board

@@ -9,6 +9,7 @@ from hashlib import sha256
 from pathlib import Path
 
 from slamlab.contest.drive_files import late_drive, read_drive, write_drive
+from slamlab.contest.ranking import by_families
 from slamlab.contest.sandbox_judging import drive_in_sandbox
 from slamlab.exercises.drives.student_estimator import GraderFault
 from slamlab.grading.submissions import SubmissionError, read_notebook
@@ -42,6 +43,12 @@ class Entry:
     results: tuple[Result, ...] = ()
     failed: bool = False
 
+    @property
+    def table(self):
+        """Points, (families, worlds)."""
+        families = [result.family for result in self.results]
+        return by_families([result.points for result in self.results], families)
+
 
 @dataclass(frozen=True)
 class Course:
@@ -51,7 +58,7 @@ class Course:
     ----------
     arenas : list of Arena
     folder : Path, of the drives
-    budget : callable that makes a student's Budget
+    budget : callable that makes a student's Budget, for all worlds, and for each recorded log
     over : bool, whether the worlds are known by now: what was not driven before is not any more
     carried : dict, (SHA-256 of a notebook, number of the world) to the points it has, where a
         limit of time had ended the drive when it was judged first
@@ -79,7 +86,7 @@ def judge_submission(submission, course, start, stop=None, told=None):
     -------
     Entry
     """
-    names, budget = (submission.student, submission.name), course.budget()
+    names, for_worlds = (submission.student, submission.name), course.budget()
     try:
         notebook = read_notebook(submission)
         own = f"{notebook.sha256[:16]}-{sha256(submission.student.encode()).hexdigest()[:8]}"
@@ -87,6 +94,8 @@ def judge_submission(submission, course, start, stop=None, told=None):
         for k, arena in enumerate(course.arenas):
             file = course.folder / own / f"{k:03}.npz"
             carried = course.carried.get((notebook.sha256, k))
+            # a recorded log is far longer than a world: it has a budget of its own
+            budget = for_worlds if arena.world.truth is not None else course.budget()
             driven = read_drive(file)
             if driven is None and course.over:
                 raise SubmissionError("it came after the worlds had been revealed")

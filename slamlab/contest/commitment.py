@@ -7,8 +7,9 @@ knows it before can tell, once the file is revealed, that no world was chosen af
 import hashlib
 import json
 import secrets
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
+from typing import NamedTuple
 
 from slamlab import __version__
 from slamlab.grading.import_closure import closure
@@ -29,6 +30,14 @@ class ContestError(Exception):
     """A contest cannot be held as asked; the text says why and what to do."""
 
 
+class LogHashes(NamedTuple):
+    """What is told of a recorded log: its name, and the SHA-256 of it and of its relations."""
+
+    name: str
+    log: str
+    relations: str
+
+
 @dataclass(frozen=True)
 class Contest:
     """What a contest is drawn from.
@@ -41,6 +50,7 @@ class Contest:
     budget : dict, the limits of :class:`slamlab.project.driving.Budget` [s]
     code : str, SHA-256 of the modules that draw and score
     versions : dict, of the course and the libraries
+    logs : tuple of LogHashes, recorded logs that are driven beside the worlds
     """
 
     seed: str
@@ -49,11 +59,18 @@ class Contest:
     budget: dict
     code: str
     versions: dict
+    logs: tuple[LogHashes, ...] = ()
 
     @property
     def number(self):
         """The seed as a number."""
         return int(self.seed, 16)
+
+    @property
+    def places(self):
+        """The worlds in order: tuple of (family's or log's name, number from 1)."""
+        drawn = ((name, k + 1) for name in self.families for k in range(self.worlds))
+        return (*drawn, *((log.name, 1) for log in self.logs))
 
     @property
     def text(self):
@@ -66,13 +83,14 @@ class Contest:
         return hashlib.sha256(self.text.encode()).hexdigest()
 
 
-def draw_contest(families=tuple(FAMILIES), worlds=WORLDS_PER_FAMILY):
+def draw_contest(families=tuple(FAMILIES), worlds=WORLDS_PER_FAMILY, logs=()):
     """Draw a contest from the system's randomness.
 
     Parameters
     ----------
     families : tuple of str
     worlds : int, of each family
+    logs : tuple of LogHashes
 
     Returns
     -------
@@ -80,7 +98,7 @@ def draw_contest(families=tuple(FAMILIES), worlds=WORLDS_PER_FAMILY):
     """
     limits = {name: getattr(Budget, name) for name in ("total", "reading", "ending", "patience")}
     seed = secrets.token_hex(BITS // 8)
-    return Contest(seed, tuple(families), worlds, limits, code_digest(), versions())
+    return Contest(seed, tuple(families), worlds, limits, code_digest(), versions(), tuple(logs))
 
 
 def read_contest(file, told=None):
@@ -102,7 +120,8 @@ def read_contest(file, told=None):
     try:
         text = Path(file).read_text("utf-8")
         found = Contest(**json.loads(text))
-        found = Contest(**(vars(found) | {"families": tuple(found.families)}))
+        logs = tuple(LogHashes(*log) for log in found.logs)
+        found = replace(found, families=tuple(found.families), logs=logs)
         unknown = set(found.families) - set(FAMILIES)
         int(found.seed, 16)
     except OSError as error:
@@ -120,12 +139,14 @@ def read_contest(file, told=None):
     return found
 
 
-def commit(out):
+def commit(out, worlds=None, logs=()):
     """The contest of a folder; drawn, and its commitment written, where there is none.
 
     Parameters
     ----------
     out : Path
+    worlds : int or None, of each family; None for the usual number, or what was drawn
+    logs : tuple of LogHashes, of a contest that is drawn now
 
     Returns
     -------
@@ -136,8 +157,14 @@ def commit(out):
     ContestError
     """
     if (out / SECRET).exists():
-        return read_contest(out / SECRET, out / COMMITMENT)
-    contest = draw_contest()
+        contest = read_contest(out / SECRET, out / COMMITMENT)
+        if worlds not in (None, contest.worlds):
+            raise ContestError(
+                f"this contest has {contest.worlds} worlds a family, and cannot be changed: make "
+                "a new one, with another --out"
+            )
+        return contest
+    contest = draw_contest(worlds=worlds or WORLDS_PER_FAMILY, logs=logs)
     write_atomically(out / SECRET, contest.text)
     write_atomically(out / COMMITMENT, commitment_text(contest))
     return contest

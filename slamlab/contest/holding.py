@@ -15,7 +15,7 @@ from slamlab.contest.pseudonyms import pseudonyms
 from slamlab.grading.records import write_atomically
 from slamlab.grading.submissions import SubmissionError, read_notebook
 from slamlab.project.driving import Budget
-from slamlab.project.scores import arenas
+from slamlab.project.scores import arenas, prepare
 from slamlab.project.world_families import FAMILIES
 
 BOARD, DRIVES, PSEUDONYMS = "board", "drives", "pseudonyms.json"
@@ -23,12 +23,13 @@ BOARD, DRIVES, PSEUDONYMS = "board", "drives", "pseudonyms.json"
 WORLDS = "worlds.csv"  # in the board's folder: the points of each world
 
 
-def draw_arenas(contest):
-    """Draw the worlds of a contest, and prepare each.
+def draw_arenas(contest, logs=()):
+    """Draw the worlds of a contest, and prepare each, and its logs after them.
 
     Parameters
     ----------
     contest : Contest
+    logs : list of RecordedLog, see :func:`slamlab.contest.contest_logs.open_logs`
 
     Yields
     ------
@@ -36,6 +37,7 @@ def draw_arenas(contest):
     """
     families = [FAMILIES[name] for name in contest.families]
     yield from arenas(contest.number, families, contest.worlds)
+    yield from map(prepare, logs)
 
 
 def hold_contest(contest, found, out, prepared, workers, *, jobs=1, names=False, again=None,
@@ -109,11 +111,7 @@ def _codes(found, entries):
 
 def _open_board(contest, entries, out, names):
     """Write the board of a contest that is open; what there is to tell."""
-    points = {
-        entry.student: np.reshape([r.points for r in entry.results], (-1, contest.worlds))
-        for entry in entries
-        if entry.reason is None
-    }
+    points = {entry.student: entry.table for entry in entries if entry.reason is None}
     scores = climb(out / LADDER, points)
     known = {names[student]: score for student, score in scores.items() if student in names}
     write_open_board(out / BOARD, known, contest)
@@ -147,11 +145,11 @@ def late_points(folder, contest):
 
 def _told_points(folder, contest):
     """{(SHA-256, number of the world): (points, whether a limit of time ended it)}."""
-    place = {name: k * contest.worlds for k, name in enumerate(contest.families)}
+    place = {place: k for k, place in enumerate(contest.places)}
     try:
         with open(folder / WORLDS, newline="", encoding="utf-8") as file:
             return {
-                (row["sha256"], place[row["family"]] + int(row["world"]) - 1): (
+                (row["sha256"], place[row["family"], int(row["world"])]): (
                     float(row["points"]), row["late"] == "1")
                 for row in csv.DictReader(file)
             }  # fmt: skip

@@ -13,13 +13,19 @@ WIDTH, MARGIN = 640, 0.6  # of a map [pixels, m]
 CELL = 0.1  # of the film's points one a cell is kept [m]
 
 
-def in_the_world(poses, truth):
-    """Poses as given online, moved so that the first one is the true one: (n, 3)."""
-    return compose(truth[0], between(poses[0], poses)) if len(poses) else poses
+def in_the_world(poses, world):
+    """Poses as given online, moved so that the first one is the true one: (n, 3).
+
+    In a recorded log, whose truth nobody knows, so that it is the origin.
+    """
+    start = np.zeros(3) if world.truth is None else world.truth.poses[0]
+    return compose(start, between(poses[0], poses)) if len(poses) else poses
 
 
 def map_picture(arena, drive, moment=None):
     """Draw a map of a world: its walls, the true track, odometry's and the estimate's.
+
+    Of a recorded log, which has neither walls nor truth, the two tracks.
 
     Parameters
     ----------
@@ -31,9 +37,17 @@ def map_picture(arena, drive, moment=None):
     -------
     str, SVG
     """
-    truth = arena.world.truth.poses
-    walls = arena.world.floor.outline()
-    corners = walls.reshape(-1, 2)
+    world = arena.world
+    odometry = in_the_world(arena.drives["odometry"].online, world)
+    online = in_the_world(drive.online, world)
+    if world.truth is None:
+        walls, truth = np.empty((0, 4)), np.empty((0, 3))
+        title = "Two tracks of a recorded log: odometry, estimate"
+        corners = np.concatenate([[[0.0, 0.0]], online[np.isfinite(online).all(axis=1), :2]])
+    else:
+        walls, truth = world.floor.outline(), world.truth.poses
+        title = "Map of the world with three tracks: true, odometry, estimate"
+        corners = walls.reshape(-1, 2)
     low, high = corners.min(axis=0) - MARGIN, corners.max(axis=0) + MARGIN
     scale = WIDTH / (high[0] - low[0])
     height = scale * (high[1] - low[1])
@@ -58,12 +72,11 @@ def map_picture(arena, drive, moment=None):
         marked = (
             f'<circle cx="{x}" cy="{y}" r="14" fill="none" stroke="{colour}" stroke-width="4"/>'
         )
-    odometry = in_the_world(arena.drives["odometry"].online, truth)
     return (
         f'<svg viewBox="0 0 {WIDTH} {height:.0f}" role="img" xmlns="http://www.w3.org/2000/svg">'
-        f"<title>Map of the world with three tracks: true, odometry, estimate</title>{segments}"
+        f"<title>{title}</title>{segments}"
         f"{track(odometry, 'naive')}{track(truth, 'truth')}"
-        f"{track(in_the_world(drive.online, truth), 'corrected')}{marked}</svg>"
+        f"{track(online, 'corrected')}{marked}</svg>"
     )
 
 
@@ -84,8 +97,9 @@ def film_page(arena, drive, title, file):
     -------
     str, HTML
     """
+    shown = "" if arena.world.truth is None else "walls, the true track, "
     alt = (
-        "A map of the world from above, reading by reading: walls, the true track, odometry's, "
+        f"A map of the world from above, reading by reading: {shown}odometry's track, "
         "the estimate's, and the scans where the estimate put them."
     )
     with FilmRecorder(file, title, alt) as film:
@@ -98,10 +112,12 @@ def film_page(arena, drive, title, file):
 
 
 def _scenes(arena, drive):
-    truth = arena.world.truth.poses
-    walls = Segments("walls", arena.world.floor.outline())
-    odometry = in_the_world(arena.drives["odometry"].online, truth)
-    online = in_the_world(drive.online, truth)
+    world = arena.world
+    known_track = world.truth is not None
+    truth = world.truth.poses if known_track else None
+    walls = Segments("walls", world.floor.outline()) if known_track else None
+    odometry = in_the_world(arena.drives["odometry"].online, world)
+    online = in_the_world(drive.online, world)
     known = np.isfinite(online).all(axis=1)
     cloud, cells = np.empty((0, 2)), set()
     for i, reading in enumerate(arena.readings):
@@ -114,14 +130,21 @@ def _scenes(arena, drive):
                     fresh.append(point)
             cloud = np.concatenate([cloud, np.reshape(fresh, (-1, 2))])
         own = online[: i + 1][known[: i + 1]]
-        status = f"reading {i + 1} of {len(truth)}, {arena.world.metres[i]:.1f} m of way"
-        yield _scene(walls, truth[: i + 1], odometry[: i + 1], own, cloud, status)
-    motion = aligned(drive.trajectory, truth)
+        status = f"reading {i + 1} of {len(online)}"
+        if known_track:
+            status += f", {world.metres[i]:.1f} m of way"
+        so_far = truth[: i + 1] if known_track else None
+        yield _scene(walls, so_far, odometry[: i + 1], own, cloud, status)
+    # where there is no truth the track of the end is laid on what was given online
+    there = truth if known_track else online
+    motion = aligned(np.where(np.isfinite(there), drive.trajectory, np.nan), there)
     final = drive.trajectory[np.isfinite(drive.trajectory).all(axis=1)]
     laid, points = compose(motion, final) if len(final) else final, transform(motion, drive.points)
     yield _scene(walls, truth, odometry, laid, points, "the trajectory and the map at the end")
 
 
 def _scene(walls, truth, odometry, own, points, status):
-    tracks = [Poses("truth", truth), Poses("naive", odometry), Poses("corrected", own)]
-    return Scene([walls, Points("map", points), *tracks], status)
+    layers = [Points("map", points), Poses("naive", odometry), Poses("corrected", own)]
+    if truth is not None:
+        layers = [walls, layers[0], Poses("truth", truth), *layers[1:]]
+    return Scene(layers, status)

@@ -32,6 +32,25 @@ class Standing:
     families: np.ndarray
 
 
+def by_families(points, families):
+    """Points of each world as a table; a recorded log, a family of one world, is repeated.
+
+    Parameters
+    ----------
+    points : (n,) of each world
+    families : (n,) str, whose world it is; those of a family stand together
+
+    Returns
+    -------
+    (families, worlds)
+    """
+    rows = {}
+    for found, family in zip(points, families, strict=True):
+        rows.setdefault(family, []).append(found)
+    worlds = max(map(len, rows.values()))
+    return np.array([np.resize(row, worlds) for row in rows.values()], dtype=float)
+
+
 def scores(points):
     """Scores from (…, families, worlds) points: the median of each family, their mean."""
     return np.median(points, axis=-1).mean(axis=-1)
@@ -49,21 +68,21 @@ def standings(points, rng):
     -------
     list of Standing, in the students' order
     """
-    points = np.asarray(points, dtype=float)
-    students, families, worlds = points.shape
-    if not students:
+    if not len(points):
         return []
+    points = np.asarray(points, dtype=float)
+    _, families, worlds = points.shape
     drawn = rng.integers(worlds, size=(DRAWS, families, worlds))
     drawn_scores = np.array([scores(own[np.arange(families)[:, None], drawn]) for own in points])
     found = scores(points)
     low, high = np.quantile(drawn_scores, [(1 - LEVEL) / 2, (1 + LEVEL) / 2], axis=1)
     medians = np.median(points, axis=-1)
-    ranks = [1 + int(_ahead(drawn_scores, drawn_scores[i]).sum()) for i in range(students)]
+    ranks = [1 + int(_ahead(drawn_scores, drawn_scores[i]).sum()) for i in range(len(points))]
     # an interval of a skewed score may leave its own score out: it is widened to hold it
     low, high = np.minimum(low, found), np.maximum(high, found)
     return [
         Standing(ranks[i], float(found[i]), float(low[i]), float(high[i]), medians[i])
-        for i in range(students)
+        for i in range(len(points))
     ]
 
 

@@ -4,6 +4,7 @@ Everything below its folder may be put on a site: nothing in it says whose a pse
 """
 
 import re
+from collections import Counter
 from dataclasses import dataclass
 from hashlib import sha256
 from pathlib import Path
@@ -14,7 +15,7 @@ import numpy as np
 from slamlab.contest.class_judging import Entry
 from slamlab.contest.moments import BAND, WAY, first_moment
 from slamlab.contest.pictures import film_page, map_picture
-from slamlab.contest.ranking import LEVEL, Standing, standings
+from slamlab.contest.ranking import LEVEL, Standing, by_families, standings
 from slamlab.grading.grade_tables import write_table
 from slamlab.grading.records import private_folder, write_atomically
 from slamlab.grading.tree_removal import remove_tree
@@ -74,15 +75,16 @@ def rank(entries, names, arenas):
     list of Row, the best first; dict, baseline's name to its Standing
     """
     judged = [entry for entry in entries if entry.reason is None]
-    families = len({arena.world.family.name for arena in arenas})
+    families = [arena.world.name for arena in arenas]
     baselines = {
-        name: [arena.judge(arena.drives[name]).points for arena in arenas]
+        name: by_families([arena.judge(arena.drives[name]).points for arena in arenas], families)
         for name in arenas[0].drives
     }
-    points = [[result.points for result in entry.results] for entry in judged]
-    table = np.reshape([*points, *baselines.values()], (-1, families, len(arenas) // families))
-    found = standings(table[: len(points)], np.random.default_rng(BOOTSTRAP_SEED))
-    marks = standings(table[len(points) :], np.random.default_rng(BOOTSTRAP_SEED))
+    tables = [entry.table for entry in judged]
+    found, marks = (
+        standings(some, np.random.default_rng(BOOTSTRAP_SEED))
+        for some in (tables, list(baselines.values()))
+    )
     rows = [Row(names[e.student], e, s) for e, s in zip(judged, found, strict=True)]
     rows.sort(key=lambda row: (row.standing.rank, -row.standing.score, row.name))
     return rows, dict(zip(baselines, marks, strict=True))
@@ -101,12 +103,12 @@ def write_board(out, rows, marks, arenas, contest, unjudged, code=None):
     unjudged : list of (name, reason)
     code : dict or None, student to the code that is opened
     """
-    families = list(dict.fromkeys(arena.world.family.name for arena in arenas))
+    families = list(dict.fromkeys(arena.world.name for arena in arenas))
     known = {"rows": rows, "marks": marks, "families": families, "contest": contest,
              "unjudged": unjudged, "level": LEVEL, "colours": COLOURS}  # fmt: skip
     write_atomically(out / "index.html", TEMPLATES.get_template("scoreboard.html").render(known))
     write_table(out / "board.csv", _board_table(rows, families))
-    write_table(out / "worlds.csv", _worlds_table(rows, contest.worlds))
+    write_table(out / "worlds.csv", _worlds_table(rows))
     remove_tree(out / "students")  # whose names may have been other ones
     for row in rows:
         write_student_page(out, row, arenas, families, (code or {}).get(row.entry.student))
@@ -128,15 +130,16 @@ def write_student_page(out, row, arenas, families, code=None):
     """
     results = row.entry.results
     moments = [
-        first_moment(driven.online, arena.world.truth.poses, arena.world.metres)
+        None if arena.world.truth is None
+        else first_moment(driven.online, arena.world.truth.poses, arena.world.metres)
         for driven, arena in zip(row.entry.drives, arenas, strict=True)
-    ]
-    points = np.reshape([result.points for result in results], (len(families), -1))
-    worlds = points.shape[1]
-    counted = np.argsort(points, axis=1, kind="stable")[:, worlds // 2]
-    family = int(np.argmin(points[np.arange(len(families)), counted]))
-    shown = family * worlds + int(counted[family])
-    title = f"{families[family]}, world {shown % worlds + 1}"
+    ]  # fmt: skip
+    numbers = list(_numbers(results))
+    counted = {_median([k for k, r in enumerate(results) if r.family == f], results)
+               for f in families}  # fmt: skip
+    shown = min(sorted(counted), key=lambda k: results[k].points)
+    title = f"{results[shown].family}, world {numbers[shown]}"
+    recorded = arenas[shown].world.truth is None
     private_folder(out / "students")
     film = out / "students" / f"{row.slug}-film.html"
     replay = film_page(
@@ -150,11 +153,10 @@ def write_student_page(out, row, arenas, families, code=None):
         row=row,
         code=None if code is None else text.name,
         worlds=[
-            (result.family, k % worlds + 1, result, moments[k], k // worlds, k % worlds)
+            (result.family, numbers[k], result, moments[k], k in counted)
             for k, result in enumerate(results)
         ],
-        counted=counted,
-        families=families,
+        recorded=recorded,
         title=title,
         picture=map_picture(arenas[shown], row.entry.drives[shown], moments[shown]),
         moment=moments[shown],
@@ -168,6 +170,19 @@ def write_student_page(out, row, arenas, families, code=None):
     write_atomically(out / row.page, page)
 
 
+def _median(which, results):
+    """Which of some worlds has the median of their points."""
+    return sorted(which, key=lambda k: results[k].points)[len(which) // 2]
+
+
+def _numbers(results):
+    """The number of each world in its family, from 1."""
+    seen = Counter()
+    for result in results:
+        seen[result.family] += 1
+        yield seen[result.family]
+
+
 def _board_table(rows, families):
     yield ["rank", "name", "score", "low", "high", *families]
     for row in rows:
@@ -176,17 +191,19 @@ def _board_table(rows, families):
         yield [str(found.rank), row.name, *(f"{value:.2f}" for value in numbers)]
 
 
-def _worlds_table(rows, worlds):
+def _worlds_table(rows):
     errors = [f"error over {length:g} m" for length in LENGTHS]
-    more = ["map", "completeness", "nees", "cpu", "late", "mistakes"]
+    more = ["error of relations", "map", "completeness", "nees", "cpu", "late", "mistakes"]
     yield ["name", "sha256", "family", "world", "points", *errors, *more]
     for row in rows:
-        pairs = zip(row.entry.drives, row.entry.results, strict=True)
-        for k, (driven, result) in enumerate(pairs):
+        results = row.entry.results
+        worlds = zip(row.entry.drives, results, _numbers(results), strict=True)
+        for driven, result, number in worlds:
             found = result.measures
-            numbers = (*found.errors, found.map, found.completeness, found.nees, driven.seconds)
+            numbers = (*found.errors, found.relations, found.map, found.completeness, found.nees,
+                       driven.seconds)  # fmt: skip
             yield [
-                row.name, row.entry.sha256, result.family, str(k % worlds + 1),
+                row.name, row.entry.sha256, result.family, str(number),
                 repr(float(result.points)), *(f"{value:.4g}" for value in numbers),
                 str(int(driven.late)), " | ".join(driven.mistakes),
             ]  # fmt: skip

@@ -16,6 +16,10 @@ USED_UP = (
     "with or a graph to solve, has to be kept small"
 )
 WAITED = "{:g} s have passed in all, the CPU mostly idle: does it wait or sleep?"
+NOT_FINITE = (
+    "{} of {} poses are not finite, or farther away than 1000 km: was something divided by zero, "
+    "or does the pose run off?"
+)
 TOO_LONG = "{} took {:.1f} s of CPU, more than the {:g} s that are allowed"
 
 
@@ -147,7 +151,7 @@ def drive(make, world, budget=None):
             points = budget.timed(estimator.map, budget.ending, "map()")
     lost = int(np.isnan(trajectory[:answered]).any(axis=1).sum())
     if lost:
-        mistakes.append(f"{lost} of {n} poses are not finite: was something divided by zero?")
+        mistakes.append(NOT_FINITE.format(lost, n))
     spent = budget.spent - before
     return Drive(online, covariances, trajectory, points, tuple(mistakes), spent, late)
 

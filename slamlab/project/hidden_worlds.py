@@ -47,6 +47,11 @@ class HiddenWorld:
     bias: float
     seed: int = field(repr=False)
 
+    @property
+    def name(self):
+        """The family's name."""
+        return self.family.name
+
     def __len__(self):
         return len(self.truth)
 

@@ -38,6 +38,8 @@ class Measures:
     map : float, map score [1]
     completeness : float, share of finite poses [1]
     nees : float, mean NEES over the claims; NaN where there are none [1]
+    relations : float, of a recorded log, mean error of its relations; it has no map score, no NEES
+        and no errors over lengths, which are NaN [m]
     """
 
     gain: float
@@ -45,6 +47,7 @@ class Measures:
     map: float
     completeness: float
     nees: float
+    relations: float = np.nan
 
 
 def measure(drive, world, odometry, walls):
@@ -69,9 +72,9 @@ def measure(drive, world, odometry, walls):
             drive_errors.relative_errors(poses, truth, world.metres, length)
             for poses in (drive.trajectory, odometry.trajectory)
         )
-        errors = np.where(np.isfinite(errors), errors, of_odometry)
-        gains.append(np.mean(np.log((of_odometry + FLOOR) / (errors + FLOOR))))
-        means.append(errors.mean())
+        gain, mean = _gain(errors, of_odometry)
+        gains.append(gain)
+        means.append(mean)
     motion = drive_errors.aligned(drive.trajectory, truth)
     return Measures(
         float(np.mean(gains)),
@@ -80,6 +83,31 @@ def measure(drive, world, odometry, walls):
         drive.completeness,
         drive_errors.mean_nees(drive.online, drive.covariances, truth),
     )
+
+
+def measure_log(drive, log, odometry):
+    """Measure a drive through a recorded log by its relations; there is no truth to score a map.
+
+    Parameters
+    ----------
+    drive : Drive
+    log : RecordedLog
+    odometry : Drive of odometry through the same log
+
+    Returns
+    -------
+    Measures
+    """
+    gain, mean = _gain(log.errors(drive.trajectory), log.errors(odometry.trajectory))
+    unknown = np.full(len(LENGTHS), np.nan)
+    return Measures(gain, unknown, np.nan, drive.completeness, np.nan, mean)
+
+
+def _gain(errors, of_odometry):
+    """Gain over odometry and mean error [m]; an error that is not finite counts as odometry's."""
+    errors = np.where(np.isfinite(errors), errors, of_odometry)
+    gain = np.mean(np.log((of_odometry + FLOOR) / (errors + FLOOR)))
+    return float(gain), float(errors.mean())
 
 
 def marks(odometry, icp, graph):
@@ -109,7 +137,8 @@ def marks(odometry, icp, graph):
 def points_of(measures, scale):
     """Points of a drive, 0 to 100.
 
-    completeness · (0.8 · trajectory + 0.2 · min(map, trajectory)) − the cost of a false claim
+    completeness · (0.8 · trajectory + 0.2 · min(map, trajectory)) − the cost of a false claim;
+    where no map can be scored, completeness · trajectory
 
     Parameters
     ----------
@@ -123,7 +152,8 @@ def points_of(measures, scale):
     gains, maps = scale
     track = np.interp(measures.gain, gains, MARKS)
     # a map is worth no more than the track it is drawn along: pieces of odometry's gain nothing
-    mapped = min(np.interp(measures.map, maps, MARKS), track)
+    known = np.isfinite(measures.map)
+    mapped = min(np.interp(measures.map, maps, MARKS), track) if known else track
     good = (1 - MAP_SHARE) * track + MAP_SHARE * mapped
     return float(max(0.0, measures.completeness * good - claim_cost(measures.nees)))
 

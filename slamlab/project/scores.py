@@ -9,7 +9,8 @@ from slamlab.project.baselines import BASELINES
 from slamlab.project.drawing import WORLDS_PER_FAMILY, draw_family
 from slamlab.project.driving import Budget, Drive, drive
 from slamlab.project.hidden_worlds import HiddenWorld
-from slamlab.project.points import Measures, marks, measure, points_of
+from slamlab.project.points import Measures, marks, measure, measure_log, points_of
+from slamlab.project.recorded_logs import RecordedLog
 from slamlab.project.world_families import FAMILIES
 
 
@@ -19,17 +20,18 @@ class Arena:
 
     Parameters
     ----------
-    world : HiddenWorld
+    world : HiddenWorld or RecordedLog
     readings : tuple of Reading, those of the world, made once for all who are judged
     drives : dict, baseline's name to its Drive
-    walls : what there is to be mapped, see :func:`slamlab.project.drive_errors.to_be_mapped`
+    walls : what there is to be mapped, see :func:`slamlab.project.drive_errors.to_be_mapped`;
+        None of a log
     scale : the marks, see :func:`slamlab.project.points.marks`
     """
 
-    world: HiddenWorld
+    world: HiddenWorld | RecordedLog
     readings: tuple
     drives: dict[str, Drive]
-    walls: tuple
+    walls: tuple | None
     scale: tuple
 
     def judge(self, driven):
@@ -43,9 +45,9 @@ class Arena:
         -------
         Result
         """
-        found = measure(driven, self.world, self.drives["odometry"], self.walls)
+        found = _measured(driven, self.world, self.drives["odometry"], self.walls)
         points = points_of(found, self.scale)
-        return Result(self.world.family.name, points, found, driven.mistakes, driven.seconds)
+        return Result(self.world.name, points, found, driven.mistakes, driven.seconds)
 
 
 @dataclass(frozen=True)
@@ -73,7 +75,7 @@ def prepare(world):
 
     Parameters
     ----------
-    world : HiddenWorld
+    world : HiddenWorld or RecordedLog
 
     Returns
     -------
@@ -82,11 +84,17 @@ def prepare(world):
     unlimited = Budget(*[np.inf] * 4)
     readings = tuple(world)
     drives = {name: drive(make, readings, unlimited) for name, make in BASELINES.items()}
-    walls = drive_errors.to_be_mapped(world)
+    walls = None if world.truth is None else drive_errors.to_be_mapped(world)
     measured = {
-        name: measure(driven, world, drives["odometry"], walls) for name, driven in drives.items()
+        name: _measured(driven, world, drives["odometry"], walls) for name, driven in drives.items()
     }
     return Arena(world, readings, drives, walls, marks(**measured))
+
+
+def _measured(driven, world, odometry, walls):
+    if world.truth is None:
+        return measure_log(driven, world, odometry)
+    return measure(driven, world, odometry, walls)
 
 
 def arenas(seed, families=None, count=WORLDS_PER_FAMILY):

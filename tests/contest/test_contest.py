@@ -194,7 +194,7 @@ def test_a_drive_is_kept_as_it_is_and_half_a_file_is_none(tmp_path, cut):
 @pytest.mark.usefixtures("held")
 def test_the_command_judges_a_folder_and_tells_who_is_driven(tmp_path, capsys, monkeypatch):
     draw = commitment.draw_contest
-    monkeypatch.setattr(commitment, "draw_contest", lambda: draw(("small",), 1))
+    monkeypatch.setattr(commitment, "draw_contest", lambda worlds, logs: draw(("small",), 1))
     (tmp_path / "class").mkdir()
     (tmp_path / "class" / "gil.ipynb").write_text(notebook(cheaters.TEMPLATE, exercise=None))
     out = tmp_path / "out"

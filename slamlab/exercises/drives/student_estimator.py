@@ -96,7 +96,11 @@ class StudentEstimator:
                 f"map() has {len(points)} points, at most {MAX_MAP_POINTS} are allowed: keep one "
                 "of those that fall into the same cell of a grid",
             )
-        return points[(np.abs(points) < FAR).all(axis=1)]
+        near = (np.abs(points) < FAR).all(axis=1)
+        if not near.any():
+            told = f"map(): none of the {len(points)} points is finite, so there is no map"
+            raise StudentError("malformed", told)
+        return points[near]
 
     def _has(self, name):
         return _called(lambda: hasattr(self._theirs, name), name)
