@@ -10,8 +10,8 @@ endif
 ENV = .venv-test
 RUN = PATH="$(CURDIR)/$(ENV)/bin:$$PATH" $(ENV)/bin/python -m
 FAULTS = $(ENV)/figure_faults.txt
-# one worker a core of a small machine; the cells of a notebook must stay on one worker
-PYTEST = $(RUN) pytest -n 2 --dist loadfile
+# one worker a core of a small machine; files stay whole, in the order of tests/conftest.py
+PYTEST = $(RUN) pytest -n 2 --dist loadfile --no-loadscope-reorder
 
 .PHONY: lab test test-all soak env clients lint format notebooks site student lecturer bench lock clean
 
