@@ -55,9 +55,10 @@ class Watched(Simulator):
         return odometry
 
 
-def test_the_follower_never_touches_a_wall(monkeypatch):
+@pytest.mark.parametrize("seeds", [4, pytest.param(15, marks=pytest.mark.slow)])
+def test_the_follower_never_touches_a_wall(monkeypatch, seeds):
     monkeypatch.setattr(arena_runs, "Simulator", Watched)
-    for seed in range(15):
+    for seed in range(seeds):
         Watched.way.clear()
         source = ArenaRun(RNG(seed), laps=1)
         assert len(Watched.way) > 300
