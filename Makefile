@@ -10,23 +10,23 @@ endif
 ENV = .venv-test
 RUN = PATH="$(CURDIR)/$(ENV)/bin:$$PATH" $(ENV)/bin/python -m
 FAULTS = $(ENV)/figure_faults.txt
-# one worker a core of a small machine; the cells of a notebook must stay on one worker
-PYTEST = $(RUN) pytest -n 2 --dist loadfile
+# one worker a core of a small machine; files stay whole, in the order of tests/conftest.py
+PYTEST = $(RUN) pytest -n 2 --dist loadfile --no-loadscope-reorder
 
 .PHONY: lab test test-all soak env clients lint format notebooks site student lecturer bench lock clean
 
 lab:  ## Set up and open the course; LAB_ARGS="--no-browser --port 9999" go to JupyterLab
 	@$(PYTHON) lab.py $(LAB_ARGS)
 
-test: lint clients  ## Set up and run every test; TEST_ARGS go to pytest
-	$(PYTEST) -m "not soak and not walk" $(TEST_ARGS)
+test: lint clients  ## Set up, run every test that is not long, and every notebook; TEST_ARGS go to pytest
+	$(PYTEST) -m "not soak and not walk and not slow" $(TEST_ARGS)
 	rm -f $(FAULTS)
 	PYTHONHASHSEED=0 SLAMLAB_FIGURE_FAULTS="$(CURDIR)/$(FAULTS)" \
 		$(RUN) pytest @tests/notebooks/nbval.args notebooks exercises solutions
 	$(RUN) course.known_faults $(FAULTS)
 
-test-all: test  ## Also walk through every notebook in a real browser, and a whole department
-	$(RUN) pytest -m walk tests/browser tests/grading/test_department.py
+test-all: test  ## Also the long tests: every notebook in a real browser, the site, a whole department
+	$(PYTEST) -m "(slow or walk) and not soak" $(ALL_ARGS)
 
 soak: env  ## Run what takes long, or needs a machine that has nothing else to do
 	$(RUN) pytest -m soak

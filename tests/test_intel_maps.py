@@ -32,6 +32,7 @@ def test_without_the_recording_the_command_says_so_in_one_line(tmp_path, monkeyp
     assert not (tmp_path / "maps.npz").exists()
 
 
+@pytest.mark.slow
 def test_the_recording_gives_the_stored_maps(tmp_path):
     try:
         for name in ("intel", "intel-relations"):

@@ -22,7 +22,7 @@ from slamlab.worlds.world import World
 
 SONAR = ULTRASONIC.model
 SMOOTH = replace(ULTRASONIC, dropouts=0.1, max_incidence=np.radians(30))
-RUNS = 30
+RUNS = pytest.mark.parametrize("runs", [8, pytest.param(30, marks=pytest.mark.slow)])
 STEPS = np.linspace(15, 80, 6).astype(int)
 
 
@@ -154,9 +154,10 @@ def room_by_sound(seed, robot=None, scanner=ULTRASONIC):
     return result, errors, np.array(P)
 
 
-def test_through_the_room_it_nearly_halves_odometrys_error():
+@RUNS
+def test_through_the_room_it_nearly_halves_odometrys_error(runs):
     off, naive = [], []
-    for seed in range(RUNS):
+    for seed in range(runs):
         result, _, _ = room_by_sound(seed)
         truth = result.source.truth
         off.append(absolute_error(result.trajectory, truth).translation)
@@ -165,11 +166,13 @@ def test_through_the_room_it_nearly_halves_odometrys_error():
     assert np.mean(np.array(off) < naive) > 0.85
 
 
+@RUNS
 @pytest.mark.parametrize("scanner", [ULTRASONIC, SMOOTH])
-def test_with_wheels_that_err_as_they_say_the_poses_nees_stays_in_its_band(scanner):
+def test_with_wheels_that_err_as_they_say_the_poses_nees_stays_in_its_band(scanner, runs):
     """The room's own robot has wheels unequal for good, which no model of chance foresees."""
-    runs = [room_by_sound(seed, THESIS_ROBOT, scanner)[1:] for seed in range(100, 100 + RUNS)]
-    low, high = band(3, RUNS, 0.9999)
+    seeds = range(100, 100 + runs)
+    drives = [room_by_sound(seed, THESIS_ROBOT, scanner)[1:] for seed in seeds]
+    low, high = band(3, runs, 0.9999)
     for k in STEPS:
-        errors, P = (np.array([one[i][k] for one in runs]) for i in (0, 1))
+        errors, P = (np.array([one[i][k] for one in drives]) for i in (0, 1))
         assert low < nees(errors, P).mean() < high

@@ -93,7 +93,10 @@ def test_what_sees_enough_corners_or_walls_again_says_nothing(name, world):
     assert told(name, simulation(world, np.random.default_rng(1))) == ""
 
 
-@pytest.mark.parametrize("name", ["icp", "graph", "walls", "mak"])
+@pytest.mark.parametrize(
+    "name",
+    ["icp", "mak", *(pytest.param(name, marks=pytest.mark.slow) for name in ("graph", "walls"))],
+)
 def test_on_the_intel_log_nobody_says_anything(name):
     try:
         path = sources.recording("intel")

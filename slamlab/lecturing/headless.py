@@ -12,6 +12,7 @@ PROGRAMS = ("chromium", "chromium-browser", "google-chrome", "chrome", "microsof
 CHANNELS = ("chrome", "msedge", None)  # where Playwright looks by itself; None: its own Chromium
 NEWS = "@jupyterlab/apputils-extension:announcements"
 PATIENCE = 300  # [s] for JupyterLab to start: a guard against hanging
+LEAVE = 20  # [s] for its kernels to end; it keeps nothing, so it is ended then
 NO_PLAYWRIGHT = "Playwright is missing: set up with `python lab.py --lecture`"
 NO_BROWSER = (
     "no Chromium, Chrome or Edge was found: install one of them, or let Playwright fetch a "
@@ -99,7 +100,7 @@ def jupyterlab(home, environment=(), patience=PATIENCE):
     finally:
         server.terminate()
         try:
-            server.wait(patience)
+            server.wait(LEAVE)
         except subprocess.TimeoutExpired:
             server.kill()
             server.wait()

@@ -33,6 +33,7 @@ def test_a_run_is_filmed_a_frame_a_reading_with_truth_and_naive_track_beside(tmp
     assert path.stat().st_size <= 100_000
 
 
+@pytest.mark.slow
 def test_a_film_of_clouds_of_points_is_small_as_well(tmp_path):
     path = tmp_path / "run.film"
     assert main(["run", "sim:situation-1", "--estimator", "icp", "--film", str(path)]) == 0

@@ -65,7 +65,7 @@ def scores(folder):
         return {row["id"]: row["score"] for row in csv.DictReader(file)}
 
 
-@pytest.mark.parametrize("kind", ["sqlite", "postgresql"])
+@pytest.mark.parametrize("kind", ["sqlite", pytest.param("postgresql", marks=pytest.mark.slow)])
 def test_every_mark_is_as_a_plain_table_says(tmp_path, monkeypatch, kind, request, capsys):
     url = ""
     if kind == "postgresql":

@@ -245,9 +245,11 @@ def test_a_database_stopped_in_mid_run_is_waited_for_and_nothing_is_lost(tmp_pat
         assert chain_proof.altered(opened.rows()) == []
 
 
-@pytest.mark.slow
 @pytest.mark.skipif(os.name != "posix", reason="signals of POSIX")
-@pytest.mark.parametrize("kills", [4, pytest.param(20, marks=pytest.mark.soak)])
+@pytest.mark.parametrize(
+    "kills",
+    [1, pytest.param(4, marks=pytest.mark.slow), pytest.param(20, marks=pytest.mark.soak)],
+)
 def test_a_grader_killed_at_any_moment_loses_nothing_and_doubles_nothing(tmp_path, kills):
     out, names = tmp_path / "out", class_of(tmp_path / "class", 6 * kills)
     rng, graded = random.Random(9), lambda: len(list(out.glob("feedback/*")))

@@ -70,6 +70,7 @@ def test_one_number_for_all_earns_nothing(task, value):
     assert verdict.diagnosis or verdict.problem
 
 
+@pytest.mark.slow
 def test_degenerate_answers_earn_next_to_nothing_over_the_course():
     rng, earned = np.random.default_rng(11), {}
     for task in TASKS:

@@ -3,6 +3,7 @@
 import csv
 import json
 import os
+import shutil
 from dataclasses import replace
 
 import pytest
@@ -15,7 +16,7 @@ from slamlab.grading.late_policy import LatePolicyError
 from slamlab.grading.marks import mark
 from slamlab.grading.records import Record
 from tests.grading import fake
-from tests.grading.conftest import notebook, workers
+from tests.grading.conftest import know_the_fake, notebook, workers
 
 POLICY = """
 grace_minutes = 10
@@ -132,14 +133,24 @@ def test_the_median_of_an_even_number_of_totals_is_half_way_between_the_middle_t
     assert "median 3.5 of" in (tmp_path / "class.html").read_text("utf-8")
 
 
+@pytest.fixture(scope="module")
+def graded(tmp_path_factory):
+    """A class with one submission of exercise 99, and its results."""
+    folder = tmp_path_factory.mktemp("graded")
+    (folder / "class").mkdir()
+    (folder / "class" / "anna.ipynb").write_text(notebook(fake.SOLUTION))
+    out = str(folder / "out")
+    words = ["grade", str(folder / "class"), "--out", out, "--isolation", workers().level]
+    with pytest.MonkeyPatch.context() as patch:
+        know_the_fake(patch)
+        assert main(words) == 0
+    return folder
+
+
 @pytest.fixture
-def results(tmp_path, capsys):
-    """A folder of results with one submission of exercise 99."""
-    (tmp_path / "class").mkdir()
-    (tmp_path / "class" / "anna.ipynb").write_text(notebook(fake.SOLUTION))
-    out = str(tmp_path / "out")
-    words = ["grade", str(tmp_path / "class"), "--out", out, "--isolation", workers().level]
-    assert main(words) == 0
+def results(tmp_path, graded, capsys):
+    """A folder of results of its own, beside the class's."""
+    shutil.copytree(graded, tmp_path, dirs_exist_ok=True)
     capsys.readouterr()
     return tmp_path / "out"
 

@@ -51,6 +51,7 @@ def test_a_failing_cell_and_a_slide_too_full_are_found(write, capsys):
     assert "cell the-cell: ZeroDivisionError" in said and "does not fit the screen" in said
 
 
+@pytest.mark.slow
 def test_cells_that_never_end_are_not_waited_for(write, capsys):
     assert main(["rehearse", str(write("time.sleep(1e6)")), "--patience", "0.3"]) == 2
     assert "as far as the-cell" in capsys.readouterr().err
@@ -64,6 +65,7 @@ def test_a_handout_has_a_page_for_each_slide_and_its_text(write, tmp_path):
     assert b"/Font" in data  # text, no picture of it
 
 
+@pytest.mark.slow
 def test_notes_stand_on_upright_white_pages(write, tmp_path):
     out = tmp_path / "out.pdf"
     assert main(["handout", str(write()), "--notes", "--out", str(out)]) == 0
@@ -83,6 +85,7 @@ def stroke(cell, colour="blue"):
     return look | {"anchor": anchor, "points": points}
 
 
+@pytest.mark.slow
 def test_a_handout_has_the_ink_and_says_which_it_lacks(write, tmp_path, capsys):
     notebook, out = write(), tmp_path / "out.pdf"
     cells = [cell.id for cell in nbformat.read(notebook, as_version=4).cells]

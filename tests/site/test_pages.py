@@ -179,6 +179,7 @@ views.live({"one": partial(sources.simulation, "polygon"), "by hand": partial(
     sources.simulation, "room", tour=False)}, partial(estimators.make, "odometry"), "Points.")"""
 
 
+@pytest.mark.slow
 def test_what_moves_is_rendered_once_and_stands_on_the_page(tmp_path):
     notebook = nbformat.v4.new_notebook(
         cells=[text("# 05 · T"), code(MOVING), code(DRAWN, {"text/html": "<img alt='A line'>"}),
