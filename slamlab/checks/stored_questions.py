@@ -1,4 +1,4 @@
-"""What lessons and exercises ask, as stored: notebooks ask by the id, so no code tells answers."""
+"""What lessons and exercises ask, as stored: a notebook asks by id, and no code tells answers."""
 
 import json
 from importlib import resources
