@@ -8,7 +8,7 @@ import numpy as np
 from slamlab.views.arrangement import lay_out
 
 KEPT = 3  # layouts: before titles are wrapped, after it, with legends below
-SLACK = 1.5  # by which words may reach further than they did [pixels]
+SLACK = 1.5  # by which words may reach further than they did, or axes be elsewhere [pixels]
 
 
 class SteadyLayout:
@@ -36,8 +36,12 @@ class SteadyLayout:
             ax.set_box_aspect(aspect)
             ax.set_position(original, which="original")
             ax.set_position(active, which="active")
-        needs = _needs(fig)
-        return needs.shape == needed.shape and (needs <= needed + SLACK).all()
+        (beyond, rooms), (beyond_then, rooms_then) = _needs(fig), needed
+        return (
+            beyond.shape == beyond_then.shape
+            and (beyond <= beyond_then + SLACK).all()
+            and np.allclose(rooms, rooms_then, rtol=0, atol=SLACK)  # of equal scale they may shrink
+        )
 
 
 def _place(ax):
@@ -46,16 +50,15 @@ def _place(ax):
 
 
 def _needs(fig):
-    """How far words reach beyond each axes, and a figure's legends into it [pixels]."""
-    beyond = []
+    """How far words reach beyond each axes, and legends of the figure; where axes are [pixels]."""
+    beyond, rooms = [], []
     for ax in fig.axes:
         tight = ax.get_tightbbox()
         room = ax.get_window_extent()
+        rooms.append(room.extents)
         if tight is not None:
-            beyond.append(
-                [room.x0 - tight.x0, room.y0 - tight.y0, tight.x1 - room.x1, tight.y1 - room.y1]
-            )
+            beyond.append((tight.extents - room.extents) * [-1, -1, 1, 1])
     for legend in fig.legends:
         box = legend.get_window_extent()
         beyond.append([0, 0, box.width, box.height])
-    return np.array(beyond)
+    return np.array(beyond), np.array(rooms)

@@ -133,7 +133,7 @@ def check(page):
     assert serious == []
 
 
-@pytest.mark.parametrize("words", ["Jacobian", "ψ", "P_ri"])
+@pytest.mark.parametrize("words", ["Jacobian", "ψ", "P_ri", "H_r", "Δθ", "theta"])
 def test_the_search_finds(look, words):
     page = look("search.html", f"?q={words}")
     page.locator("#search-results li").first.wait_for()
