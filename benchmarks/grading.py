@@ -17,6 +17,7 @@ from pathlib import Path
 from benchmarks.common import Missing, main, row
 from slamlab.exercises import catalogue
 from slamlab.grading import notebooks, sandbox
+from slamlab.grading.forked_workers import named_modules
 from slamlab.grading.gradebook import Gradebook
 from slamlab.grading.worker_client import WorkerClient
 from slamlab.grading.worker_pool import WorkerPool
@@ -114,9 +115,10 @@ def isolation_level():
 
 def fork_floor(count):
     """Lower bound: CPU of a forked worker that runs the cells and is driven by nobody [s]."""
-    content = notebooks.parse(derived("solutions").encode())
+    data = derived("solutions").encode()
+    content, named = notebooks.parse(data), named_modules([data])
     exercise, spent = catalogue.exercise("04"), []
-    with WorkerPool(isolation_level()) as workers:
+    with WorkerPool(isolation_level(), preload=named) as workers:
         for _ in range(count):
             with WorkerClient(exercise, content.cells, workers.start) as client:
                 client.load()

@@ -104,7 +104,7 @@ def run(arguments) -> int:
 
 def _grade(arguments, scratch):
     """The records of a run, and what else there is to tell of it."""
-    from slamlab.grading import batch, isolation, late_policy
+    from slamlab.grading import batch, hand_in_times, isolation, late_policy
     from slamlab.grading.gradebook import Gradebook, default_url
     from slamlab.grading.worker_pool import WorkerPool
 
@@ -128,7 +128,7 @@ def _grade(arguments, scratch):
         kept = batch.kept_policies(book)
         listed, known = batch.content_hashes(everything), book.attempts()
         seen = book.sight(listed)
-        found = batch.without_future(found, listed, known.values(), datetime.now(UTC))
+        found = hand_in_times.without_future(found, listed, known.values(), datetime.now(UTC))
         known = {} if arguments.regrade else known
         graded = _graded(arguments, found, secret, workers, known)
         words = arguments.out, book, arguments.exercise, policy, arguments.regrade, kept

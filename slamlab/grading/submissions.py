@@ -80,7 +80,10 @@ def find_submissions(folder: Path, out: Path | None = None, zips=False) -> list[
     SubmissionError : when the folder is none
     """
     if not folder.is_dir():
-        raise SubmissionError(f"{folder} is no folder")
+        is_there = (
+            "is no folder, and no zip" if folder.exists() else "is no folder: it is not there"
+        )
+        raise SubmissionError(f"{folder} {is_there}")
     if (folder / "submitted").is_dir():
         folder = folder / "submitted"
     skipped = out.resolve() if out else None

@@ -19,5 +19,8 @@ def read(path, refusal):
         return tomllib.loads(path.read_text("utf-8"))
     except OSError as error:
         raise refusal(f"{path}: {error.strerror}") from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+    except UnicodeDecodeError as error:
         raise refusal(f"{path}: {error}") from None
+    except tomllib.TOMLDecodeError as error:
+        how = 'a time stands as 2026-12-01T23:59:00, a text as "…"'
+        raise refusal(f"{path}: {error}; {how}") from None

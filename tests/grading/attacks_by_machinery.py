@@ -244,7 +244,7 @@ raise Slow
 """,
     "half a letter": "raise ValueError('\\ud800' * 9)\n",
     "a text with a zero in it": "x = 'a\\0b'\nraise ValueError(x)\n",
-    "an error with ten million causes": """
+    "a hundred thousand causes": """
 def act():
     error = ValueError()
     for _ in range(100_000):

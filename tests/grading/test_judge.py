@@ -325,3 +325,13 @@ def test_where_the_package_is_installed_beside_other_libraries_the_worker_sees_o
     (view,), readable = staging.stage_libraries(tmp_path)
     assert [entry.name for entry in view.iterdir()] == ["other.py"]
     assert readable == [view, site / "other.py"]
+
+
+def test_a_class_forks_with_what_its_notebooks_name():
+    plain = notebook("import numpy as np\nx = np.zeros(3)").encode()
+    both = notebook("from scipy import stats\nimport sympy", "%matplotlib inline").encode()
+    assert forked_workers.named_modules([plain]) == ("numpy",)
+    assert set(forked_workers.named_modules([plain, both, b""])) == {
+        "numpy", "scipy.stats", "sympy", forked_workers.MAGICS_MODULE,
+    }  # fmt: skip
+    assert forked_workers.named_modules([]) == ()

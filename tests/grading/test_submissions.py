@@ -8,7 +8,7 @@ from datetime import UTC, datetime, timedelta
 
 import pytest
 
-from slamlab.grading import batch, notebooks, submissions
+from slamlab.grading import batch, hand_in_times, notebooks, submissions
 from slamlab.grading.records import Record
 from slamlab.grading.submissions import Submission, SubmissionError
 from tests.grading.conftest import notebook
@@ -231,7 +231,7 @@ def test_a_time_that_is_yet_to_come_counts_as_when_it_was_first_read(tmp_path):
 
     def read(now, attempts=()):
         found = submissions.find_submissions(tmp_path)
-        return batch.without_future(found, listed, attempts, now)
+        return hand_in_times.without_future(found, listed, attempts, now)
 
     now = datetime(2026, 11, 23, 12, tzinfo=UTC)
     anna, ben = read(now)
@@ -247,4 +247,4 @@ def test_a_time_that_is_yet_to_come_counts_as_when_it_was_first_read(tmp_path):
         name="Ana_1_assignsubmission_file_x.ipynb",
         when="2031-01-01T00:00:00+00:00",
     )
-    assert batch.without_future([moodle], [], [], now) == [moodle]  # an LMS said so
+    assert hand_in_times.without_future([moodle], [], [], now) == [moodle]  # an LMS said so
