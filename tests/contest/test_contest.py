@@ -155,7 +155,7 @@ def test_anyone_can_judge_again_and_what_was_late_is_carried_over(held, tmp_path
     text = (told / "worlds.csv").read_text("utf-8").splitlines()
     of_bob = next(k for k, line in enumerate(text) if line.split(",")[4] == "0.0")
     cells = text[of_bob].split(",")
-    cells[4], cells[12] = "12.5", "1"  # as if a limit of time had ended it there
+    cells[4], cells[13] = "12.5", "1"  # as if a limit of time had ended it there
     text[of_bob] = ",".join(cells)
     (told / "worlds.csv").write_text("\n".join(text) + "\n", encoding="utf-8")
     contest = holding.contest_again(told)
