@@ -99,7 +99,7 @@ class Visit:
         self.page.get_by_text("| Idle").wait_for(state="attached")
 
     def turn_to(self, notebook):
-        """Open a notebook by its path in the place of those that were; the page stays, and is fast."""
+        """Open a notebook by its path in the place of those that were, on the same page."""
         self.errors.clear()
         if self.page.url.startswith(BLANK):
             self.open(notebook)
