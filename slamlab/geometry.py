@@ -43,14 +43,11 @@ def compose(a, b):
     """
     a, b = np.asarray(a, dtype=float), np.asarray(b, dtype=float)
     c, s = np.cos(a[..., 2]), np.sin(a[..., 2])
-    return np.stack(
-        np.broadcast_arrays(
-            a[..., 0] + c * b[..., 0] - s * b[..., 1],
-            a[..., 1] + s * b[..., 0] + c * b[..., 1],
-            wrap(a[..., 2] + b[..., 2]),
-        ),
-        axis=-1,
-    )
+    out = np.empty((*np.broadcast(a[..., 0], b[..., 0]).shape, 3))
+    out[..., 0] = a[..., 0] + c * b[..., 0] - s * b[..., 1]
+    out[..., 1] = a[..., 1] + s * b[..., 0] + c * b[..., 1]
+    out[..., 2] = wrap(a[..., 2] + b[..., 2])
+    return out
 
 
 def inverse(a):
@@ -67,7 +64,11 @@ def inverse(a):
     a = np.asarray(a, dtype=float)
     c, s = np.cos(a[..., 2]), np.sin(a[..., 2])
     x, y = a[..., 0], a[..., 1]
-    return np.stack([-c * x - s * y, s * x - c * y, wrap(-a[..., 2])], axis=-1)
+    out = np.empty((*a.shape[:-1], 3))
+    out[..., 0] = -c * x - s * y
+    out[..., 1] = s * x - c * y
+    out[..., 2] = wrap(-a[..., 2])
+    return out
 
 
 def between(a, b):

@@ -30,5 +30,8 @@ def timestamp_anomaly(times, time):
     if len(times) < 2:
         return ""
     last = times[-MEDIAN_WINDOW:]
+    since = time - max(last)
+    if since <= GAP_FACTOR * MIN_PERIOD:  # nearly always: a median of each step would be dear
+        return ""
     usual = max(np.median(np.abs(np.diff(last))), MIN_PERIOD)
-    return "gaps" if time - max(last) > GAP_FACTOR * usual else ""
+    return "gaps" if since > GAP_FACTOR * usual else ""

@@ -2,6 +2,7 @@
 
 from contextlib import suppress
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -137,27 +138,34 @@ def race(run, sigmas=3.0, robot=None, bias=0.0):
     Race
     """
     robot = run.robot if robot is None else robot
-    box, ellipse = BorSlam(robot, run.sensor, sigmas=sigmas), MakSlam(robot, run.sensor)
-    wheels = DeadReckoning()
-    rows = []
+    box, rows = BorSlam(robot, run.sensor, sigmas=sigmas), []
+    for reading, pose in zip(run, run.truth.poses, strict=True):
+        box.step(_turned(reading, bias))
+        off, half = np.abs(box.pose - pose)[:2], np.diff(box.filter.robot)[::2] / 2
+        share = (off / np.maximum(half, 1e-9)).max() if rows else np.nan
+        rows.append(
+            [np.hypot(*off), half.mean(), share, bool(outside(box.filter, pose, run.landmarks))]
+        )
+    of_box, half_side, box_share, out = np.transpose(rows)
+    of_ellipse, of_wheels, ellipse_share, ellipse = _beside_the_box(run, robot, bias)
+    errors = {"box": of_box, "ellipse": of_ellipse, "wheels": of_wheels}
+    return Race(errors, half_side, box_share, ellipse_share, out > 0, box, ellipse)
+
+
+@lru_cache(maxsize=32)  # the same beside a box of any bounds
+def _beside_the_box(run, robot, bias):
+    """Errors of ellipse and wheels [m], how much of its claim the ellipse is off, and MakSlam."""
+    ellipse, wheels, rows = MakSlam(robot, run.sensor), DeadReckoning(), []
     for reading, pose in zip(run, run.truth.poses, strict=True):
         turned = _turned(reading, bias)
-        for slam in (box, ellipse, wheels):
+        off = []
+        for slam in (ellipse, wheels):
             slam.step(turned)
-        off = [(slam.pose - pose)[:2] for slam in (box, ellipse, wheels)]
-        half = np.diff(box.filter.robot)[::2] / 2
-        rows.append(
-            [
-                *np.hypot(*np.transpose(off)),
-                half.mean(),
-                (np.abs(off[0]) / np.maximum(half, 1e-9)).max() if len(rows) else np.nan,
-                _share(off[1], ellipse.filter.block([0, 1])) if len(rows) > SETTLING else np.nan,
-                bool(outside(box.filter, pose, run.landmarks)),
-            ]
-        )
-    *errors, half_side, box_share, ellipse_share, out = np.transpose(rows)
-    errors = dict(zip(("box", "ellipse", "wheels"), errors, strict=True))
-    return Race(errors, half_side, box_share, ellipse_share, out > 0, box, ellipse)
+            off.append((slam.pose - pose)[:2])
+        late = len(rows) > SETTLING
+        share = _share(off[0], ellipse.filter.block([0, 1])) if late else np.nan
+        rows.append([*np.hypot(*np.transpose(off)), share])
+    return *np.transpose(rows), ellipse
 
 
 def _turned(reading, bias):

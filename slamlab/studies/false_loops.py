@@ -72,17 +72,18 @@ def judged(slam, truth, every=6):
     -------
     (m,) bool, whether a pair is false; dict of gate to (m,) bool, whether it passes
     """
-    K, graph, rows = slam.keyframes, slam.graph, []
+    K, graph, edges, rows = slam.keyframes, slam.graph, [], []
     for i in range(0, len(K), every):
         for j in range(0, i - loop_closure.APART, every):
             seen, old = K[i].surface, K[j].surface
             m = match(seen, loop_closure.submap_around(K, graph.poses, j))
-            d2 = graph.squared_mahalanobis(j, i, m.pose, loop_closure.match_information(m))
+            edges.append((j, i, m.pose, loop_closure.match_information(m)))
             away = np.hypot(*(graph.poses[j] - graph.poses[i])[:2])
             near = away < loop_closure.NEAR * seen.reach
             passed = near, m.good, loop_closure.is_verified(m, seen, old)
-            rows.append((is_false(j, i, m.pose, truth), *passed, d2 < loop_closure.SURPRISE))
-    false, *gates = np.array(rows).T
+            rows.append((is_false(j, i, m.pose, truth), *passed))
+    d2 = graph.squared_mahalanobis(*map(np.array, zip(*edges, strict=True)))
+    false, *gates = np.column_stack([rows, d2 < loop_closure.SURPRISE]).T
     names = "near", "fits", "verified", "no surprise"
     return false, dict(zip(names, gates, strict=True))
 

@@ -30,12 +30,23 @@ def png(fig):
     bytes
     """
     arrange(fig)
-    drawn, small = io.BytesIO(), io.BytesIO()
-    fig.savefig(drawn, format="png", dpi=SHARPNESS * fig.dpi)
-    picture = Image.open(drawn).convert("RGB")
-    few = picture.quantize(PALETTE, method=Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE)
+    small = io.BytesIO()
+    few = _rendered(fig).quantize(
+        PALETTE, method=Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE
+    )
     few.save(small, "PNG", optimize=True)
     return small.getvalue()
+
+
+def _rendered(fig):
+    """Picture of a figure as it is arranged: to lay it out anew costs as much as to draw it."""
+    drawn, dpi = io.BytesIO(), SHARPNESS * fig.dpi
+    size = [int(dpi * side) for side in fig.get_size_inches()]
+    engine = fig.get_layout_engine()
+    fig.set_layout_engine("none")
+    fig.savefig(drawn, format="rgba", dpi=dpi)
+    fig.set_layout_engine(engine)
+    return Image.frombytes("RGBA", size, drawn.getvalue()).convert("RGB")
 
 
 def bundle(fig, alt, data=None):

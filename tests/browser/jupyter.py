@@ -24,19 +24,47 @@ LOOK_THROUGH = """async (patience) => {
     const end = performance.now() + patience;
     while (seen.size < widgets.length && performance.now() < end) {
         const cells = [...document.querySelectorAll(".jp-Cell")];
-        const cell = cells.find((one) => !seen.has(one)) ?? cells.at(-1);
-        seen.add(cell);
-        cell.scrollIntoView();
+        const next = cells.find((one) => !seen.has(one)) ?? cells.at(-1);
+        next.scrollIntoView();
         for (let frame = 0; frame < 2; frame++) await new Promise(requestAnimationFrame);
+        seen.add(next);
+        for (const cell of cells) {
+            const { top, bottom } = cell.getBoundingClientRect();
+            if (top >= 0 && bottom <= innerHeight) seen.add(cell);
+        }
     }
     return seen.size == widgets.length;
 }"""
 
-# how many cells still wait or run, once that is another number than before
 CELLS_LEFT = """(before) => {
     const prompts = [...document.querySelectorAll(".jp-InputPrompt")];
     const left = prompts.filter((prompt) => prompt.textContent == "[*]:").length;
     return left != before && [left];
+}"""
+BLANK = "about:"  # of a fresh page
+SELDOM = 200  # [ms]; asked for at every frame, the page is painted anew at every frame
+
+# JupyterLab has written what it knows of the kernel; what the kernel was asked before is shown
+SETTLED = """async () => {
+    const { context, sessionContext } = window.jupyterapp.shell.currentWidget;
+    await Promise.all([context.ready, sessionContext.ready]);
+    const { kernel } = sessionContext.session;
+    await Promise.all([kernel.info, kernel.spec]);
+    await kernel.requestKernelInfo(); // answered after all that was sent before
+    await new Promise(requestAnimationFrame);
+}"""
+
+# one notebook in the place of all that were open, whose kernels end
+TURN_TO = """async (path) => {
+    const { shell, commands } = window.jupyterapp;
+    const before = [...shell.widgets("main")];
+    const panel = await commands.execute("docmanager:open", { path, factory: "Notebook" });
+    shell.activateById(panel.id);
+    while (shell.currentWidget !== panel) await new Promise(requestAnimationFrame);
+    for (const panel of before) {
+        await panel.sessionContext?.shutdown();
+        panel.dispose();
+    }
 }"""
 
 
@@ -72,6 +100,20 @@ class Visit:
         # the indicator is idle before there is a kernel, too
         self.page.get_by_text("| Idle").wait_for(state="attached")
 
+    def turn_to(self, notebook):
+        """Open a notebook by its path in the place of those that were, on the same page."""
+        self.errors.clear()
+        if self.page.url.startswith(BLANK):
+            self.open(notebook)
+        else:
+            self.page.evaluate(TURN_TO, notebook)
+            self.page.wait_for_selector(".jp-NotebookPanel .jp-Cell")
+        self.settle()
+
+    def settle(self):
+        """Wait until the kernel has done what it was asked, and the page shows it."""
+        self.page.evaluate(SETTLED)
+
     def run_all(self):
         """Run all cells of the notebook that is open, by the menu."""
         self.page.get_by_role("menuitem", name="Run", exact=True).click()
@@ -80,15 +122,19 @@ class Visit:
     def run_all_and_wait(self):
         """Run all cells and wait until the last one is done: as long as one after another ends."""
         self.run_all()
-        left = 0
-        while (left := self.page.wait_for_function(CELLS_LEFT, arg=left).json_value()[0]) > 0:
-            pass
+        left = self._cells_left(0, "raf")  # they might not wait for long
+        while left > 0:
+            left = self._cells_left(left, SELDOM)
         self.page.wait_for_selector(IDLE, state="attached")
 
     def save(self):
         """Save the notebook and wait until it is."""
         with self.page.expect_response(_is_saved):  # the file is whole from then on
             self.page.keyboard.press("Control+s")
+        self.wait_until_clean()
+
+    def wait_until_clean(self):
+        """Wait until the tab says that nothing is unsaved."""
         self.page.wait_for_selector(".jp-mod-current.jp-mod-dirty", state="detached")
 
     @property
@@ -139,6 +185,11 @@ class Visit:
             arg=[prompt.element_handle(), before],
         )
         return place
+
+    def _cells_left(self, before, polling):
+        """How many cells wait or run, once that is another number than before."""
+        changed = self.page.wait_for_function(CELLS_LEFT, arg=before, polling=polling)
+        return changed.json_value()[0]
 
     def _heard(self, message):
         if message.type == "error":

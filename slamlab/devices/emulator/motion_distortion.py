@@ -85,8 +85,9 @@ def cast_each_ray(positions, directions, walls, circles):
         half = np.sqrt(circles[:, 2] ** 2 - (ux * cy - uy * cx) ** 2)
         near, far = middle - half, middle + half
         to_rims = np.where(near >= 0, near, np.where(far >= 0, far, np.inf))
-    every = np.concatenate([to_walls, np.nan_to_num(to_rims, nan=np.inf, posinf=np.inf)], axis=1)
-    return every.min(axis=1, initial=np.inf)
+    return np.minimum(  # NaN: past a rim
+        to_walls.min(axis=1, initial=np.inf), np.fmin.reduce(to_rims, axis=1, initial=np.inf)
+    )
 
 
 Sight = MovingLidar  # name in the first edition
