@@ -2,7 +2,8 @@
 
 Read in this order:
 
-- ``submissions``, ``notebooks``: what was handed in; ``preflight``: warnings about its form
+- ``submissions``, ``notebooks``, ``hand_in_times``: what was handed in, and when; ``preflight``:
+  warnings about its form
 - ``judge``, ``task_judging``: one submission; ``batch``, ``dask_cluster``: a folder of them;
   ``records``
 - ``worker_pool``, ``zygote``, ``forked_workers``, ``fresh_workers``, ``worker_client``, ``worker``,
