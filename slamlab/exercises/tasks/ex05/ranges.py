@@ -19,9 +19,9 @@ def heard(rng, rows=6, count=2, far=(2.0, 6.0)):
 
 
 def _measured(rng, inputs, beacons):
-    """The same with other beacons, and ranges that are off by 5 to 20 cm."""
+    """The same with other beacons, and ranges, never negative, that are off by up to 20 cm."""
     r = np.linalg.norm(beacons - _antenna(inputs)[0][:, None], axis=-1)
-    return inputs | {"beacons": beacons, "rs": r + either_sign(rng, 0.05, 0.2, r.shape)}
+    return inputs | {"beacons": beacons, "rs": np.abs(r + either_sign(rng, 0.05, 0.2, r.shape))}
 
 
 def _on_the_axle(rng):
