@@ -29,24 +29,28 @@ def png(fig):
     -------
     bytes
     """
-    arrange(fig)
+    page = fig.dpi
+    fig.dpi = SHARPNESS * page  # letters are as wide in the layout as they will be drawn
+    try:
+        arrange(fig)
+        picture = _drawn(fig)
+    finally:
+        fig.dpi = page
     small = io.BytesIO()
-    few = _rendered(fig).quantize(
-        PALETTE, method=Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE
-    )
+    few = picture.quantize(PALETTE, method=Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE)
     few.save(small, "PNG", optimize=True)
     return small.getvalue()
 
 
-def _rendered(fig):
+def _drawn(fig):
     """Picture of a figure as it is arranged: to lay it out anew costs as much as to draw it."""
-    drawn, dpi = io.BytesIO(), SHARPNESS * fig.dpi
-    size = [int(dpi * side) for side in fig.get_size_inches()]
+    pixels = io.BytesIO()
+    size = [int(fig.dpi * side) for side in fig.get_size_inches()]
     engine = fig.get_layout_engine()
     fig.set_layout_engine("none")
-    fig.savefig(drawn, format="rgba", dpi=dpi)
+    fig.savefig(pixels, format="rgba", dpi=fig.dpi)
     fig.set_layout_engine(engine)
-    return Image.frombytes("RGBA", size, drawn.getvalue()).convert("RGB")
+    return Image.frombytes("RGBA", size, pixels.getvalue()).convert("RGB")
 
 
 def bundle(fig, alt, data=None):

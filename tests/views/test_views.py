@@ -220,6 +220,18 @@ def test_a_palette_keeps_every_colour_of_a_figure_and_halves_its_bytes():
     assert len(views.png(fig)) < 0.5 * whole.tell()
 
 
+@pytest.mark.parametrize("letters", [5, 24, 31])
+def test_no_word_beside_axes_is_cut_off(letters):
+    fig, ax = views.chart("lost runs of 80", "y [m]")
+    ax.plot([0.0, 1.0], [0.0, 1.0])
+    for name in ("it" * letters)[:letters], "Monte Carlo, never frozen":
+        ax.set_yticks([0.0, 1.0], [name, name])
+        picture = np.asarray(Image.open(io.BytesIO(views.png(fig))).convert("L"))
+        for edge in (picture[:, :4], picture[:, -4:], picture[:4], picture[-4:]):
+            assert (edge > 250).all()
+    assert fig.dpi == views.chart("x", "y")[0].dpi
+
+
 class Recorder:
     """A function to explore that remembers what it was asked to draw."""
 
