@@ -12,7 +12,7 @@ from tests.grading.conftest import notebook, workers
 from tests.grading.test_gradebook import forget, postgres, server  # noqa: F401
 from tests.grading.test_rejudging import FAILS, LAZY, WRONG, know, milder
 
-DUE = datetime(2026, 12, 1, 11, tzinfo=UTC).timestamp()
+DUE = datetime(2025, 12, 1, 11, tzinfo=UTC).timestamp()
 HOSTILE = fake.SOLUTION + "\nimport os\ndef double(a):\n    os.kill(os.getppid(), 9); os._exit(0)\n"
 # what was handed in: how many days late, the cell, its points, and those by the milder law
 KINDS = [
@@ -43,10 +43,10 @@ def points(student, milder):
 
 def make_class(folder, url):
     head = f'time_zone = "UTC"\nisolation = "{workers().level}"\n{url}\n[late]\nper_day = 0.1\n'
-    (folder / "course.toml").write_text(f"{head}[exercises.99]\ndue = 2026-12-01T11:00:00\n")
+    (folder / "course.toml").write_text(f"{head}[exercises.99]\ndue = 2025-12-01T11:00:00\n")
     rows = ["id,name,section,99"]
     for i in range(STUDENTS):
-        rows.append(f"s{i},Name {i},{'ABC'[i % 3]},{'2026-12-03 11:00' if i % 3 == 0 else ''}")
+        rows.append(f"s{i},Name {i},{'ABC'[i % 3]},{'2025-12-03 11:00' if i % 3 == 0 else ''}")
         for number, (late, cell, *_) in enumerate(KINDS[i % len(KINDS)]):
             file = folder / "class" / f"s{i}" / f"{number}.ipynb"
             file.parent.mkdir(parents=True, exist_ok=True)

@@ -16,7 +16,7 @@ from slamlab.grading.records import Record
 from slamlab.grading.term import term
 from tests.grading.test_gradebook import forget, postgres, server  # noqa: F401
 
-DUE = datetime(2026, 12, 1, 11, tzinfo=UTC)
+DUE = datetime(2025, 12, 1, 11, tzinfo=UTC)
 GRACE, PER_DAY, AT_MOST = timedelta(minutes=10), 0.1, 0.5
 SMALL = [f"{i:02}" for i in (4, 6)]
 WHOLE = [f"{i:02}" for i in range(1, 16)]
@@ -54,7 +54,7 @@ def reference(student, exercise, attempts, extensions, by_hand, rule):
 
 def write_course(folder, students, exercises, extensions, rule):
     late = f"grace_minutes = 10\nper_day = {PER_DAY}\nat_most = {AT_MOST}\n"
-    tables = "".join(f"[exercises.{id}]\ndue = 2026-12-01T12:00:00\n" for id in exercises)
+    tables = "".join(f"[exercises.{id}]\ndue = 2025-12-01T12:00:00\n" for id in exercises)
     head = f'time_zone = "Europe/Zagreb"\nattempts = "{rule}"\n[late]\n{late}{tables}'
     (folder / "course.toml").write_text(head, "utf-8")
     with open(folder / "roster.csv", "w", encoding="utf-8", newline="") as file:
