@@ -25,8 +25,9 @@ test: lint clients  ## Set up, run every test that is not long, and every notebo
 		$(RUN) pytest @tests/notebooks/nbval.args notebooks exercises solutions
 	$(RUN) course.known_faults $(FAULTS)
 
+LONG = slow or walk
 test-all: test  ## Also the long tests: every notebook in a real browser, the site, a whole department
-	$(PYTEST) -m "(slow or walk) and not soak" $(ALL_ARGS)
+	$(PYTEST) -m "($(LONG)) and not soak" $(ALL_ARGS)
 
 soak: env  ## Run what takes long, or needs a machine that has nothing else to do
 	$(RUN) pytest -m soak

@@ -16,6 +16,8 @@ EXTENSION = ROOT / "labextension" / "share" / "jupyter"
 IDLE = ".jp-Notebook-ExecutionIndicator[data-status=idle]"  # out of sight on a narrow page
 # anywidget gives up after two seconds, on a busy machine: the cell run again shows the widget
 BUSY = "[anywidget] Failed to initialize model."
+# JupyterLab asks a kernel that is being ended for its breakpoints
+ENDED = "Could not restore the debugger state"
 
 # what was never in sight is not laid out, and further cells come a while after those before them
 LOOK_THROUGH = """async (patience) => {
@@ -136,6 +138,11 @@ class Visit:
     def wait_until_clean(self):
         """Wait until the tab says that nothing is unsaved."""
         self.page.wait_for_selector(".jp-mod-current.jp-mod-dirty", state="detached")
+
+    @property
+    def faults(self):
+        """Errors of the page, but for those of a busy machine and of kernels that were ended."""
+        return [error for error in self.errors if BUSY not in error and ENDED not in error]
 
     @property
     def is_dirty(self):
