@@ -56,9 +56,13 @@ def firefox():
             address = next(filter(None, map(LISTENING.search, running.stderr)), None)
             if address is None:
                 raise Missing(f"{program} listens to nobody")
-            # Playwright's event loop runs in this thread
-            with ThreadPoolExecutor(1) as thread, asyncio.Runner() as runner:
-                yield Tab(lambda asked: thread.submit(runner.run, asked).result(), address[1])
+            # Playwright's event loop runs in this thread: another neither runs nor ends here
+            with ThreadPoolExecutor(1) as thread:
+                runner = asyncio.Runner()
+                try:
+                    yield Tab(lambda asked: thread.submit(runner.run, asked).result(), address[1])
+                finally:
+                    thread.submit(runner.close).result()
         finally:
             os.killpg(running.pid, signal.SIGKILL)  # its content has processes of its own
             running.communicate()
