@@ -105,20 +105,58 @@ def relations_error(trajectory, relations, tolerance=TIME_TOLERANCE):
     ------
     ValueError : no relation has both stamps in the trajectory
     """
-    index, gap = nearest_in_time(trajectory.times, relations.stamps)
+    pairs, wanted = usable_relations(trajectory.times, relations, tolerance)
+    error = relation_residuals(trajectory.poses, pairs, wanted)
+    distance, turn = np.hypot(error[:, 0], error[:, 1]), np.abs(wrap(error[:, 2]))
+    return RelationsError(
+        len(pairs), *(float(v) for e in (distance, turn) for v in (e.mean(), e.std()))
+    )
+
+
+def usable_relations(times, relations, tolerance=TIME_TOLERANCE, what="a pose"):
+    """Relations both of whose stamps have a pose or a reading near.
+
+    Parameters
+    ----------
+    times : (n,) [s]
+    relations : Relations
+    tolerance : float, largest difference of a stamp and its time [s]
+    what : str, what the times are of, for the error
+
+    Returns
+    -------
+    (k, 2) int, which poses each is of, and (k, 3) the relations [m, m, rad]
+
+    Raises
+    ------
+    ValueError : there is none
+    """
+    index, gap = nearest_in_time(times, relations.stamps)
     # half a microsecond more: stamps have six decimals
     usable = (gap <= tolerance + 5e-7).all(axis=1)
     if not usable.any():
         raise ValueError(
             f"none of the {len(usable)} relations has both stamps within {1e3 * tolerance:g} ms of "
-            "a pose: do they belong to this log?"
+            f"{what}: do they belong to this log?"
         )
-    first, second = trajectory.poses[index[usable]].transpose(1, 0, 2)
-    error = between(relations.poses[usable], between(first, second))
-    distance, turn = np.hypot(error[:, 0], error[:, 1]), np.abs(wrap(error[:, 2]))
-    return RelationsError(
-        int(usable.sum()), *(float(v) for e in (distance, turn) for v in (e.mean(), e.std()))
-    )
+    return index[usable], relations.poses[usable]
+
+
+def relation_residuals(poses, pairs, relations):
+    """Residuals δ* ⊖ (x_j ⊖ x_i) of relations δ*.
+
+    Parameters
+    ----------
+    poses : (n, 3) [m, m, rad]
+    pairs : (k, 2) int, i and j
+    relations : (k, 3) [m, m, rad]
+
+    Returns
+    -------
+    (k, 3) [m, m, rad]
+    """
+    first, second = poses[pairs].transpose(1, 0, 2)
+    return between(relations, between(first, second))
 
 
 def nearest_in_time(times, stamps):

@@ -7,8 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from slamlab.evaluation.relations import TIME_TOLERANCE, nearest_in_time
-from slamlab.geometry import between
+from slamlab.evaluation.relations import relation_residuals, usable_relations
 
 MAX_LOG_READINGS = 1000  # of one log; it has a budget of its own
 
@@ -49,9 +48,8 @@ class RecordedLog:
         -------
         (k,) [m]; NaN where a pose is
         """
-        first, second = poses[self.pairs].transpose(1, 0, 2)
         with np.errstate(invalid="ignore"):
-            error = between(self.relations, between(first, second))
+            error = relation_residuals(poses, self.pairs, self.relations)
         return np.hypot(error[:, 0], error[:, 1])
 
 
@@ -79,12 +77,5 @@ def recorded_log(name, readings, relations):
             f"{MAX_LOG_READINGS}: cut it into several"
         )
     times = np.array([reading.time for reading in readings])
-    pairs, gap = nearest_in_time(times, relations.stamps)
-    # half a microsecond more: stamps have six decimals
-    usable = (gap <= TIME_TOLERANCE + 5e-7).all(axis=1)
-    if not usable.any():
-        raise ValueError(
-            f"none of the {len(usable)} relations has both stamps within {1e3 * TIME_TOLERANCE:g} "
-            f"ms of a reading of {name}: do they belong to this log?"
-        )
-    return RecordedLog(name, readings, pairs[usable], relations.poses[usable])
+    pairs, wanted = usable_relations(times, relations, what=f"a reading of {name}")
+    return RecordedLog(name, readings, pairs, wanted)
