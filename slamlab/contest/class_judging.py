@@ -18,7 +18,7 @@ from slamlab.project.scores import Arena, Result
 from slamlab.project.streamed_drive import NAME
 
 NOT_THEIRS = "no fault of the student's, run it again"
-_CLASS = re.compile(rf"^class {NAME}\b", re.MULTILINE)
+_CLASS = re.compile(rf"^(class\s+{NAME}\b|{NAME}\s*=[^=])", re.MULTILINE)
 
 
 @dataclass(frozen=True)

@@ -43,7 +43,9 @@ def map_picture(arena, drive, moment=None):
     if world.truth is None:
         walls, truth = np.empty((0, 4)), np.empty((0, 3))
         title = "Two tracks of a recorded log: odometry, estimate"
-        corners = np.concatenate([[[0.0, 0.0]], online[np.isfinite(online).all(axis=1), :2]])
+        # not the estimate's: who runs off leaves the picture, and does not make it endless
+        corners = np.concatenate([in_the_world(d.online, world) for d in arena.drives.values()])
+        corners = corners[:, :2]
     else:
         walls, truth = world.floor.outline(), world.truth.poses
         title = "Map of the world with three tracks: true, odometry, estimate"

@@ -177,6 +177,22 @@ def test_the_last_notebook_with_the_class_takes_part(tmp_path):
     assert found[1].name == "eva/a.ipynb"
 
 
+@pytest.mark.parametrize(
+    ("cell", "takes_part"),
+    [
+        ("class MySlam(Best):\n    pass", True),
+        ("class Best:\n    pass\nMySlam = Best", True),
+        ("class MySlam2: pass", False),
+        ("print(MySlam == 1)", False),
+        ("MySlam == 1", False),
+    ],
+)
+def test_whoever_gives_a_class_the_name_takes_part(tmp_path, cell, takes_part):
+    (tmp_path / "eva.ipynb").write_text(notebook("import numpy", cell, exercise=None))
+    (found,) = entrants(find_submissions(tmp_path))
+    assert (found.problem is None) == takes_part
+
+
 @pytest.mark.parametrize("cut", [0, 40, -20])
 def test_a_drive_is_kept_as_it_is_and_half_a_file_is_none(tmp_path, cut):
     rng = np.random.default_rng(0)

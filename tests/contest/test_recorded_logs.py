@@ -212,3 +212,13 @@ def test_a_film_and_a_map_of_a_log_need_no_truth_and_no_finite_pose(tmp_path):
         assert "Two tracks of a recorded log" in map_picture(arena(), driven)
         page = film_page(arena(), driven, "hall", tmp_path / "hall.film")
         assert "the true track" not in page
+
+
+def test_who_runs_off_in_a_log_leaves_the_map_and_does_not_stretch_it():
+    gone = estimate(0.1)
+    gone.online[:] = np.linspace([0, 0, 0], [3.0, 1e5, 0], len(world()))
+    box, usual = (
+        map_picture(arena(), driven).split('viewBox="')[1].split('"')[0]
+        for driven in (gone, estimate(0.1))
+    )
+    assert box == usual
