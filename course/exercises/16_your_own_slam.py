@@ -22,7 +22,9 @@
 # You may import numpy, scipy, and of the course `slamlab.geometry`, `slamlab.layers`,
 # `slamlab.readings` and `slamlab.worlds.ray_casting`. The course's filters, matchers and graphs are not there
 # when your SLAM is judged; what you wrote in the exercises is yours to use. All worlds of a contest
-# together may take 50 s of CPU, a single reading 1 s. Lengths are in metres and angles in radians.
+# together may take 50 s of CPU, a single reading 1 s. All your cells are run anew before each world, in 5 s of
+# these at most: what you only want to look at, such as a trial of yours, goes under `@attempt`, as below, and is
+# left out there. Lengths are in metres and angles in radians.
 
 # %%
 from slamlab.checks import ask, attempt, check
