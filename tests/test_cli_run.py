@@ -59,11 +59,10 @@ def test_every_estimator_runs_and_draws_odometrys_map_beside_its_own(
     monkeypatch.setattr("slamlab.cli.run.picture", drawn)
     assert main(["run", world, "--estimator", estimator, "--out", str(tmp_path)]) == 0
     assert (tmp_path / "map.png").stat().st_size > 5000
-    axes = {ax.get_title(): ax for ax in figures[0].axes}
-    titles = [title.partition(":")[0] for title in axes]
-    assert titles == ["naive", "corrected"][: 1 if estimator == "odometry" else 2]
+    titles = [ax.get_title() for ax in figures[0].axes]
+    assert titles == ["odometry alone", "estimate"][: 1 if estimator == "odometry" else 2]
     labels = {text.get_text() for text in figures[0].legends[0].get_texts()}
-    assert {"naive map", "naive track"} <= labels
+    assert {"odometry alone: map", "odometry alone: track"} <= labels
 
 
 def test_convert_writes_what_run_reads(tmp_path, capsys):

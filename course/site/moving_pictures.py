@@ -2,6 +2,7 @@
 
 import base64
 from math import ceil
+from types import SimpleNamespace
 
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -69,10 +70,16 @@ class Renderer:
         curves=None, truth=True, colours=None, title="", seed=0, tops=(0.4, 0.6),
         size=(720, 480), steps=20, **_,
     ):  # fmt: skip
-        """Film the run of each source that plays by itself, and the commands that follow."""
-        given = source if isinstance(source, dict) else {"": source}
+        """Film the run of each source that plays by itself, and the commands that follow.
+
+        Returns
+        -------
+        namespace with the ``pair`` of the first source, which later code of a lesson may look at
+        """
+        given, steppers = source if isinstance(source, dict) else {"": source}, []
         for number, (name, each) in enumerate(given.items()):
             stepper = Stepper(each, estimator, beside, extra, note, curves, truth, colours)
+            steppers.append(stepper)
             if number and not _plays(each, seed):
                 continue
             stepper.reset(seed)
@@ -90,6 +97,7 @@ class Renderer:
                     film.add(stepper.scene())
             stepper.close()
             self._tell({"film": shipped(file), "title": called, "alt": alt})
+        return SimpleNamespace(pair=steppers[0])
 
     def _picture(self, fig, alt, chosen, number, layout):
         """A figure as a lossless WebP, and its alternative text."""

@@ -27,9 +27,9 @@ def add_parser(subparsers):
         help="run a SLAM over a log or a simulation",
         description=(
             "Run an estimator over a source and say how far it got. With --out it writes "
-            "trajectory.csv, map.png (naive and corrected) and summary.json. Ctrl-C ends a run "
-            "early, which is how a live one ends: its robot stops, and what it came to until then "
-            "is told and written."
+            "trajectory.csv, map.png (odometry alone beside the estimate) and summary.json. Ctrl-C "
+            "ends a run early, which is how a live one ends: its robot stops, and what it came to "
+            "until then is told and written."
         ),
     )
     parser.add_argument("source", metavar="SOURCE", help=SOURCES)
@@ -189,13 +189,13 @@ def write(result, summary, folder, beside=None):
 
 
 def picture(result, naive=None):
-    """Draw the odometry-only (naive) map beside the corrected one, with trajectories.
+    """Draw the map by odometry alone beside the estimated one, with trajectories.
 
     Parameters
     ----------
     result : Run
     naive : DeadReckoning or None, run over the same readings; None where the estimator keeps a
-        naive map itself
+        map by odometry alone itself
 
     Returns
     -------
@@ -203,6 +203,7 @@ def picture(result, naive=None):
     """
     from slamlab.layers import Ellipses, Grid, Points, Poses
     from slamlab.views import COLOURS, draw, legend_below, panels
+    from slamlab.views.colours import in_legends
 
     layers = [] if naive is result.estimator else result.estimator.layers()
     groups = {"naive": [], "corrected": []}
@@ -210,26 +211,24 @@ def picture(result, naive=None):
         groups["naive" if layer.name == "naive" else "corrected"].append(layer)
     if naive is not None:
         groups["naive"] = [replace(layer, name="naive") for layer in naive.layers()]
-    shown = [(title, group) for title, group in groups.items() if group]
-    told = {"naive": "naive: by odometry alone", "corrected": "corrected: by all that was sensed"}
-    fig, all_axes = panels([told[title] for title, _ in shown], size=(6 * len(shown), 6))
-    for ax, (title, group) in zip(all_axes, shown, strict=True):
+    shown = [(name, group) for name, group in groups.items() if group]
+    titles = [in_legends(name) for name, _ in shown]
+    fig, all_axes = panels(titles, size=(6 * len(shown), 6))
+    for ax, title, (name, group) in zip(all_axes, titles, shown, strict=True):
         for layer in group:
             around = f"{layer.name} 95 %"
             points = "landmark" if layer.name == "landmark" else "map"
             kinds = {Points: points, Grid: "map", Poses: "track", Ellipses: around}
             what = kinds.get(type(layer), layer.name)
-            colour = (
-                COLOURS["robot"] if what == "track" else COLOURS.get(layer.name, COLOURS[title])
-            )
-            draw(ax, layer, label=f"{title} {what}", color=colour)
+            colour = COLOURS["robot"] if what == "track" else COLOURS.get(layer.name, COLOURS[name])
+            draw(ax, layer, label=f"{title}: {what}", color=colour)
     legend_below(fig)
     fig.suptitle(result.source.name.rpartition("/")[2])
     return fig
 
 
 def _naive_beside(estimator):
-    """Dead reckoning to run beside an estimator that has no naive map; None where it has one."""
+    """Dead reckoning to run beside an estimator that has no such map; None where it has one."""
     from slamlab.estimators.dead_reckoning import DeadReckoning
 
     if isinstance(estimator, DeadReckoning):

@@ -10,8 +10,9 @@ Read in this order:
   ``foot_slam`` is Smolec's listing, with ``foot_mends`` and ``foot_formulas``
 - ``bor_slam``: boxes (set membership); ``montecarlo_slam``: particles, FastSLAM; both take the
   names of corners from ``corner_names``
-- ``icp_slam``: scan matching; ``graph_slam``: with keyframes, submaps and a pose graph,
-  ``odometry_drift``, ``odometry_calibration``, ``loop_closure`` and ``relocalisation``
+- ``icp_slam``: scan matching, its map in ``growing_rows``; ``graph_slam``: with keyframes, submaps
+  and a pose graph, ``odometry_drift``, ``odometry_calibration``, ``loop_closure`` and
+  ``relocalisation``
 - ``timestamps``: anomalies of a log's clock; ``sufficiency``: who works on too little says so
 """
 

@@ -3,6 +3,7 @@
 import numpy as np
 
 from slamlab.estimators.base import Estimator
+from slamlab.estimators.growing_rows import GrowingRows
 from slamlab.geometry import compose, transform
 from slamlab.layers import Points, Poses
 
@@ -12,7 +13,7 @@ class DeadReckoning(Estimator):
 
     def __init__(self):
         super().__init__()
-        self._map = []
+        self._map = GrowingRows(2)
 
     def step(self, reading):
         """Compose the pose with the reading's odometry increment.
@@ -23,14 +24,13 @@ class DeadReckoning(Estimator):
         """
         moved = np.any(np.asarray(reading.odometry) != 0)
         self.pose = compose(self.pose, reading.odometry)
-        if reading.scan is not None and (moved or not self._map):
+        if reading.scan is not None and (moved or not len(self._map.rows)):
             self._map.append(transform(self.pose, reading.scan.points()))
         self.record(reading.time)
 
     def layers(self):
         """The naive map and trajectory."""
-        points = np.concatenate([np.empty((0, 2)), *self._map])
-        return [Points("map", points), Poses("naive", self.trajectory().poses)]
+        return [Points("map", self._map.rows), Poses("naive", self.trajectory().poses)]
 
 
 Odometry = DeadReckoning  # name in the first edition

@@ -13,7 +13,6 @@ import numpy as np
 from slamlab import gridmap
 from slamlab.estimators import odometry_drift
 from slamlab.estimators.base import Estimator
-from slamlab.estimators.icp_slam import concatenated
 from slamlab.estimators.loop_closure import LoopClosure, pose_difference
 from slamlab.estimators.odometry_calibration import OdometryCalibration
 from slamlab.estimators.relocalisation import Relocalisation
@@ -127,8 +126,8 @@ class GraphSlam(Estimator):
         clouds = [keyframe.surface.points for keyframe in self.keyframes]
         loops = np.array([(e.i, e.j) for e in self.graph.edges if e.robust], int).reshape(-1, 2)
         return [
-            Points("naive", concatenated(map(transform, naive[firsts], clouds))),
-            Points("corrected", concatenated(map(transform, poses, clouds))),
+            Points("naive", _concatenated(map(transform, naive[firsts], clouds))),
+            Points("corrected", _concatenated(map(transform, poses, clouds))),
             Segments("loop", np.hstack([poses[loops[:, 0], :2], poses[loops[:, 1], :2]])),
             Poses("naive", naive),
             Poses("corrected", shown),
@@ -224,3 +223,8 @@ class GraphSlam(Estimator):
         if self.loop_closure is not None:
             self.loop_closure.propose_candidates(i)
             self.relocalisation.propose_candidates(i)
+
+
+def _concatenated(clouds):
+    """Concatenate point clouds to one (n, 2), also where there are none."""
+    return np.concatenate([np.empty((0, 2)), *clouds])

@@ -8,6 +8,7 @@ from odometry alone. There is no loop closure: a place seen again is not recogni
 import numpy as np
 
 from slamlab.estimators.base import Estimator
+from slamlab.estimators.growing_rows import GrowingRows
 from slamlab.estimators.sufficiency import THIN, thin_matches
 from slamlab.geometry import between, compose, transform
 from slamlab.layers import Points, Poses
@@ -38,7 +39,8 @@ class IcpSlam(Estimator):
         self._reference_pose = np.zeros(3)  # the corrected pose of the last good scan
         self._increment = np.zeros(3)  # odometry since then
         self._last_mapped = None
-        self._map, self._naive_map, self._naive_track = [], [], []
+        self._map, self._naive_map, self._naive_track = GrowingRows(2), GrowingRows(2), []
+        self._mapped = 0  # scans
 
     def step(self, reading):
         """Process a reading: predict by odometry, correct by scan matching, extend the map.
@@ -58,7 +60,7 @@ class IcpSlam(Estimator):
             self.skipped += 1
         self._naive_track.append(self.naive_pose)
         self.record(reading.time)
-        self.status = self.status_line(f"{len(self._map)} scans mapped, {self.unmatched} unmatched")
+        self.status = self.status_line(f"{self._mapped} scans mapped, {self.unmatched} unmatched")
 
     @property
     def warnings(self):
@@ -68,8 +70,8 @@ class IcpSlam(Estimator):
     def layers(self):
         """Naive and corrected map, naive and corrected trajectory."""
         return [
-            Points("naive", concatenated(self._naive_map)),
-            Points("corrected", concatenated(self._map)),
+            Points("naive", self._naive_map.rows),
+            Points("corrected", self._map.rows),
             Poses("naive", np.array(self._naive_track).reshape(-1, 3)),
             Poses("corrected", self.trajectory().poses),
         ]
@@ -92,7 +94,7 @@ class IcpSlam(Estimator):
         if self._last_mapped is None or moved_enough(self._last_mapped, self.pose):
             self._map.append(transform(self.pose, points))
             self._naive_map.append(transform(self.naive_pose, points))
-            self._last_mapped = self.pose
+            self._last_mapped, self._mapped = self.pose, self._mapped + 1
 
     def _scan_to_scan(self, points):
         """Scan-to-scan matching by ICP: the scan's pose in the frame of the reference scan."""
@@ -110,8 +112,3 @@ def moved_enough(a, b):
     """Whether pose b is far enough from pose a for a scan to enter the map."""
     x, y, turn = between(a, b)
     return bool(np.hypot(x, y) > MAP_SPACING[0] or abs(turn) > MAP_SPACING[1])
-
-
-def concatenated(clouds):
-    """Concatenate point clouds to one (n, 2), also where there are none."""
-    return np.concatenate([np.empty((0, 2)), *clouds])

@@ -230,4 +230,4 @@ def errors_now(pair):
     if not getattr(pair.source, "bench", None) or not len(pair.source.truth):
         return ""
     off = errors(pair.estimator, pair.source.truth.poses[: pair.count][-1])
-    return "naive {:.0f} cm, corrected {:.0f} cm off".format(*off)
+    return "odometry alone {:.0f} cm, estimate {:.0f} cm off".format(*off)

@@ -45,8 +45,7 @@ MEANINGS = {
     "guide": Meaning("#BBBBBB", "fill", "nothing of its own: grids, fills, help lines"),
 }
 COLOURS = {name: meaning.colour for name, meaning in MEANINGS.items()}
-# what a legend says of a layer that has no other label than such a name; else the name itself
-IN_LEGENDS = {"naive": "odometry alone", "corrected": "estimate"}
+IN_LEGENDS = {"naive": "odometry alone", "corrected": "estimate"}  # else a layer's name itself
 DASHES = {  # of those whose lines are told apart by more than their colour
     name: meaning.mark
     for name, meaning in MEANINGS.items()
@@ -60,6 +59,20 @@ SERIES = [
     (COLOURS["landmark"], "dotted", "^"),
     (COLOURS["truth"], "dashdot", "D"),
 ]
+
+
+def in_legends(name):
+    """What a legend says of a layer or curve that has no other label than its name.
+
+    Parameters
+    ----------
+    name : str, such as "naive"
+
+    Returns
+    -------
+    str, such as "odometry alone"
+    """
+    return IN_LEGENDS.get(name, name)
 
 
 def luminance(colour):

@@ -8,7 +8,7 @@ from matplotlib.patches import Ellipse, Rectangle
 from matplotlib.path import Path
 
 from slamlab.layers import Boxes, Ellipses, Grid, Points, Poses, Samples, Segments
-from slamlab.views.colours import COLOURS, DASHES, IN_LEGENDS
+from slamlab.views.colours import COLOURS, DASHES, in_legends
 from slamlab.views.figures import panels
 from slamlab.views.legends import legend_below
 
@@ -40,7 +40,7 @@ def draw(ax, layer, **style):
     """
     usual = colour(layer)
     function, _ = _KINDS[type(layer)]
-    usual = {"color": usual, "label": IN_LEGENDS.get(layer.name, layer.name)}
+    usual = {"color": usual, "label": in_legends(layer.name)}
     if layer.name in DASHES and type(layer) in _OF_LINES:
         usual["linestyle"] = DASHES[layer.name]
     artists = function(ax, layer, usual | style)

@@ -160,16 +160,16 @@ def test_who_looks_sees_what_is_driven_and_does_not_drive(live):
     run.page.locator("#driver", has_text="drives").wait_for(state="detached")
 
 
-def test_the_naive_track_is_switched_off_and_on_in_one_page_alone(live):
+def test_odometry_alone_is_switched_off_and_on_in_one_page_alone(live):
     run = live("sim:situation-2", "--estimator", "walls", "--tour", "--speed", "100")
     other = run.look()
     for page in (run.page, other):
         page.locator(".slamlab-status", has_text="step 1").wait_for()
     names = "feedOfPage.layers.visible.map((layer) => layer.name)"
-    run.page.get_by_label("naive").uncheck()
+    run.page.get_by_label("odometry alone").uncheck()
     assert "naive" not in run.page.evaluate(names)
     assert "naive" in other.evaluate(names)
-    run.page.get_by_label("naive").check()
+    run.page.get_by_label("odometry alone").check()
     assert "naive" in run.page.evaluate(names)
 
 

@@ -1,15 +1,22 @@
 """What the site makes of a notebook, a question, a formula; what it finds wrong with itself."""
 
+import operator
+import re
+from functools import partial
+
 import nbformat
 import numpy as np
 import pytest
 
 from course.site import gathered, looking, rendering
 from course.site.moving_outputs import films_alone
-from course.site.moving_pictures import values_of
+from course.site.moving_pictures import Renderer, values_of
 from course.site.pages_of_notebooks import page, without_links
 from course.site.questions import question
 from course.site.symbols import plain_forms, spelled
+from course.source import sources
+from slamlab import estimators
+from slamlab.sources.simulated_robot import simulation
 from slamlab.views.sliders import _control
 
 FILES = {"04": "04_models_and_jacobians"}
@@ -207,6 +214,23 @@ def test_what_moves_is_rendered_once_and_stands_on_the_page(tmp_path):
     nbformat.write(notebook, path)
     with pytest.raises(rendering.RenderingError, match="ZeroDivisionError"):
         rendering.rendered(path, tmp_path / "cache")
+
+
+def asked_of_what_moves():
+    """What lessons ask of what ``views.live`` and ``views.explore`` return: names after dots."""
+    for path in sources():
+        written = path.read_text(encoding="utf-8")
+        for name in re.findall(r"^(\w+) = views\.(?:live|explore)\(", written, re.MULTILINE):
+            yield from re.findall(rf"^[^#\n]*\b{name}\.([\w.]+)", written, re.MULTILINE)
+
+
+def test_lessons_go_on_with_a_film_as_with_a_live_view(tmp_path):
+    asked = set(asked_of_what_moves())
+    assert "pair.estimator" in asked
+    room = partial(simulation, "room", tour=False)
+    filmed = Renderer(tmp_path).live(room, partial(estimators.make, "icp"), "A room.", steps=2)
+    for names in asked:
+        operator.attrgetter(names)(filmed)
 
 
 def test_errata_and_literature_are_gathered_of_all_lessons():

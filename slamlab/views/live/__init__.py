@@ -5,7 +5,7 @@ computes a pose or a map. Read in this order:
 
 - ``live_view``: live; ``stepper``: source and estimator step by step; ``run_loop``: the event loop
 - ``reading_thread``: readings awaited in a thread; ``run_scene``: what is shown of a run
-- ``frame_packing``: layers as bytes of a frame
+- ``thinning``: of large clouds a point a cell; ``frame_packing``: layers as bytes of a frame
 - ``back_pressure``: frame rate and flow control; its screens ``canvas`` (browser), ``raster``
 - ``controls``, ``drive_commands``, ``drive_control``: buttons, keyboard driving, typed commands
 - ``split_maps``, ``cell_views``: maps side by side, views by cell

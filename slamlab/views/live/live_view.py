@@ -4,7 +4,7 @@ import ipywidgets
 import numpy as np
 
 from slamlab.layers import Points
-from slamlab.views.colours import COLOURS
+from slamlab.views.colours import COLOURS, in_legends
 from slamlab.views.figures import UNIT, axes
 from slamlab.views.layer_drawing import draw
 from slamlab.views.legends import legend_below
@@ -131,13 +131,13 @@ def still_picture(scene, title, size):
         below.set(ylabel=panel)
         below.grid(color=COLOURS["guide"], linewidth=0.5)
         for name, values in lines.items():
-            below.plot(*np.transpose(values), color=scene.line_colour(name), label=name)
+            below.plot(*np.transpose(values), color=scene.line_colour(name), label=in_legends(name))
     if panels:
         panels[-1].set_xlabel("t [s]")
     named = set()
     for layer, drawable in zip(scene.layers, scene.drawables, strict=False):
         # one entry in the legend for all that has a name
-        label = f"_{layer.name}" if layer.name in named else layer.name
+        label = f"_{layer.name}" if layer.name in named else in_legends(layer.name)
         named.add(layer.name)
         few = isinstance(layer, Points) and len(layer.xy) <= 300
         style = {"markersize": 7} if few else {}

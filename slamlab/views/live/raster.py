@@ -8,7 +8,7 @@ import zlib
 import ipywidgets
 import numpy as np
 
-from slamlab.views.colours import COLOURS
+from slamlab.views.colours import COLOURS, in_legends
 from slamlab.views.live.back_pressure import Screen
 
 FRAME_PERIOD = 0.1  # [s] between two frames: an image acknowledges nothing, no queue may build up
@@ -40,10 +40,11 @@ class RasterScreen(Screen):
             f'<img alt="{self._alt}" width="{self._size[0]}" style="max-width: 100%" '
             f'decoding="sync" src="data:image/png;base64,{picture}">'  # not drawn late: no flicker
         )
-        names = {each.name: each.colour for each in scene.drawables if each.kind != "curve"}
+        layers = [each for each in scene.drawables if each.kind != "curve"]
+        said = {in_legends(each.name): each.colour for each in layers}
         legend = " ".join(
             f'<span style="color:{colour};background:#ffffff">■</span> {html.escape(name)}'
-            for name, colour in names.items()
+            for name, colour in said.items()
         )
         title = f"<b>{html.escape(self._title)}</b> " if self._title else ""
         self._words.value = f"{title}{legend}<br>{html.escape(scene.status)}"

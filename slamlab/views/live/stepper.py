@@ -5,6 +5,7 @@ import numpy as np
 from slamlab.views.live.frame_packing import Scene
 from slamlab.views.live.reading_thread import background_reader
 from slamlab.views.live.run_scene import run_layers, step_line
+from slamlab.views.live.thinning import Thinning
 
 
 class Stepper:
@@ -42,7 +43,7 @@ class Stepper:
         self._make_source, self._make_estimator = make_source, make_estimator
         self._beside, self._extra, self._note = dict(beside or {}), extra, note
         self._curves = curves or {}
-        self._truth, self._colours = truth, colours
+        self._truth, self._colours, self._thinned = truth, colours, Thinning()
         self.runs, self.count, self.time, self._used = 0, 0, 0.0, False
         self.source, self._reader, self._curve_values = None, None, {}
 
@@ -162,7 +163,7 @@ class Stepper:
         Scene
         """
         return Scene(
-            self._layers() if self.count else [],
+            self._thinned(self._layers()) if self.count else [],
             self.status(),
             run=self.runs,
             colours=self._colours,

@@ -137,18 +137,19 @@ function disc(g, x, y, r) {
   g.fill();
 }
 
-// one entry a name and colour, with the marks of all its kinds; in rows above the picture
+// one entry a name and colour, with the marks of all its kinds; in rows above the picture. What a
+// name reads as there is said in slamlab/views/colours.py
 function legend(g, camera, list) {
   const entries = new Map();
   for (const { name, colour, kind } of list) {
     const key = name + colour;
-    if (!entries.has(key)) entries.set(key, { name, colour, kinds: new Set() });
+    if (!entries.has(key)) entries.set(key, { said: IN_LEGENDS.get(name) ?? name, colour, kinds: new Set() });
     entries.get(key).kinds.add(kind);
   }
   g.font = FONT;
   let x = MARGIN.left, y = 13;
   for (const entry of entries.values()) {
-    const wide = 36 + g.measureText(entry.name).width + 16;
+    const wide = 36 + g.measureText(entry.said).width + 16;
     if (x > MARGIN.left && x + wide > camera.width) [x, y] = [MARGIN.left, y + LINE];
     Object.assign(entry, { x, y });
     x += wide;
@@ -157,7 +158,7 @@ function legend(g, camera, list) {
   return [...entries.values()];
 }
 
-function mark(g, { name, colour, kinds, x, y }, theme) {
+function mark(g, { said, colour, kinds, x, y }, theme) {
   g.strokeStyle = g.fillStyle = colour;
   g.lineWidth = 2;
   g.beginPath();
@@ -175,7 +176,7 @@ function mark(g, { name, colour, kinds, x, y }, theme) {
   g.fillStyle = theme.ink;
   g.textAlign = "left";
   g.textBaseline = "middle";
-  g.fillText(name, x + 34, y);
+  g.fillText(said, x + 34, y);
 }
 
 // aim(camera) points the camera, once it is known how much room the legend leaves

@@ -1,6 +1,9 @@
 """The player's files joined: a script and a style sheet, for a widget or a page to begin with."""
 
+import json
 from pathlib import Path
+
+from slamlab.views.colours import IN_LEGENDS
 
 HERE = Path(__file__).parent
 # what draws is one piece; for readers it is several
@@ -10,7 +13,7 @@ FILM = (*DRAWING, "film.js", "film_player.js")
 
 
 def script(names, *paths):
-    """Join JavaScript files of the library, and others after them.
+    """Join JavaScript files of the library, and others after them; what legends say comes first.
 
     Parameters
     ----------
@@ -21,7 +24,8 @@ def script(names, *paths):
     -------
     str
     """
-    return _joined([*map(HERE.joinpath, names), *paths])
+    words = f"const IN_LEGENDS = new Map({json.dumps(list(IN_LEGENDS.items()))});\n"
+    return words + _joined([*map(HERE.joinpath, names), *paths])
 
 
 def styles(*paths):
