@@ -178,11 +178,12 @@ class Visit:
     def serious_faults(self):
         """Faults of accessibility in the notebook's own area, serious or critical, by axe-core.
 
+        What is not laid out is not looked at: ``look_through`` comes first.
+
         Returns
         -------
         list of str, the rule and where it is broken
         """
-        self.look_through()
         found = Axe().run(
             self.page,
             context=".jp-NotebookPanel .jp-WindowedPanel-viewport",
