@@ -32,7 +32,7 @@ LOOK_THROUGH = """async () => {
         seen.add(next);
         for (const cell of cells) {
             const { top, bottom } = cell.getBoundingClientRect();
-            if (top >= 0 && bottom <= innerHeight) seen.add(cell);
+            if (bottom > 0 && top < innerHeight) seen.add(cell); // laid out as a whole
         }
     }
     return true;
