@@ -57,9 +57,10 @@ def compare(old, new, given, rng):
     if old == new:
         return Verdict(True, PROVED)
     agreed, symbols = 0, _symbols(old) | _symbols(new)
+    evaluated = [_evaluated(line, symbols) for line in (old, new)]
     for _ in range(TRIES):
         point = random_point(symbols, rng)
-        values = _values(old, point), _values(new, point)
+        values = [_values(line, point) for line in evaluated]
         if None in values:
             continue
         for place, (before, now) in enumerate(zip(*values, strict=True)):
@@ -103,15 +104,25 @@ def _symbols(line):
     return {s for s in line.free_symbols if s.is_Matrix or isinstance(s, sp.Symbol)}
 
 
-def _values(line, point):
-    """The values of all entries of a line, row by row; None where one has no value."""
+def _evaluated(line, symbols):
+    """A function of a point: the entries of a line there, row by row."""
+    if not getattr(line, "is_MatrixExpr", False):
+        return lambda point: [
+            sp.sympify(e).xreplace(point).doit().evalf(DIGITS) for e in _entries(line)
+        ]
+    symbols = list(symbols)
+    program = sp.lambdify(
+        symbols, line, docstring_limit=0
+    )  # a docstring takes longer than the rest
+    return lambda point: [
+        sp.Float(float(entry)) for entry in program(*(_array(point[s]) for s in symbols)).ravel()
+    ]
+
+
+def _values(evaluated, point):
+    """The values of a line's entries at a point; None where one has no value."""
     try:
-        if getattr(line, "is_MatrixExpr", False):
-            evaluate = sp.lambdify(list(point), line)
-            entries = evaluate(*(_array(value) for value in point.values())).ravel()
-            values = [sp.Float(float(entry)) for entry in entries]
-        else:
-            values = [sp.sympify(e).xreplace(point).doit().evalf(DIGITS) for e in _entries(line)]
+        values = evaluated(point)
     except (ValueError, ZeroDivisionError, np.linalg.LinAlgError):  # as an inverse of nothing
         return None
     return values if all(value.is_number and value.is_finite for value in values) else None

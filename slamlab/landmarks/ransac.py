@@ -7,10 +7,9 @@ scan (region growing). This stands where others split and merge (split-and-merge
 """
 
 from dataclasses import dataclass
-from math import cos, sin
+from math import cos, erf, exp, pi, sin, sqrt
 
 import numpy as np
-from scipy.special import gammainc
 
 from slamlab.landmarks.line_fitting import Line, cloud, fit, total_least_squares
 
@@ -200,4 +199,5 @@ def _selection_inflation(c):
     pull the line further to where it errs. As for every Σ ψ(e/σ) = 0 the variance is that of ψ over
     the square of its mean slope; for ψ(e) = e in the band both are P(|e| < c) − 2 c φ(c).
     """
-    return gammainc(0.5, c * c / 2) / gammainc(1.5, c * c / 2)
+    inside = erf(c / sqrt(2))
+    return inside / (inside - c * sqrt(2 / pi) * exp(-c * c / 2))

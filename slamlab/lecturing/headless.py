@@ -79,11 +79,13 @@ def jupyterlab(home, environment=(), patience=PATIENCE):
     """
     settings = home / "config" / "labconfig" / "page_config.json"
     settings.parent.mkdir(parents=True, exist_ok=True)
-    settings.write_text(json.dumps({"disabledExtensions": {NEWS: True}}))
+    # the application is asked, not only looked at
+    settings.write_text(
+        json.dumps({"disabledExtensions": {NEWS: True}, "exposeAppInBrowser": True})
+    )
     places = {"HOME": home, "JUPYTER_CONFIG_DIR": home / "config", "IPYTHONDIR": home / "ipython"}
     places |= {"JUPYTER_RUNTIME_DIR": home / "runtime", "JUPYTER_DATA_DIR": home / "data"}
     options = ["--no-browser", "--allow-root", "--ip=127.0.0.1", "--port=0"]
-    options.append("--LabApp.expose_app_in_browser=True")  # the deck is asked, not only looked at
     known = os.environ | {name: str(value) for name, value in (places | dict(environment)).items()}
     shutil.rmtree(home / "runtime", ignore_errors=True)  # of a server before
     with open(home / "said.txt", "w") as said:

@@ -9,6 +9,7 @@ from axe_playwright_python.sync_playwright import Axe
 from course.source import ROOT
 from slamlab.lecturing import headless
 from slamlab.lecturing.headless import Unavailable, chromium
+from tests.browser.promises import promised
 from tests.patience import PATIENCE
 
 __all__ = ["Unavailable", "Visit", "chromium", "jupyterlab"]
@@ -20,11 +21,10 @@ BUSY = "[anywidget] Failed to initialize model."
 ENDED = "Could not restore the debugger state"
 
 # what was never in sight is not laid out, and further cells come a while after those before them
-LOOK_THROUGH = """async (patience) => {
+LOOK_THROUGH = """async () => {
     const { widgets } = window.jupyterapp.shell.currentWidget.content;
     const seen = new Set();
-    const end = performance.now() + patience;
-    while (seen.size < widgets.length && performance.now() < end) {
+    while (seen.size < widgets.length) {
         const cells = [...document.querySelectorAll(".jp-Cell")];
         const next = cells.find((one) => !seen.has(one)) ?? cells.at(-1);
         next.scrollIntoView();
@@ -32,28 +32,47 @@ LOOK_THROUGH = """async (patience) => {
         seen.add(next);
         for (const cell of cells) {
             const { top, bottom } = cell.getBoundingClientRect();
-            if (top >= 0 && bottom <= innerHeight) seen.add(cell);
+            if (bottom > 0 && top < innerHeight) seen.add(cell); // laid out as a whole
         }
     }
-    return seen.size == widgets.length;
+    return true;
 }"""
 
+# from the command on that runs cells to its end; a run may be over before anybody looks
+HEARD = """(command) => {
+    const { commands } = window.jupyterapp;
+    const run = (window.slamlabRun = { ended: false });
+    const heard = (_, { id, result }) => {
+        if (id != command) return;
+        commands.commandExecuted.disconnect(heard);
+        const end = () => { run.ended = true; };
+        result.then(end, end);
+    };
+    commands.commandExecuted.connect(heard);
+}"""
 CELLS_LEFT = """(before) => {
     const prompts = [...document.querySelectorAll(".jp-InputPrompt")];
     const left = prompts.filter((prompt) => prompt.textContent == "[*]:").length;
-    return left != before && [left];
+    const { ended } = window.slamlabRun;
+    return (ended || left != before) && { ended, left };
 }"""
 BLANK = "about:"  # of a fresh page
 SELDOM = 200  # [ms]; asked for at every frame, the page is painted anew at every frame
 
-# JupyterLab has written what it knows of the kernel; what the kernel was asked before is shown
-SETTLED = """async () => {
+# JupyterLab has written what it knows of the kernel
+KNOWN = """async () => {
     const { context, sessionContext } = window.jupyterapp.shell.currentWidget;
     await Promise.all([context.ready, sessionContext.ready]);
     const { kernel } = sessionContext.session;
     await Promise.all([kernel.info, kernel.spec]);
+    return true;
+}"""
+# what the kernel was asked before is shown
+SETTLED = """async () => {
+    const { kernel } = window.jupyterapp.shell.currentWidget.sessionContext.session;
     await kernel.requestKernelInfo(); // answered after all that was sent before
     await new Promise(requestAnimationFrame);
+    return true;
 }"""
 
 # one notebook in the place of all that were open, whose kernels end
@@ -67,6 +86,7 @@ TURN_TO = """async (path) => {
         await panel.sessionContext?.shutdown();
         panel.dispose();
     }
+    return true;
 }"""
 
 
@@ -108,13 +128,14 @@ class Visit:
         if self.page.url.startswith(BLANK):
             self.open(notebook)
         else:
-            self.page.evaluate(TURN_TO, notebook)
+            self._promised(f"{notebook} in the place of what was open", TURN_TO, notebook)
             self.page.wait_for_selector(".jp-NotebookPanel .jp-Cell")
         self.settle()
 
     def settle(self):
         """Wait until the kernel has done what it was asked, and the page shows it."""
-        self.page.evaluate(SETTLED)
+        self._promised("the notebook's file, session and kernel", KNOWN)
+        self._promised("the kernel's answer to all it was asked", SETTLED)
 
     def run_all(self):
         """Run all cells of the notebook that is open, by the menu."""
@@ -123,10 +144,11 @@ class Visit:
 
     def run_all_and_wait(self):
         """Run all cells and wait until the last one is done: as long as one after another ends."""
+        self.page.evaluate(HEARD, "notebook:run-all-cells")
         self.run_all()
-        left = self._cells_left(0, "raf")  # they might not wait for long
-        while left > 0:
-            left = self._cells_left(left, SELDOM)
+        run = {"ended": False, "left": 0}
+        while not run["ended"]:
+            run = self._promised("a cell to end", CELLS_LEFT, run["left"], polling=SELDOM)
         self.page.wait_for_selector(IDLE, state="attached")
 
     def save(self):
@@ -151,16 +173,17 @@ class Visit:
 
     def look_through(self):
         """Scroll through the notebook, so that all of it is laid out."""
-        assert self.page.evaluate(LOOK_THROUGH, 1000 * PATIENCE)
+        self._promised("all cells to be laid out", LOOK_THROUGH)
 
     def serious_faults(self):
         """Faults of accessibility in the notebook's own area, serious or critical, by axe-core.
+
+        What is not laid out is not looked at: ``look_through`` comes first.
 
         Returns
         -------
         list of str, the rule and where it is broken
         """
-        self.look_through()
         found = Axe().run(
             self.page,
             context=".jp-NotebookPanel .jp-WindowedPanel-viewport",
@@ -193,10 +216,8 @@ class Visit:
         )
         return place
 
-    def _cells_left(self, before, polling):
-        """How many cells wait or run, once that is another number than before."""
-        changed = self.page.wait_for_function(CELLS_LEFT, arg=before, polling=polling)
-        return changed.json_value()[0]
+    def _promised(self, what, script, arg=None, **more):
+        return promised(self.page, what, script, arg, **more)
 
     def _heard(self, message):
         if message.type == "error":

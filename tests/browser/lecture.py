@@ -1,5 +1,8 @@
 """A lesson shown as a lecture in the browser, and what can be seen of it."""
 
+from tests.browser.promises import promised
+from tests.patience import until
+
 # what is shown of a slide: its place, whether it is cut off, its letters in pixels of the screen;
 # a cell that lies on another counts as cut off
 SEEN = """() => {
@@ -54,7 +57,7 @@ LAID_OUT = """(width) => {
     const { style } = document.querySelector(".slamlab-deck .jp-WindowedPanel-viewport");
     return Math.abs(style.zoom * parseFloat(style.getPropertyValue("--slamlab-width")) - width) < 1;
 }"""
-PAINTED = "() => new Promise((done) => requestAnimationFrame(() => setTimeout(done)))"
+PAINTED = "() => new Promise((done) => requestAnimationFrame(() => setTimeout(done, 0, true)))"
 
 
 class Lecture:
@@ -82,7 +85,7 @@ class Lecture:
     def press(self, key):
         """Press a key and wait until what it does is painted."""
         self.page.keyboard.press(key)
-        self.page.evaluate(PAINTED)
+        promised(self.page, f"the picture after {key}", PAINTED)
 
     @property
     def seen(self):
@@ -93,6 +96,14 @@ class Lecture:
     def runs(self):
         """bool, whether the deck is there."""
         return self.page.locator(".slamlab-deck").count() > 0
+
+    def end(self):
+        """Press Escape until the deck is gone; a class and a tool need one of their own."""
+        until(lambda: not self.runs or self.press("Escape"))
+
+    def go_on_to(self, what, is_seen):
+        """Go on from where it is until something is seen."""
+        assert any(is_seen() for _ in self.walk()), f"no slide shows {what}"
 
     def walk(self):
         """Go on by PageDown from where it is to the last stop.

@@ -5,7 +5,7 @@ import re
 import numpy as np
 
 from tests.devices.test_emulator_ports import command
-from tests.patience import PATIENCE
+from tests.patience import PATIENCE, until
 
 
 def started(*words):
@@ -83,10 +83,16 @@ class LivePage:
 
         On a machine too busy to renew the lease in time, the robot stands on its way: so again.
         """
-        while np.hypot(*self.pose()[:2] - (x, y)) > 0.05:
+
+        def is_there():
+            return np.hypot(*self.pose()[:2] - (x, y)) <= 0.05
+
+        def go():
             from_x, from_y, heading = self.pose()
             turn = np.angle(np.exp(1j * (np.arctan2(y - from_y, x - from_x) - heading)))
             self.move(f"{np.hypot(x - from_x, y - from_y):.3f}, {np.degrees(turn):.2f}")
+
+        until(lambda: is_there() or go())
 
     def exit(self):
         """Type exit and wait for the program's end."""

@@ -20,8 +20,7 @@ def lecture(visit):
     visit.page.get_by_role("button", name="open it on this machine alone").click()
     visit.page.locator(".slamlab-class-code").wait_for()
     yield shown
-    while shown.runs:
-        shown.press("Escape")  # which ends the class, too
+    shown.end()  # and the class, too
 
 
 def come_in(page):
@@ -37,8 +36,7 @@ def come_in(page):
 
 
 def go_to(lecture, cell):
-    while cell not in lecture.seen["shown"].split("/")[0].split(","):
-        lecture.press("PageDown")
+    lecture.go_on_to(f"cell {cell}", lambda: cell in lecture.seen["shown"].split("/")[0].split(","))
 
 
 def test_a_phone_is_asked_before_the_outcome_is_shown(lecture):

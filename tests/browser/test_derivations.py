@@ -87,4 +87,5 @@ def test_on_a_slide_a_derivation_run_again_stands_at_the_line_it_stood_at(derive
 
 
 def test_a_derivation_keeps_nobody_out(derived):
+    derived.look_through()
     assert derived.serious_faults() == []

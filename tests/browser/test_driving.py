@@ -8,6 +8,7 @@ import pytest
 
 from slamlab.geometry import between
 from tests.browser.driving import NAME, Robot
+from tests.patience import until
 
 # round the table, and home; the pillars stay on the outside
 ROUND = [(1.3, -0.5), (3.3, -0.1), (3.4, 1.6), (2.2, 2.3), (0.9, 1.9), (0.6, 0.4), (0.0, 0.0)]
@@ -38,14 +39,12 @@ def off(poses, name):
 def test_driven_round_the_table_the_corrected_pose_is_right_and_the_naive_one_is_not(robot, visit):
     # by a button and by keys
     robot.press("▲ forward")
-    while robot.poses()["true"][0] < 0.3:
-        robot.wait(robot.frame() + 1)
+    until(lambda: robot.poses()["true"][0] >= 0.3)
     robot.press("■ stop")
     robot.at_rest()
     robot.canvas.click()
     visit.page.keyboard.press("ArrowLeft")
-    while robot.poses()["true"][2] < 0.3:
-        robot.wait(robot.frame() + 1)
+    until(lambda: robot.poses()["true"][2] >= 0.3)
     visit.page.keyboard.press("Space")
     robot.at_rest()
     # and, where it matters, by numbers, from the start again

@@ -122,7 +122,7 @@ def test_no_key_and_no_click_changes_the_file(lecture, lab_folder, lesson, seed)
     assert stored(lab_folder, lesson) == before
     sources = [cell["source"] for cell in json.loads(before)["cells"]]
     if lecture.runs:
-        end(lecture)
+        lecture.end()
     restore = lecture.page.get_by_role("button", name="Restore it")
     if restore.count():
         restore.click()
@@ -131,18 +131,12 @@ def test_no_key_and_no_click_changes_the_file(lecture, lab_folder, lesson, seed)
     assert after == sources
 
 
-def end(lecture):
-    while lecture.runs:
-        lecture.press("Escape")
-
-
 def test_what_is_unlocked_changed_and_run_is_restored(lecture, lab_folder):
     lesson = "07_correlations.ipynb"
     before = json.loads(stored(lab_folder, lesson))
     lecture.visit.open(lesson)
     lecture.start()
-    while not lecture.page.locator(CODE).count():
-        lecture.press("PageDown")
+    lecture.go_on_to("code", lecture.page.locator(CODE).count)
     place = lecture.seen["stop"]
     lecture.press("r")  # what the cell needs
     lecture.page.wait_for_function("() => !document.querySelector('.slamlab-notice').textContent")
@@ -154,7 +148,7 @@ def test_what_is_unlocked_changed_and_run_is_restored(lecture, lab_folder):
     assert lecture.seen["stop"] == place
     lecture.press("Escape")  # locks the cell
     assert lecture.runs
-    end(lecture)
+    lecture.end()
     lecture.press("Control+s")
     assert json.loads(stored(lab_folder, lesson)) == before
     lecture.page.get_by_role("button", name="Restore it").click()
@@ -169,8 +163,7 @@ def test_what_is_unlocked_changed_and_run_is_restored(lecture, lab_folder):
 def test_code_that_stops_with_an_error_is_told(lecture):
     lecture.visit.open("02_sensors_and_worlds.ipynb")
     lecture.start()
-    while not lecture.page.locator(CODE).count():
-        lecture.press("PageDown")
+    lecture.go_on_to("code", lecture.page.locator(CODE).count)
     lecture.press("e")
     lecture.page.keyboard.press("Control+Home")
     lecture.page.keyboard.type("1 / 0\n")
@@ -182,12 +175,11 @@ def test_what_was_changed_can_be_kept(lecture, lab_folder):
     lesson = "02_sensors_and_worlds.ipynb"
     lecture.visit.open(lesson)
     lecture.start()
-    while not lecture.page.locator(CODE).count():
-        lecture.press("PageDown")
+    lecture.go_on_to("code", lecture.page.locator(CODE).count)
     lecture.press("e")
     lecture.page.keyboard.press("Control+End")
     lecture.page.keyboard.type("\n# kept")
-    end(lecture)
+    lecture.end()
     lecture.page.get_by_role("button", name="Keep the changes").click()
     lecture.visit.save()
     assert b"# kept" in stored(lab_folder, lesson)
@@ -230,8 +222,7 @@ def test_a_slider_is_hit_where_it_is_seen(lecture):
     lecture.visit.run_all_and_wait()
     lecture.start()
     slider = ".jp-Cell:not(.slamlab-off):not(.slamlab-later) .widget-slider .noUi-target"
-    while not lecture.page.locator(slider).count():
-        lecture.press("PageDown")
+    lecture.go_on_to("a slider", lecture.page.locator(slider).count)
     for key in ("0", "+", "-", "-"):  # at every zoom
         lecture.page.evaluate("() => document.activeElement.blur()")  # its keys are its own
         lecture.press(key)

@@ -110,6 +110,7 @@ def test_a_check_is_kept_and_shown_at_the_head_of_the_notebook(visit, lab_folder
 def test_nothing_in_a_notebook_keeps_anybody_out(visit, notebook):
     visit.open(notebook)
     visit.run_all_and_wait()
+    visit.look_through()
     assert visit.serious_faults() == []
     assert visit.page.locator(f"{FIGURES}:not([alt])").count() == 0
 
