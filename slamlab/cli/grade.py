@@ -104,7 +104,7 @@ def run(arguments) -> int:
 
 def _grade(arguments, scratch):
     """The records of a run, and what else there is to tell of it."""
-    from slamlab.grading import batch, hand_in_times, isolation, late_policy
+    from slamlab.grading import batch, hand_in_times, isolation, late_policy, storing
     from slamlab.grading.gradebook import Gradebook, default_url
     from slamlab.grading.worker_pool import WorkerPool
 
@@ -125,14 +125,14 @@ def _grade(arguments, scratch):
         WorkerPool(arguments.isolation, preload=batch.named_modules(found)) as workers,
         signals_as_interrupt(),
     ):
-        kept = batch.kept_policies(book)
+        kept = storing.kept_policies(book)
         listed, known = batch.content_hashes(everything), book.attempts()
         seen = book.sight(listed)
         found = hand_in_times.without_future(found, listed, known.values(), datetime.now(UTC))
         known = {} if arguments.regrade else known
         graded = _graded(arguments, found, secret, workers, known)
         words = arguments.out, book, arguments.exercise, policy, arguments.regrade, kept
-        records = with_progress(batch.store_records(graded, *words, term, seen), len(found))
+        records = with_progress(storing.store_records(graded, *words, term, seen), len(found))
         return records, term.summary(book, records) if term else []
 
 

@@ -132,12 +132,12 @@ def _marks(book, policy):
 
 
 def _write(arguments, book, term, policy, exercises=None):
-    from slamlab.grading import batch, feedback
+    from slamlab.grading import feedback, storing
 
     if term is not None:
         return len(term.write(book, exercises))
     marks = _marks(book, policy)
-    batch.write_results(arguments.out, marks)
+    storing.write_results(arguments.out, marks)
     for mark in marks:
         feedback.write_feedback_page(arguments.out, mark)
     return len(marks)

@@ -157,7 +157,7 @@ def _forget(arguments, book, term):
 
 def write_tables(out, book, term):
     """Write tables and pages anew, as the gradebook has it now."""
-    from slamlab.grading import batch, feedback
+    from slamlab.grading import feedback, storing
     from slamlab.grading.marks import mark
 
     if term is not None:
@@ -165,7 +165,7 @@ def write_tables(out, book, term):
         return
     overrides = book.overrides()
     marks = [mark(record, overrides) for record in book.latest_attempts()]
-    batch.write_results(out, marks)
+    storing.write_results(out, marks)
     for each in marks:
         feedback.write_feedback_page(out, each)
 
