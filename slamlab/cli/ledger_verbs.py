@@ -51,7 +51,9 @@ def _parser(subparsers, verb, says):
 
 def _add_level(parser):
     parser.add_argument(
-        "--isolation", choices=("strict", "basic", "none"), help="of code that has to be run again"
+        "--isolation",
+        choices=("strict", "basic", "none"),
+        help="sandbox of code that has to be run again",
     )
 
 
