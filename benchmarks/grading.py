@@ -2,7 +2,6 @@
 
 import contextlib
 import ctypes
-import json
 import os
 import resource
 import shutil
@@ -44,13 +43,13 @@ def derived(folder):
 
 
 def make_submissions(folder, count):
-    """Make the submissions of a class: right solutions, no two files alike."""
-    content = json.loads(derived("solutions"))
+    """Make the submissions of a class: right solutions, no two alike in any cell of their own."""
+    text = derived("solutions")
     for i in range(count):
-        content["metadata"]["slamlab"]["copy"] = i
         place = folder / f"s{i:04}" / NAME
         place.mkdir(parents=True)
-        (place / f"{NAME}.ipynb").write_text(json.dumps(content), "utf-8")
+        own = text.replace("### BEGIN SOLUTION", f"# by {i}").replace("### END SOLUTION", "")
+        (place / f"{NAME}.ipynb").write_text(own, "utf-8")
 
 
 def timed(words, cwd):
@@ -198,8 +197,8 @@ def run(quick):
     rows.append(row("CPU of a submission: fork and cells", least, "s", "fork and cells", 1))
     if not quick:
         wall, memory = thousand()
-        rows.append(row("1000 submissions, 2 jobs", wall, "s", "120 s", 120 / wall))
-        rows.append(row("their memory", memory / 2**20, "MiB", "1 GiB", 2**30 / memory))
+        rows.append(row("1000 submissions, 2 jobs", wall, "s", "30 s", 30 / wall))
+        rows.append(row("their memory", memory / 2**20, "MiB", "500 MiB", 500 * 2**20 / memory))
     return rows
 
 

@@ -247,7 +247,9 @@ ask(
 # fewer than `needed` (3 or more) agree with the best guess, return `None`.
 #
 # The readings come in no order. There may be fewer than three. Some that you draw may lie *exactly* on one line; no
-# circle goes through those, and your function has to go on. Do not change the points that you are given.
+# circle goes through those, and your function has to go on. Whether you pass over such a guess or let least squares
+# make some circle of it is up to you: too few agree with it to be the best. Do not change the points that you are
+# given.
 
 
 # %%

@@ -61,7 +61,7 @@ def add_course_options(parser, policy=True):
     """Add the options of every command on a gradebook; a course file gives what is left out."""
     parser.add_argument("--course", metavar="FILE", type=Path, help=COURSE)
     parser.add_argument(
-        "--out", metavar="DIR", type=Path, help="for the results; default: the course file's"
+        "--out", metavar="DIR", type=Path, help="folder of the results; default: the course file's"
     )
     parser.add_argument(
         "--db",

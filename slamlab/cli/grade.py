@@ -23,6 +23,11 @@ def add_parser(subparsers):
             "code runs in processes of its own, kept from this machine's files, network and "
             "processes."
         ),
+        epilog=(
+            "A term: slamlab grade init begins it; grade, review, adjust, release serve each "
+            "exercise; likeness, rejudge, verify, forget, merge, export and lti are there when "
+            "they are needed. slamlab grade release --help says more of one."
+        ),
     )
     parser.add_argument(
         "folder", metavar="FOLDER", type=Path, help="where the submissions are: a folder or a zip"
@@ -91,20 +96,20 @@ def run(arguments) -> int:
     told = (UsageError, SubmissionError, GradebookError, IsolationError, LatePolicyError, TermError)
     try:
         with tempfile.TemporaryDirectory(prefix="slamlab-zips-") as scratch:
-            records, said = _grade(arguments, Path(scratch))
+            records, *told = _grade(arguments, Path(scratch))
     except (*told, RunError, KeyError) as error:
         print(f"slamlab grade: {error.args[0]}", file=sys.stderr)
         return 2
     except OSError as error:
         print(f"slamlab grade: {error.filename}: {error.strerror}", file=sys.stderr)
         return 2
-    print_summary(records, arguments.out, said)
+    print_summary(records, arguments.out, *told)
     return 0
 
 
 def _grade(arguments, scratch):
-    """The records of a run, and what else there is to tell of it."""
-    from slamlab.grading import batch, hand_in_times, isolation, late_policy
+    """The records of a run, and what else :func:`print_summary` is to tell of it."""
+    from slamlab.grading import batch, hand_in_times, isolation, late_policy, storing
     from slamlab.grading.gradebook import Gradebook, default_url
     from slamlab.grading.worker_pool import WorkerPool
 
@@ -125,15 +130,15 @@ def _grade(arguments, scratch):
         WorkerPool(arguments.isolation, preload=batch.named_modules(found)) as workers,
         signals_as_interrupt(),
     ):
-        kept = batch.kept_policies(book)
+        kept = storing.kept_policies(book)
         listed, known = batch.content_hashes(everything), book.attempts()
         seen = book.sight(listed)
         found = hand_in_times.without_future(found, listed, known.values(), datetime.now(UTC))
         known = {} if arguments.regrade else known
         graded = _graded(arguments, found, secret, workers, known)
         words = arguments.out, book, arguments.exercise, policy, arguments.regrade, kept
-        records = with_progress(batch.store_records(graded, *words, term, seen), len(found))
-        return records, term.summary(book, records) if term else []
+        records = with_progress(storing.store_records(graded, *words, term, seen), len(found))
+        return (records, term.summary(book, records), "student") if term else (records,)
 
 
 def _check(arguments, term):

@@ -33,7 +33,7 @@ def with_progress(graded, count):
     return sorted(records, key=lambda record: record.submission)
 
 
-def print_summary(records, out, said=()):
+def print_summary(records, out, said=(), by="submission"):
     """Print the table of a run and what to know of it.
 
     Parameters
@@ -41,21 +41,26 @@ def print_summary(records, out, said=()):
     records : list of Record
     out : Path, where the results are
     said : iterable of str, further lines
+    by : "submission", or "student" where a roster tells whose each is
     """
-    Console().print(_table(records))
+    Console().print(_table(records, by))
     print(_summary_line(records, out))
     for line in said:
         print(printable(line))
 
 
-def _table(records):
+def _table(records, by):
     shown = records if len(records) <= MAX_TABLE_ROWS else [r for r in records if not r.graded]
-    table = Table("submission", "score", "of", "note")
+    table = Table(by, "score", "of", "note")
     for record in shown:
         scores = (number(record.score), number(record.max_score)) if record.graded else ("–", "–")
         # as Text, so that a name or a note cannot style the table
-        table.add_row(Text(printable(record.submission)), *scores, Text(printable(record.note)))
+        table.add_row(Text(printable(_name(record, by))), *scores, Text(printable(record.note)))
     return table
+
+
+def _name(record, by):
+    return record.submission if by == "submission" else f"{record.student} · {record.exercise}"
 
 
 def _summary_line(records, out):

@@ -20,8 +20,10 @@ def add_parser(subparsers):
         "submission", metavar="SUBMISSION", help="as in grades.csv; in a term a student's id"
     )
     adjust.add_argument("task", metavar="TASK", help="such as 04-h-robot")
-    adjust.add_argument("points", metavar="POINTS", type=float)
-    adjust.add_argument("--reason", metavar="TEXT", required=True, help="stands in the table")
+    adjust.add_argument(
+        "points", metavar="POINTS", type=float, help="of the task, in place of the judge's"
+    )
+    adjust.add_argument("--reason", metavar="TEXT", required=True, help="why; the student reads it")
     export = _parser(subparsers, "export", "Write marks where another program keeps them.")
     export.add_argument(
         "--nbgrader-gradebook",
@@ -132,12 +134,12 @@ def _marks(book, policy):
 
 
 def _write(arguments, book, term, policy, exercises=None):
-    from slamlab.grading import batch, feedback
+    from slamlab.grading import feedback, storing
 
     if term is not None:
         return len(term.write(book, exercises))
     marks = _marks(book, policy)
-    batch.write_results(arguments.out, marks)
+    storing.write_results(arguments.out, marks)
     for mark in marks:
         feedback.write_feedback_page(arguments.out, mark)
     return len(marks)

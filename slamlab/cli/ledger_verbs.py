@@ -51,7 +51,9 @@ def _parser(subparsers, verb, says):
 
 def _add_level(parser):
     parser.add_argument(
-        "--isolation", choices=("strict", "basic", "none"), help="of code that has to be run again"
+        "--isolation",
+        choices=("strict", "basic", "none"),
+        help="sandbox of code that has to be run again",
     )
 
 
@@ -157,7 +159,7 @@ def _forget(arguments, book, term):
 
 def write_tables(out, book, term):
     """Write tables and pages anew, as the gradebook has it now."""
-    from slamlab.grading import batch, feedback
+    from slamlab.grading import feedback, storing
     from slamlab.grading.marks import mark
 
     if term is not None:
@@ -165,7 +167,7 @@ def write_tables(out, book, term):
         return
     overrides = book.overrides()
     marks = [mark(record, overrides) for record in book.latest_attempts()]
-    batch.write_results(out, marks)
+    storing.write_results(out, marks)
     for each in marks:
         feedback.write_feedback_page(out, each)
 

@@ -42,7 +42,14 @@ def add_parser(subparsers):
     init = subparsers.add_parser(
         "grade init", description="Write a course file, course.toml, to be filled in."
     )
-    init.add_argument("folder", metavar="DIR", type=Path, nargs="?", default=Path(), help="of it")
+    init.add_argument(
+        "folder",
+        metavar="DIR",
+        type=Path,
+        nargs="?",
+        default=Path(),
+        help="where; default: the folder you are in",
+    )
     init.set_defaults(run=run, verb="init")
     release = subparsers.add_parser(
         "grade release",

@@ -1,7 +1,10 @@
 """Law and diagnosis: a property that every correct solution has, and a classic mistake with its
 hint."""
 
+import contextlib
+import functools
 from collections.abc import Callable, Mapping
+from contextvars import ContextVar
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,6 +16,43 @@ TOLERANCE = 1e-5
 more."""
 ROUNDING = 1e-9
 """What numbers of order 1 may be off by rounding alone."""
+
+_KNOWN = ContextVar("known", default=None)
+
+
+@contextlib.contextmanager
+def one_judging():
+    """Within it, what is computed :func:`once` is kept: nothing changes the arrays meanwhile."""
+    token = _KNOWN.set({})
+    try:
+        yield
+    finally:
+        _KNOWN.reset(token)
+
+
+def once(compute):
+    """A function of inputs, or of inputs and outputs, that several laws ask for: computed once.
+
+    Parameters
+    ----------
+    compute : callable; what it gives is changed by nobody
+
+    Returns
+    -------
+    callable, the same but for time
+    """
+
+    @functools.wraps(compute)
+    def known(*arrays):
+        found = _KNOWN.get()
+        if found is None:
+            return compute(*arrays)
+        key = compute, *map(id, arrays)
+        if key not in found:
+            found[key] = compute(*arrays), arrays  # held, so that no other gets their ids
+        return found[key][0]
+
+    return known
 
 
 @dataclass(frozen=True)
@@ -93,6 +133,8 @@ def equals(name, points, says, want, parts=None, angles=None, tolerance=TOLERANC
     -------
     Law
     """
+
+    want = once(want)
 
     def holds(inputs, outputs):
         right = want(inputs)

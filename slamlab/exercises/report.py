@@ -9,7 +9,9 @@ from slamlab.exercises.task import Task
 from slamlab.exercises.verdict import Verdict
 
 WIDTH = 96  # of what is said [letters]
-_COLOURS = {"✓": "\x1b[32m", "✗": "\x1b[31m"}
+KEPT, BROKEN, WAITS = "✓", "✗", "–"
+"""Marks of laws: it holds; it is broken; another is broken without which it cannot hold."""
+_COLOURS = {KEPT: "\x1b[32m", BROKEN: "\x1b[31m"}
 _PLAIN = "\x1b[0m"
 
 
@@ -35,14 +37,12 @@ def format_verdict(task: Task, verdict: Verdict) -> str:
     -------
     str, some lines
     """
-    mark = "✓" if verdict.full else "✗"
+    mark = KEPT if verdict.full else BROKEN
     earned = f"{number(verdict.points)} of {points(verdict.max_points)}"
     lines = [f"{mark} {task.id} · {task.title}: {earned}"]
     if verdict.problem:
         lines.append(f"  {verdict.problem}")
-    broken = {law.name for law in verdict.laws if law.failed}
-    waiting = {law.name for law in task.all_laws if broken.intersection(law.after)}
-    lines += [f"  {format_law(law, law.name in waiting)}" for law in verdict.laws]
+    lines += [f"  {format_law(law, mark)}" for law, mark in marked_laws(verdict, task)]
     problems = dict.fromkeys(p for law in verdict.laws for p in law.where.values() if p)
     lines += [f"  {problem}" for problem in problems]
     # JupyterLab breaks longer lines in the middle of a word
@@ -55,23 +55,51 @@ def format_verdict(task: Task, verdict: Verdict) -> str:
     return "\n".join(lines)
 
 
-def format_law(law, waits=False) -> str:
+def marked_laws(verdict: Verdict, task: Task | None):
+    """The results of a verdict's laws, each with its mark.
+
+    Parameters
+    ----------
+    verdict : Verdict
+    task : Task or None, of that verdict, which tells what builds on what; None where it is gone
+
+    Returns
+    -------
+    list of (LawResult, str): KEPT, BROKEN, or WAITS where a law is broken without which it cannot
+        hold
+    """
+    broken = {law.name for law in verdict.laws if law.failed}
+    laws = task.all_laws if task else ()
+    waiting = {law.name for law in laws if broken.intersection(law.after)}
+    return [
+        (law, KEPT if not law.failed else WAITS if law.name in waiting else BROKEN)
+        for law in verdict.laws
+    ]
+
+
+def reason(law, mark):
+    """What there is to say of a law beside its points: "" or a clause."""
+    if mark == WAITS:
+        return "builds on a law that is broken"
+    if mark == KEPT and law.points < law.max_points:
+        return "it counts beside another law that holds"
+    return ""
+
+
+def format_law(law, mark) -> str:
     """Format the result of one law: what it asks, whether it holds, which inputs broke it.
 
     Parameters
     ----------
     law : LawResult
-    waits : bool, whether a law is broken without which this one cannot hold
+    mark : str, of :func:`marked_laws`
     """
-    if not law.failed and law.points < law.max_points:
-        return (
-            f"✓ {law.says} (0 of {points(law.max_points)}: it counts beside another law that holds)"
-        )
-    if not law.failed:
-        return f"✓ {law.says} ({points(law.points)})"
-    if waits:
-        return f"– {law.says}: builds on a law that is broken (0 of {points(law.max_points)})"
-    return f"✗ {law.says}{_broken(law)} (0 of {points(law.max_points)})"
+    if mark == KEPT and law.points == law.max_points:
+        return f"{KEPT} {law.says} ({points(law.points)})"
+    why, lost = reason(law, mark), f"0 of {points(law.max_points)}"
+    if mark == KEPT:
+        return f"{mark} {law.says} ({lost}: {why})"
+    return f"{mark} {law.says}{f': {why}' if why else _broken(law)} ({lost})"
 
 
 def coloured(text, wanted=None) -> str:

@@ -14,7 +14,7 @@ from slamlab.exercises import outputs as came_back
 from slamlab.exercises.drives import Arrays, Drive, StudentError
 from slamlab.exercises.drives.arguments import CHANGED
 from slamlab.exercises.drives.input_sets import MAIN
-from slamlab.exercises.law import Diagnosis, Law, Mistake
+from slamlab.exercises.law import Diagnosis, Law, Mistake, one_judging
 from slamlab.exercises.verdict import LawResult, Verdict
 
 OPEN_SEED = b"open"
@@ -156,7 +156,7 @@ class Task:
         found = {name: came_back.measured(self, sets[name], answers.get(name)) for name in sets}
         if isinstance(found[MAIN], StudentError):
             return self.failed(found[MAIN].kind, found[MAIN].message)
-        with np.errstate(all="ignore"):
+        with np.errstate(all="ignore"), one_judging():
             idle = came_back.degenerate(sets[MAIN], found[MAIN])
             results = tuple(self._result(law, sets, found, idle) for law in self.all_laws)
             matching = (d for d in self.diagnoses if _safely(d.matches, sets[MAIN], found[MAIN]))

@@ -1,16 +1,12 @@
-"""Batch grading: a folder's submissions, each stored when graded, so that it can resume."""
+"""Batch grading: a folder's submissions, found, dealt out, and graded several at once."""
 
-import contextlib
 import re
 import threading
 from concurrent.futures import ThreadPoolExecutor, as_completed, wait
-from dataclasses import replace
 from hashlib import sha256
 from pathlib import Path
 
-from slamlab.grading import class_report, feedback, forked_workers, grade_tables, judge
-from slamlab.grading.gradebook_rows import attempt_key
-from slamlab.grading.marks import mark
+from slamlab.grading import forked_workers, judge
 from slamlab.grading.records import private_folder
 from slamlab.grading.submissions import SubmissionError, read_bytes
 from slamlab.grading.term.hand_ins import find_hand_ins
@@ -106,54 +102,6 @@ def grade_locally(found, secret, workers, default=None, known=None, jobs=1):
             workers.close()  # before the threads end that they would die with
 
 
-def store_records(
-    graded, out, book, default=None, policy=None, regrade=False, kept=None, term=None, seen=None
-):
-    """Store each record in the gradebook with its feedback page, and all tables at the end.
-
-    A regrade's records take the place of the older ones all at once, when the last is known.
-
-    Parameters
-    ----------
-    graded : iterable of Record
-    out : Path
-    book : Gradebook
-    default : str or None, an exercise whose columns stand in the table in any case
-    policy : LatePolicy or None; None: the one that was kept
-    regrade : bool
-    kept : submission to the policy stored with it before, see :func:`kept_policies`
-    term : Term or None, which writes its own tables and pages
-    seen : submission to the number under which it was seen; None for none
-
-    Yields
-    ------
-    Record, written; those of a regrade are not yet
-    """
-    records, overrides = [], book.overrides()
-    with contextlib.closing(graded):  # nothing is graded any more when the gradebook is lost
-        for record in graded:
-            before = (kept or {}).get(record.submission)
-            stored = policy.stored(record.student) if policy else before
-            record = replace(record, policy=stored, seen=(seen or {}).get(record.submission))
-            if not regrade:
-                if not record.failed:
-                    book.add(record)
-                if term is None:
-                    feedback.write_feedback_page(out, mark(record, overrides))
-                record = replace(record, contents={})  # stored; a class's would fill the memory
-            records.append(record)
-            yield record
-    if regrade:
-        records, overrides = _swap(records, book), book.overrides()
-    if term is not None:
-        term.write(book, {record.exercise for record in records})
-        return
-    marks = [mark(record, overrides) for record in records]
-    for each in marks if regrade else ():
-        feedback.write_feedback_page(out, each)
-    write_results(out, marks, default)
-
-
 def content_hashes(found):
     """What is handed in, by the order of names.
 
@@ -183,32 +131,3 @@ def _content(submission):
         return read_bytes(submission)
     except SubmissionError:
         return b""
-
-
-def kept_policies(book):
-    """The late policy that was stored with each submission, so that grading again keeps it."""
-    return {record.submission: record.policy for record in book.latest_attempts()}
-
-
-def _swap(records, book):
-    """Put records in the place of older ones at once; where the grader failed, the older stays."""
-    older = book.attempts()
-    book.add_all([record for record in records if not record.failed])
-    keys = [attempt_key(record.submission, record.sha256, record.seed) for record in records]
-    return [
-        older.get(key, record) if record.failed else record
-        for key, record in zip(keys, records, strict=True)
-    ]
-
-
-def write_results(out, marks, default=None):
-    """Write the tables of grades and the class report.
-
-    Parameters
-    ----------
-    out : Path
-    marks : list of Mark
-    default : str or None, an exercise whose columns stand in the table in any case
-    """
-    grade_tables.write_tables(out, marks, default)
-    class_report.write_report(out, marks)

@@ -29,6 +29,8 @@ MOST_RACES = 20  # lost against other processes, where a database has no lock be
 LOCKS = {"postgresql": "SELECT pg_advisory_xact_lock(1936482669)", "sqlite": "BEGIN IMMEDIATE"}
 PASSING = (sa.exc.OperationalError, sa.exc.InterfaceError, sa.exc.TimeoutError)
 """Errors that may pass: the server is gone or locked, the disk is full."""
+PASSING_SQLITE = ("BUSY", "LOCKED", "FULL", "IOERR", "CANTOPEN")
+"""Of SQLite's own those: a file that may not be written to stays so."""
 
 
 class GradebookError(Exception):
@@ -98,6 +100,8 @@ class Database:
                     raise GradebookError(f"the gradebook refuses: {_said(error)}") from None
                 races += 1
             except PASSING as error:
+                if not _may_pass(error):
+                    raise GradebookError(f"the gradebook refuses: {_said(error)}") from None
                 self._engine.dispose()
                 end = self._wait(end, _said(error))
             except sa.exc.SQLAlchemyError as error:
@@ -117,11 +121,20 @@ class Database:
         return end
 
     def _make_tables(self, tables):
-        if set(tables.tables) <= set(sa.inspect(self._engine).get_table_names()):
-            return
-        with self._engine.begin() as connection:
-            self._lock(connection)
-            tables.create_all(connection)
+        """Make what is missing; a file that another program has locked is waited for."""
+        end = None
+        while True:
+            try:
+                if set(tables.tables) <= set(sa.inspect(self._engine).get_table_names()):
+                    return
+                with self._engine.begin() as connection:
+                    self._lock(connection)
+                    tables.create_all(connection)
+            except sa.exc.OperationalError as error:
+                if _sqlite_error(error) != "BUSY":  # a wrong address stays wrong: told at once
+                    raise
+                self._engine.dispose()
+                end = self._wait(end, _said(error))
 
     def _lock(self, connection):
         lock = LOCKS.get(self._engine.dialect.name)
@@ -152,8 +165,21 @@ def _account_here():
         return f"user {os.getuid()}" if hasattr(os, "getuid") else "unknown"
 
 
+def _sqlite_error(error):
+    """SQLite's own name of an error, such as "BUSY"; "" for those of other databases."""
+    return (getattr(error.orig, "sqlite_errorname", None) or "_").split("_")[1]
+
+
+def _may_pass(error):
+    name = _sqlite_error(error) if isinstance(error, sa.exc.DBAPIError) else ""
+    return not name or name in PASSING_SQLITE
+
+
 def _said(error):
-    return str(error).strip().splitlines()[0][:300]
+    if isinstance(error, sa.exc.DBAPIError) and _sqlite_error(error) == "BUSY":
+        return "another program has locked it"
+    text = str(getattr(error, "orig", None) or error)
+    return (text.strip().splitlines() or [type(error).__name__])[0][:300]
 
 
 def _tell(text):

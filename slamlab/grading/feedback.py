@@ -5,7 +5,7 @@ from pathlib import Path
 import jinja2
 
 from slamlab.exercises import catalogue
-from slamlab.exercises.report import number, points
+from slamlab.exercises.report import BROKEN, KEPT, WAITS, marked_laws, number, points, reason
 from slamlab.grading.local_times import local_time
 from slamlab.grading.marks import Mark
 from slamlab.grading.records import write_atomically
@@ -17,7 +17,7 @@ TEMPLATES = jinja2.Environment(
     trim_blocks=True,
     lstrip_blocks=True,
 )
-TEMPLATES.filters |= {"number": number, "points": points}
+CLASSES = {KEPT: "kept", BROKEN: "broken", WAITS: "waits"}
 
 
 def feedback_page(mark: Mark, student=None, zone=None) -> str:
@@ -69,11 +69,24 @@ def feedback_text(mark: Mark, student=None, zone=None) -> str:
         earned = f"{number(verdict.points)} of {points(verdict.max_points)}"
         lines += ["", f"{record.titles.get(verdict.task, verdict.task)}: {earned}"]
         lines += [f"  {verdict.problem}"] if verdict.problem else []
-        lines += [f"  {'✗' if law.failed else '✓'} {law.says}" for law in verdict.laws]
+        lines += [f"  {mark} {law.says}{_why(law, mark)}" for law, mark in laws_of(verdict)]
         lines += [f"  Hint: {verdict.hint}"] if verdict.hint else []
     cells = [f"  cell {cell}: {problem}" for cell, problem in record.cells.items()]
     lines += ["", "Cells that did not run to their end", *cells] if cells else []
     return "\n".join(lines) + "\n"
+
+
+def laws_of(verdict):
+    """The laws of a verdict with their marks, as the notebook tells them; see ``marked_laws``."""
+    try:
+        task = catalogue.task(verdict.task)
+    except KeyError:  # of another version
+        task = None
+    return marked_laws(verdict, task)
+
+
+def _why(law, mark):
+    return f": {why}" if (why := reason(law, mark)) else ""
 
 
 def title(mark: Mark, student=None) -> str:
@@ -82,6 +95,10 @@ def title(mark: Mark, student=None) -> str:
     known = of in catalogue.EXERCISES if of else False
     what = f"Exercise {of}: {catalogue.exercise(of).title}" if known else "An exercise"
     return f"{what} · {student or mark.record.student}"
+
+
+TEMPLATES.filters |= {"number": number, "points": points}
+TEMPLATES.globals |= {"laws_of": laws_of, "classes": CLASSES, "reason": reason}
 
 
 def write_feedback_page(out: Path, mark: Mark):

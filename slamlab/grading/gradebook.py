@@ -12,7 +12,7 @@ from slamlab.grading import gradebook_rows, older_gradebooks
 from slamlab.grading import remarks as by_hand
 from slamlab.grading.database import GradebookError
 from slamlab.grading.ledger import chain_merging, chains, contents, forgotten_students, sightings
-from slamlab.grading.ledger.chains import LEDGER, Entry
+from slamlab.grading.ledger.chains import Entry
 from slamlab.grading.ledger.ledger_book import LedgerBook
 
 
@@ -63,9 +63,9 @@ class Gradebook(LedgerBook):
 
         def added(connection):
             new, changed = 0, []
+            known = chains.bodies_of(connection, "attempt", {one.submission for one in entries})
             for entry in entries:
-                mine = LEDGER.c.about == chains.about(entry.submission)
-                before = _newest_of_each(chains.bodies(connection, "attempt", mine))
+                before = _newest_of_each(known.get(entry.submission, ()))
                 key, record = entry.body["key"], json.loads(entry.text)["record"]
                 new += key not in before
                 if before.get(key) != record or not (why or key == list(before)[-1]):

@@ -5,11 +5,14 @@ A person who looks wants to know where to look.
 """
 
 import ast
+import functools
 import math
 import re
 
 MOST = 20  # signs told of one submission
 MAX_CHARACTERS = 100_000  # letters; nobody writes more by hand
+KEPT = 256  # cells whose signs are kept: most are as they were handed out, in every submission
+KEPT_CHARACTERS = 10_000  # of a cell that is kept
 _MODULES = """
 os subprocess socket ctypes signal gc inspect resource fcntl multiprocessing threading shutil glob
 atexit faulthandler builtins importlib mmap pickle pty urllib requests http asyncio codecs copyreg
@@ -50,14 +53,15 @@ def signs(cells):
     -------
     tuple of str, such as "cell 3: imports os"
     """
-    found, letters, own = {}, 0, set()
+    found, letters, own = {}, 0, frozenset()
     for number, source in cells:
         letters += len(source)
         if letters > MAX_CHARACTERS:
             found[f"cell {number}: more than anybody writes by hand"] = None
             break
-        for said in _of_cell(source, own):
-            found[f"cell {number}: {said}"] = None
+        look = _of_cell if len(source) <= KEPT_CHARACTERS else _of_cell.__wrapped__
+        told, own = look(source, own)
+        found |= dict.fromkeys(f"cell {number}: {said}" for said in told)
     return tuple(found)[:MOST]
 
 
@@ -81,23 +85,42 @@ def behaviour(record):
     return said
 
 
+@functools.lru_cache(KEPT)
 def _of_cell(source, own):
+    """The signs in one cell, and the names of modules and functions up to it."""
+    names = set(own)
+    told = tuple(_told(source, names))
+    return told, own if own == names else frozenset(names)
+
+
+def _told(source, own):
     """The signs in one cell; own are the names of modules and functions so far, added to."""
     if shell := _SHELL.search(source):
         yield f"a line for a shell or a page, {shell[1]}"
     try:
-        nodes = list(ast.walk(ast.parse(source)))
+        by_kind = _by_kind(ast.parse(source))
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         for word in sorted(set(re.findall(r"\w+", source[:MAX_CHARACTERS])) & (MODULES | INNER)):
             yield f"names {word}"
         return
-    by_kind = {}
-    for node in nodes:
-        by_kind.setdefault(type(node), []).append(node)
     own.update(node.name for node in by_kind.get(ast.FunctionDef, ()))
     for kind, look in _LOOKS.items():
         for node in by_kind.get(kind, ()):
             yield from look(node, own)
+
+
+def _by_kind(tree):
+    """The nodes of a tree by their kind; as ``ast.walk`` finds them, in half the time."""
+    found, waiting = {}, [tree]
+    for node in waiting:  # it grows meanwhile
+        found.setdefault(type(node), []).append(node)
+        for name in node._fields:
+            value = getattr(node, name, None)
+            if isinstance(value, ast.AST):
+                waiting.append(value)
+            elif type(value) is list:
+                waiting += [item for item in value if isinstance(item, ast.AST)]
+    return found
 
 
 def _of_import(node, own):

@@ -38,9 +38,7 @@ def load_secret(file: Path, make=False) -> bytes:
     SubmissionError
     """
     if make and not file.exists():
-        handle = os.open(file, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600)
-        with os.fdopen(handle, "w") as stream:
-            stream.write(secrets.token_hex(32) + "\n")
+        _make_secret(file)
     try:
         secret = file.read_bytes().strip()
     except OSError as error:
@@ -48,6 +46,22 @@ def load_secret(file: Path, make=False) -> bytes:
     if len(secret) < MIN_SECRET_BYTES:
         raise SubmissionError(f"the secret {file} is shorter than {MIN_SECRET_BYTES} bytes")
     return secret
+
+
+def _make_secret(file):
+    """Make a secret, whole or not at all; of two that are made at once the first one stays."""
+    partial = file.with_name(f".{file.name}.{os.getpid()}.part")
+    try:
+        with os.fdopen(os.open(partial, os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o600), "w") as made:
+            made.write(secrets.token_hex(32) + "\n")
+        try:
+            os.link(partial, file)
+        except FileExistsError:
+            return
+        except OSError:  # a file system without links
+            os.replace(partial, file)
+    finally:
+        partial.unlink(missing_ok=True)
 
 
 def seed_for(secret: bytes, exercise_id: str, sha256: str) -> bytes:

@@ -39,6 +39,7 @@ def create_ruleset(level, readable, home, listed=()):
     """
     if level == NONE:
         return None
+    seccomp.prepare()
     return landlock.create_ruleset([*readable, *DEVICES], [home, "/dev/null"], listed)
 
 

@@ -6,6 +6,7 @@ process can be started, no program run, no connection made, no other process tou
 
 import ctypes
 import errno
+import functools
 import os
 import platform
 import struct
@@ -162,8 +163,25 @@ def restrict(pid):
         raise OSError(ctypes.get_errno(), "seccomp")
 
 
+def prepare():
+    """Make what the filters of all processes have in common, so that each fork finds it made."""
+    if available():
+        _bpf_program(platform.machine(), 0)
+
+
 def _bpf_program(machine, pid):
     """The filter as bytes: instructions of classic BPF."""
+    column = list(ARCHITECTURES).index(machine)
+    parts = [_unconditional(machine)]
+    for call in (KILL, TGKILL):
+        parts += _allow_if_argument(call[column], 0, EQUAL, [pid], errno.EPERM)
+    parts.append(_instruction(RETURN, DENY | errno.EPERM))
+    return b"".join(parts)
+
+
+@functools.cache
+def _unconditional(machine):
+    """The part of the filter that is the same for every process."""
     column = list(ARCHITECTURES).index(machine)
     parts = [
         _instruction(LOAD, ARCHITECTURE),
@@ -179,13 +197,10 @@ def _bpf_program(machine, pid):
     # glibc then falls back to clone, whose flags can be looked at
     parts += [_instruction(EQUAL, CLONE3[column], 0, 1), _instruction(RETURN, DENY | errno.ENOSYS)]
     parts += _allow_if_argument(CLONE[column], 0, ANY_BIT, [CLONE_THREAD], errno.EPERM)
-    for call in (KILL, TGKILL):
-        parts += _allow_if_argument(call[column], 0, EQUAL, [pid], errno.EPERM)
     parts += _allow_if_argument(PRLIMIT[column], 0, EQUAL, [0], errno.EPERM)
     parts += _allow_if_argument(PRCTL[column], 0, EQUAL, THREAD_NAME_OPTIONS, errno.EPERM)
     parts += _allow_if_argument(FCNTL[column], 1, EQUAL, FCNTL_COMMANDS, errno.EPERM)
     parts += _allow_if_argument(IOCTL[column], 1, EQUAL, IOCTL_REQUESTS, errno.ENOTTY)
-    parts.append(_instruction(RETURN, DENY | errno.EPERM))
     return b"".join(parts)
 
 

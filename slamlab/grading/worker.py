@@ -1,7 +1,7 @@
 """Worker: the sandboxed process that runs a student's cells and calls the functions they define.
 
-It answers each frame with one frame. It holds the modules its exercise allows and no truth, and
-nothing that it says is believed: the judge judges the arrays that come back.
+It answers each frame with one frame, cells with one each. It holds the modules its exercise allows
+and no truth, and nothing that it says is believed: the judge judges the arrays that come back.
 """
 
 import builtins
@@ -43,16 +43,18 @@ def serve(drives):
     wire_protocol.send(sending, {"ready": True})
     while (frame := wire_protocol.receive(receiving)) is not None:
         head, arrays = frame
-        answer = (
-            _run_cell(head, names) if head["do"] == "cell" else _drive(head, arrays, drives, names)
+        answers = (
+            _run_cells(head, names)
+            if head["do"] == "cells"
+            else [_drive(head, arrays, drives, names)]
         )
-        answer_head, answer_arrays = answer
-        answer_head["turn"] = head["turn"]
-        try:
-            wire_protocol.send(sending, answer_head, answer_arrays)
-        except wire_protocol.WireError:
-            too_much = {"kind": "malformed", "problem": "returned more than can be judged"}
-            wire_protocol.send(sending, too_much | {"turn": head["turn"]})
+        for turn, (answer_head, answer_arrays) in enumerate(answers, head["turn"]):
+            answer_head["turn"] = turn
+            try:
+                wire_protocol.send(sending, answer_head, answer_arrays)
+            except wire_protocol.WireError:
+                too_much = {"kind": "malformed", "problem": "returned more than can be judged"}
+                wire_protocol.send(sending, too_much | {"turn": turn})
 
 
 def fresh_namespace():
@@ -87,8 +89,9 @@ def run_cell(source, number, names):
     return None
 
 
-def _run_cell(head, names):
-    return {"problem": run_cell(head["source"], head["number"], names)}, {}
+def _run_cells(head, names):
+    for number, source in head["cells"]:
+        yield {"problem": run_cell(source, number, names)}, {}
 
 
 def _drive(head, inputs, drives, names):

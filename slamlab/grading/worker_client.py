@@ -12,6 +12,7 @@ from slamlab.grading.worker_pool import WorkerStartError
 START_TIMEOUT = 120.0  # of a worker [s]
 CELL_TIMEOUT = 10.0  # [s]
 NOTEBOOK_TIMEOUT = 300.0  # of all cells and tasks [s]
+BATCH_CHARACTERS = 50_000  # letters of cells sent in one frame; each is twelve bytes of JSON at most
 POLL_SECONDS = 0.2
 """Polling interval of the stop event [s]."""
 
@@ -75,7 +76,8 @@ class WorkerClient:
         self._inputs_known = True
         try:
             request = {"do": "task", "task": task.id, "sets": list(sets)}
-            head, arrays = self._request(request, input_sets.joined(sets), task.drive.seconds)
+            self._send(request, input_sets.joined(sets))
+            head, arrays = self._answer(task.drive.seconds)
         except WorkerLost as gone:
             self._stop_worker()
             raise StudentError(gone.kind, _loss_message(gone.kind, task.drive.seconds)) from None
@@ -104,27 +106,32 @@ class WorkerClient:
         """Start a worker if there is none and run all cells in it, those that hung it left out."""
         while self._process is None:
             self._start_worker()
-            for number, source in self._cells:
-                if number in self._skipped_cells:
-                    continue
-                try:
-                    self._load_cell(number, source)
-                except WorkerLost as gone:
-                    self._stop_worker()
-                    self._skipped_cells.add(number)
-                    self._note(number, _loss_message(gone.kind, CELL_TIMEOUT))
+            cells = [cell for cell in self._cells if cell[0] not in self._skipped_cells]
+            for some in _batches(cells):
+                if not self._load_cells(some):
                     break
 
-    def _load_cell(self, number, source):
-        self._note(number, None)
+    def _load_cells(self, cells):
+        """Run cells that are sent in one frame; False when one of them cost the worker."""
+        for number, _ in cells:
+            self._note(number, None)
         try:
-            request = {"do": "cell", "number": number, "source": source}
-            head, _ = self._request(request, {}, CELL_TIMEOUT)
+            self._send({"do": "cells", "cells": [list(cell) for cell in cells]}, {}, len(cells))
         except wire_protocol.WireError:
-            self._note(number, "too long to be run")
-            return
-        if head.get("problem") is not None:
-            self._note(number, _text(head["problem"]))
+            for number, _ in cells:
+                self._note(number, "too long to be run")
+            return True
+        for number, _ in cells:
+            try:
+                head, _ = self._answer(CELL_TIMEOUT)
+            except WorkerLost as gone:
+                self._stop_worker()
+                self._skipped_cells.add(number)
+                self._note(number, _loss_message(gone.kind, CELL_TIMEOUT))
+                return False
+            if head.get("problem") is not None:
+                self._note(number, _text(head["problem"]))
+        return True
 
     def _note(self, number, problem):
         """Note what went wrong in a cell, not when it is run again after its notebook saw inputs.
@@ -149,8 +156,9 @@ class WorkerClient:
         )
         self._thread.start()
         self._turn = None
+        self._requests.put((b"", 1))
         try:
-            head, _ = self._exchange(b"", START_TIMEOUT)
+            head, _ = self._next_answer(START_TIMEOUT)
         except WorkerLost as gone:
             why = self._process.last_error()
             self._stop_worker()
@@ -160,13 +168,16 @@ class WorkerClient:
             raise WorkerStartError("the worker did not say that it is ready")
         self._turn = 0
 
-    def _request(self, head, arrays, seconds):
-        frame = wire_protocol.pack(head | {"turn": self._turn + 1}, arrays)
-        self._turn += 1
-        return self._exchange(frame, min(seconds, max(self._deadline - time.monotonic(), 0.1)))
+    def _send(self, head, arrays, answers=1):
+        """Send a frame that so many answers are due to."""
+        self._requests.put((wire_protocol.pack(head | {"turn": self._turn + 1}, arrays), answers))
 
-    def _exchange(self, frame, seconds):
-        self._requests.put(frame)
+    def _answer(self, seconds):
+        """The next answer that is due."""
+        self._turn += 1
+        return self._next_answer(min(seconds, max(self._deadline - time.monotonic(), 0.1)))
+
+    def _next_answer(self, seconds):
         try:
             answer, kind = self._next_response(seconds), "died"
         except queue.Empty:
@@ -201,13 +212,28 @@ class WorkerClient:
 
 
 def _exchange_frames(process, requests, responses):
-    while (frame := requests.get()) is not None:
+    while (request := requests.get()) is not None:
+        frame, answers = request
         try:
             process.sending.write(frame)
             process.sending.flush()
-            responses.put(wire_protocol.receive(process.receiving))
+            for _ in range(answers):
+                responses.put(wire_protocol.receive(process.receiving))
         except (OSError, ValueError, wire_protocol.WireError):
             responses.put(None)
+
+
+def _batches(cells):
+    """Cells in order, as many at a time as one frame surely holds, or one that is longer."""
+    some, letters = [], 0
+    for number, source in cells:
+        if some and letters + len(source) > BATCH_CHARACTERS:
+            yield some
+            some, letters = [], 0
+        some.append((number, source))
+        letters += len(source)
+    if some:
+        yield some
 
 
 def _loss_message(kind, seconds):

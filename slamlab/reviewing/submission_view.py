@@ -1,7 +1,8 @@
 """One submission as plain data: its cells beside its verdict, and how the class did."""
 
 from slamlab.exercises import catalogue
-from slamlab.grading import remarks
+from slamlab.exercises.report import reason
+from slamlab.grading import feedback, remarks
 from slamlab.grading.ledger.contents import ContentError
 from slamlab.grading.local_times import local_time
 from slamlab.grading.rejudging import NotKept, kept_cells
@@ -64,7 +65,7 @@ def _task(state, mark, task):
     verdict = next((v for v in mark.record.verdicts if v.task == task.id), None)
     class_report = state.mistakes[task.id]
     mine = verdict and (verdict.hint or verdict.problem)
-    laws = verdict.laws if verdict else ()
+    laws = feedback.laws_of(verdict) if verdict else ()
     return {
         "id": task.id,
         "title": task.title,
@@ -75,9 +76,9 @@ def _task(state, mark, task):
         "problem": verdict.problem if verdict else None,
         "hint": verdict.hint if verdict else None,
         "laws": [
-            {"says": law.says, "failed": law.failed, "tried": law.tried, "points": law.points,
-             "most": law.max_points}
-            for law in laws
+            {"mark": mark, "kind": feedback.CLASSES[mark], "says": law.says, "points": law.points,
+             "most": law.max_points, "why": reason(law, mark) or _broken(law)}
+            for law, mark in laws
         ],
         "class": class_report.counts,
         "mistakes": [
@@ -85,6 +86,10 @@ def _task(state, mark, task):
             for text, count in class_report.mistakes
         ],
     }  # fmt: skip
+
+
+def _broken(law):
+    return f"broken by {law.failed} of {law.tried}" if law.failed else ""
 
 
 def _code(state, record):

@@ -3,6 +3,7 @@
 import dataclasses
 import json
 import re
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -17,7 +18,9 @@ from slamlab.exercises.run_task import run_and_tell
 from slamlab.exercises.task import OPEN_SEED, UNCHANGED, Probe
 from slamlab.grading import feedback, gradebook_rows, judge
 from slamlab.grading.marks import mark
+from slamlab.grading.records import Record
 from slamlab.grading.submissions import Submission
+from slamlab.reviewing import submission_view
 from tests.grading import fake
 from tests.grading.conftest import notebook, workers
 
@@ -136,6 +139,27 @@ def test_a_law_that_builds_on_a_broken_one_is_not_told_as_broken_too():
     assert "– and so it is far off: builds on a law that is broken (0 of 2 points)" in said
     alone = dataclasses.replace(TURN, laws=(dataclasses.replace(turned, after=("other",)),))
     assert "✗ turns left" in format_verdict(alone, verdict)
+
+
+def test_pages_tell_of_each_law_what_the_notebook_tells(monkeypatch):
+    turned = TURN.laws[0]
+    later = dataclasses.replace(turned, name="far", says="and so it is far off", after=("turned",))
+    alone = Law("sign", 1, "is a pair", lambda i, o: True, alone=False)
+    task = dataclasses.replace(TURN, laws=(turned, later, alone))
+    monkeypatch.setattr(fake, "EXERCISE", dataclasses.replace(fake.EXERCISE, tasks=(task,)))
+    verdict = run_and_tell(task, {"turn": lambda v, angle: 2 * v + angle})
+    marks = [line.split()[0] for line in format_verdict(task, verdict).splitlines()[1:4]]
+    assert marks == ["✗", "–", "✓"]
+    one = mark(Record("a.ipynb", "a", "99", verdicts=(verdict,), titles={task.id: task.title}))
+    text, page = feedback.feedback_text(one), feedback.feedback_page(one)
+    assert [line.split()[0] for line in text.splitlines()[4:7]] == marks
+    assert re.findall(r'<li class="(\w+)"', page) == ["broken", "waits", "kept"]
+    for told in (text, page):
+        assert "builds on a law that is broken" in told
+        assert "it counts beside another law that holds" in told
+    told = SimpleNamespace(counts=[0, 0, 1], mistakes=[])
+    view = submission_view._task(SimpleNamespace(mistakes={task.id: told}), one, task)
+    assert [law["mark"] for law in view["laws"]] == marks
 
 
 def test_a_tick_without_points_says_why():

@@ -1,5 +1,6 @@
 """The course file and the roster: what may stand there, and what is refused by name."""
 
+import unicodedata
 from datetime import UTC, datetime
 
 import pytest
@@ -64,6 +65,11 @@ def test_places_are_seen_from_the_course_files_folder(tmp_path):
         ("[exercises.99]\ncanvas = 5", "exercises.99.canvas is text"),
         ("[exercises]\n99 = 5", "exercises.99 is a table"),
         ("exercises = 5", "exercises is a table"),
+        ("[[exercises.99]]", "exercises.99 is a table"),
+        ("[exercises.99]\n[extensions]\n99 = 2026-12-01", "extensions.99 is a table of students"),
+        ("[exercises.99]\ndue = 0226-12-01", "not 0226-12-01"),
+        ("results = ''\n[exercises.99]", "results is the name of a file or folder"),
+        ('secret = "a\\u0000"\n[exercises.99]', "secret holds a character"),
         ("", "say which exercises are graded"),
         ("roster = 5\n[exercises.99]", "roster is text in quotes"),
         ("[extensions.04]\na = 2026-12-01\n[exercises.99]", "no exercise '04'; there are 99"),
@@ -116,12 +122,38 @@ def test_a_roster_of_ones_own_has_extensions_in_columns(tmp_path):
         ("id,name\n", "names nobody"),
         ("who,what\n1,2", "must have the titles id and name"),
         ("id,name,name\n1,2,3", "a title stands there twice"),
+        ("id,name,email\ns1,Kos, Ana,a@uni.hr", "line 2: more cells than titles"),
+        ("id,name,section\ns1,Ana,A\ns1,Ana,B", "two sections has one line that names both"),
         ("", "must have the titles"),
     ],
 )
 def test_a_roster_with_a_slip_is_refused_by_name(tmp_path, text, said):
     with pytest.raises(RosterError, match=said):
         people(tmp_path, text)
+
+
+def test_what_an_editor_puts_before_a_text_is_no_part_of_it(tmp_path):
+    (tmp_path / "course.toml").write_text(HEAD + "[exercises.99]", "utf-8-sig")
+    assert course_file.load(tmp_path / "course.toml").exercises == ("99",)
+    (tmp_path / "course.toml").write_text(HEAD + "[exercises.99]", "utf-16")
+    with pytest.raises(CourseFileError, match="not UTF-8"):
+        course_file.load(tmp_path / "course.toml")
+
+
+@pytest.mark.parametrize(
+    ("name", "in_moodle"),
+    [
+        ("Žiga Müller", unicodedata.normalize("NFD", "Žiga Müller")),
+        (unicodedata.normalize("NFD", "Ana Šarić"), "Ana Šarić"),
+        ("Ana O'Brien", "Ana OBrien"),
+        ("Ben A/B Ivo", "Ben AB Ivo"),
+        ("Eva Under_Score", "Eva Under Score"),
+    ],
+)
+def test_a_name_is_found_as_moodle_and_the_system_write_it(tmp_path, name, in_moodle):
+    made = people(tmp_path, f"id,name\ns1,{name}\ns2,Somebody Else\n")
+    assert made.find(name=in_moodle).id == "s1"
+    assert made.find(id=name) is None
 
 
 def test_the_exports_of_moodle_and_canvas_are_rosters(tmp_path):

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from slamlab.exercises.verdict import Verdict
-from slamlab.grading import batch
+from slamlab.grading import storing
 from slamlab.grading.gradebook import Gradebook, default_url
 from slamlab.grading.ledger import chain_proof
 from slamlab.grading.records import Record
@@ -127,8 +127,8 @@ def test_every_mark_is_that_of_a_plain_reference(
 
             words = made.course.results, book, None, policy, True, {}, made, seen
             with pytest.raises(KeyboardInterrupt):
-                list(batch.store_records(broken_off(), *words))
-            list(batch.store_records((each for each in anew), *words))
+                list(storing.store_records(broken_off(), *words))
+            list(storing.store_records((each for each in anew), *words))
         last = exercises[-1]  # a law that changed: everybody gains half a point
         milder = {key: (when, points + 0.5) for key, (when, points) in attempts.items()
                   if key[1] == last and points is not None}  # fmt: skip

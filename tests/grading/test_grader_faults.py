@@ -1,9 +1,12 @@
 """Faults of the grader, found by attacking it or by running it for a term: none is left."""
 
 import dataclasses
+import errno
 import importlib.util
+import io
 import mmap
 import os
+import sqlite3
 import stat
 import threading
 from pathlib import Path
@@ -22,6 +25,7 @@ from slamlab.grading import (
     judge,
     quotas,
     sandbox,
+    storing,
     tree_removal,
 )
 from slamlab.grading.gradebook import Gradebook, GradebookError
@@ -47,6 +51,7 @@ def cells_of(*cells, exercise=fake.EXERCISE, by=None):
 def test_no_descriptor_of_the_judges_is_left_in_a_worker_however_many_are_open():
     spy = """
 import os
+import sqlite3
 found = []
 for number in range(3, 3000):
     try: found.append((number, os.fstat(number).st_mode))
@@ -232,13 +237,13 @@ def test_a_regrade_that_is_ended_leaves_every_older_mark(tmp_path):
         raise KeyboardInterrupt
 
     with Gradebook(f"sqlite:///{tmp_path / 'grades.db'}") as book:
-        list(batch.store_records((each for each in older), tmp_path, book))
+        list(storing.store_records((each for each in older), tmp_path, book))
         before = {path: path.read_bytes() for path in tmp_path.rglob("*.*")}
         with pytest.raises(KeyboardInterrupt):
-            list(batch.store_records(ended(), tmp_path, book, regrade=True))
+            list(storing.store_records(ended(), tmp_path, book, regrade=True))
         assert book.latest_attempts() == older
         assert {path: path.read_bytes() for path in tmp_path.rglob("*.*")} == before
-        list(batch.store_records((each for each in newer), tmp_path, book, regrade=True))
+        list(storing.store_records((each for each in newer), tmp_path, book, regrade=True))
         assert book.latest_attempts() == newer
         assert len(book.attempts()) == 3
 
@@ -248,7 +253,7 @@ def test_what_the_grader_fails_at_in_a_regrade_keeps_its_mark(tmp_path):
     failed = dataclasses.replace(older, verdicts=(), reason="no worker", failed=True)
     with Gradebook(f"sqlite:///{tmp_path / 'grades.db'}") as book:
         book.add(older)
-        list(batch.store_records((each for each in [failed]), tmp_path, book, regrade=True))
+        list(storing.store_records((each for each in [failed]), tmp_path, book, regrade=True))
         assert book.latest_attempts() == [older]
     assert ",1,3," in (tmp_path / "grades.csv").read_text("utf-8")
 
@@ -313,6 +318,63 @@ def test_a_database_that_does_not_come_back_is_told_in_one_line(tmp_path):
         opened.transact(work)
     assert "\n" not in str(told.value)
     assert clock.now() == pytest.approx(60, abs=2)
+
+
+class ClockThat(SimulatedClock):
+    """A clock that does something as soon as somebody sleeps."""
+
+    def __init__(self, does):
+        super().__init__()
+        self._does = does
+
+    def sleep(self, seconds):
+        self._does()
+        super().sleep(seconds)
+
+
+@pytest.mark.parametrize("made_before", [True, False])
+def test_a_gradebook_that_another_program_has_locked_is_waited_for(tmp_path, made_before):
+    file, told = tmp_path / "grades.db", []
+    if made_before:
+        database.Database(f"sqlite:///{file}", gradebook_rows.TABLES).close()
+    other = sqlite3.connect(file)
+    other.execute("BEGIN EXCLUSIVE")
+    clock = ClockThat(other.rollback)
+    opened = database.Database(
+        f"sqlite:///{file}?timeout=0.01", gradebook_rows.TABLES, clock, told.append
+    )
+    assert opened.transact(lambda connection: "done", writes=True) == "done"
+    assert len(told) == 1
+    assert "another program has locked it" in told[0]
+
+
+def test_a_gradebook_that_cannot_be_written_to_is_not_waited_for(tmp_path):
+    database.Database(f"sqlite:///{tmp_path / 'grades.db'}", gradebook_rows.TABLES).close()
+    url = f"sqlite:///file:{tmp_path / 'grades.db'}?mode=ro&uri=true"
+    clock = ClockThat(lambda: pytest.fail("waited"))
+    opened = database.Database(url, gradebook_rows.TABLES, clock)
+    with pytest.raises(GradebookError, match="refuses: attempt to write a readonly database"):
+        opened.transact(lambda c: c.exec_driver_sql("DELETE FROM ledger"), writes=True)
+
+
+def test_a_secret_is_made_whole_or_not_at_all(tmp_path, monkeypatch):
+    class Full(io.StringIO):
+        def write(self, text):
+            raise OSError(errno.ENOSPC, "No space left on device")
+
+    def opened(handle, mode):
+        os.close(handle)
+        return Full()
+
+    with monkeypatch.context() as full:
+        full.setattr(judge.os, "fdopen", opened)
+        with pytest.raises(OSError, match="No space left"):
+            judge.load_secret(tmp_path / "secret", make=True)
+    assert list(tmp_path.iterdir()) == []
+    made = judge.load_secret(tmp_path / "secret", make=True)
+    assert judge.load_secret(tmp_path / "secret", make=True) == made
+    assert [path.name for path in tmp_path.iterdir()] == ["secret"]
+    assert (tmp_path / "secret").stat().st_mode & 0o777 == 0o600
 
 
 def test_a_server_that_ends_all_connections_is_connected_to_again(postgres):  # noqa: F811

@@ -169,6 +169,20 @@ def fit_circle(points):
     return c + middle, np.sqrt(np.mean(np.sum((p - c) ** 2, axis=1)))
 """
     + _RANSAC,
+    "of three on a line some circle, too": """
+def find_pillar(points, band, largest, needed, tries, rng):
+    if len(points) < 3:
+        return None
+    best = np.zeros(len(points), dtype=bool)
+    for _ in range(tries):
+        centre, radius = fit_circle(points[rng.choice(len(points), 3, replace=False)])
+        inside = np.abs(np.hypot(*(points - centre).T) - radius) <= band
+        if radius <= largest and inside.sum() > best.sum():
+            best = inside
+    if best.sum() < needed:
+        return None
+    return *fit_circle(points[best]), best
+""",
     "all guesses at once": """
 def fit_circle(points):
     A = np.hstack([points, np.ones((len(points), 1))])

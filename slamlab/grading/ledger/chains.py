@@ -39,6 +39,7 @@ IN_ORDER = (LEDGER.c.latest, LEDGER.c.turn, LEDGER.c.chain, LEDGER.c.number)
 """The order of rows: each after all that its gradebook held when it was written; between rows of
 two gradebooks that knew nothing of each other it is the clocks that tell."""
 HASHED = ("chain", "number", "previous", "kind", "at", "latest", "turn", "who", "digest")
+MOST_IN_QUERY = 500  # values
 NOTHING = "0" * 64
 """What stands for the row before the first."""
 
@@ -173,6 +174,32 @@ def bodies(connection, kind, *conditions):
     return [json.loads(body) for body in found.scalars()]
 
 
+def bodies_of(connection, kind, submissions):
+    """As :func:`bodies`, of some submissions only.
+
+    Parameters
+    ----------
+    connection : sqlalchemy.Connection
+    kind : str
+    submissions : set of str
+
+    Returns
+    -------
+    dict, submission to list of dict
+    """
+    found = {}
+    for some in parts([about(submission) for submission in submissions]):
+        for body in bodies(connection, kind, LEDGER.c.about.in_(some)):
+            found.setdefault(body["submission"], []).append(body)
+    return found
+
+
+def parts(values):
+    """Values, some at a time: databases bound how many a query may hold."""
+    values = sorted(values)
+    return [values[k : k + MOST_IN_QUERY] for k in range(0, len(values), MOST_IN_QUERY)]
+
+
 def _begin(connection, who):
     """The first row: a chain has a name of its own, wherever its gradebook is copied to."""
     at = gradebook_rows.timestamp()
@@ -187,8 +214,8 @@ def _begin(connection, who):
 
 def _known(connection, digests):
     """Those of some salted hashes that stand in the ledger."""
-    found, some = set(), 500  # at a time: databases bound what a query may hold
-    for start in range(0, len(digests), some):
-        part = LEDGER.c.digest.in_(digests[start : start + some])
-        found.update(connection.execute(sa.select(LEDGER.c.digest).where(part)).scalars())
+    found = set()
+    for some in parts(digests):
+        there = sa.select(LEDGER.c.digest).where(LEDGER.c.digest.in_(some))
+        found.update(connection.execute(there).scalars())
     return found

@@ -70,10 +70,13 @@ def store(connection, kept):
     connection : sqlalchemy.Connection
     kept : dict, hash to bytes
     """
-    for sha256, data in sorted(kept.items()):
-        there = sa.select(CONTENTS.c.sha256).where(CONTENTS.c.sha256 == sha256)
-        if connection.execute(there).first() is None:
-            connection.execute(sa.insert(CONTENTS).values(sha256=sha256, bytes=data))
+    known = set()
+    for some in chains.parts(kept):
+        there = sa.select(CONTENTS.c.sha256).where(CONTENTS.c.sha256.in_(some))
+        known.update(connection.execute(there).scalars())
+    new = [{"sha256": name, "bytes": kept[name]} for name in sorted(set(kept) - known)]
+    if new:
+        connection.execute(sa.insert(CONTENTS), new)
 
 
 def load(connection, names):
@@ -88,11 +91,10 @@ def load(connection, names):
     -------
     dict, hash to bytes
     """
-    asked, found, some = sorted(set(names)), {}, 500
-    for start in range(0, len(asked), some):
-        part = CONTENTS.c.sha256.in_(asked[start : start + some])
-        found |= {row.sha256: row.bytes for row in
-                  connection.execute(sa.select(CONTENTS).where(part))}  # fmt: skip
+    found = {}
+    for some in chains.parts(set(names)):
+        asked = sa.select(CONTENTS).where(CONTENTS.c.sha256.in_(some))
+        found |= {row.sha256: row.bytes for row in connection.execute(asked)}
     return found
 
 

@@ -12,8 +12,10 @@ from slamlab.grading.lti import settings as lti_settings
 from slamlab.grading.sandbox import LEVELS
 
 NAME = "course.toml"
+YEARS = range(1990, 2200)  # what is beyond is a slip of the keyboard
 ATTEMPTS = ("last", "best")
 _TEXTS = ("name", "time_zone", "roster", "results", "secret", "isolation", "attempts", "gradebook")
+_PLACES = ("roster", "results", "secret")
 _TABLES = ("late", "exercises", "extensions", "lti")
 _OF_EXERCISE = ("due", "canvas")
 
@@ -108,6 +110,11 @@ def _course(told, file):
     for name in _TEXTS:
         if not isinstance(told.get(name, ""), str):
             raise ValueError(f"{name} is text in quotes, not {told[name]!r}")
+        if not told.get(name, "").isprintable():
+            raise ValueError(f"{name} holds a character that cannot be printed: {told[name]!r}")
+    for name in _PLACES:
+        if told.get(name) == "":
+            raise ValueError(f"{name} is the name of a file or folder, not empty")
     for name in _TABLES:
         if not isinstance(told.get(name, {}), dict):
             raise ValueError(f"{name} is a table, [{name}], not {told[name]!r}")
@@ -125,6 +132,8 @@ def _course(told, file):
     extensions = {}
     for id, table in told.get("extensions", {}).items():
         _refuse_unknown_exercise("extensions", id, exercises)
+        if not isinstance(table, dict):
+            raise ValueError(f"extensions.{id} is a table of students, not {table!r}")
         for student, when in table.items():
             extensions[student, id] = moment(when, zone, f"extensions.{id}.{student}")
     places = {name: file.parent / told.get(name, default)
@@ -169,13 +178,17 @@ def moment(when, zone, name):
             when = date.fromisoformat(text) if len(text) == 10 else datetime.fromisoformat(text)
         if type(when) is date:
             when = datetime.combine(when, time(23, 59, 59))
-        if not isinstance(when, datetime):
+        if not isinstance(when, datetime) or when.year not in YEARS:
             raise ValueError
         return when if when.tzinfo else when.replace(tzinfo=zone)
     except ValueError:
         raise ValueError(
-            f"{name} is a time such as 2026-12-01T23:59:00 or 2026-12-01, not {when!r}"
+            f"{name} is a time such as 2026-12-01T23:59:00 or 2026-12-01, not {_shown(when)}"
         ) from None
+
+
+def _shown(value):
+    return str(value) if isinstance(value, date) else repr(value)
 
 
 def _zone(name):

@@ -9,6 +9,7 @@ Canvas:  Student, ID, SIS User ID, SIS Login ID, Section and what the gradebook 
 import csv
 import io
 import re
+import unicodedata
 from dataclasses import dataclass, field
 
 from slamlab.grading.term.course_file import TermError, moment
@@ -24,6 +25,8 @@ _TITLES = {
     "canvas": ("canvas",),
 }
 """Field to the titles it may have, the first that a row fills counts."""
+_NOT_IN_FILES = re.compile(r"""[\x00-\x1f\x7f&<>"`|':\\/]""")
+"""What Moodle leaves out of a name when it names a file."""
 
 
 class RosterError(TermError):
@@ -76,7 +79,7 @@ class Roster:
         -------
         Student or None
         """
-        fields = [(name, _folded(value)) for name, value in told.items() if value.strip()]
+        fields = [(name, _folded(value, name)) for name, value in told.items() if value.strip()]
         found = [s for s in self.students.values() if fields and _has(s, fields)]
         return found[0] if len(found) == 1 else None
 
@@ -113,7 +116,10 @@ def load(file, exercises, zone):
         if not student.id:
             raise RosterError(f"{file}, line {number}: {student.name or 'somebody'} has no id")
         if student.id in students:
-            raise RosterError(f"{file}, line {number}: the id {student.id} stands there twice")
+            raise RosterError(
+                f"{file}, line {number}: the id {student.id} stands there twice; who is in two "
+                "sections has one line that names both"
+            )
         students[student.id] = student
         for id in exercises:
             if "id" in titles and row.get(id, "").strip():
@@ -162,8 +168,13 @@ def read_table(file):
                           "Moodle's or Canvas' own export in English")  # fmt: skip
     if len(set(filter(None, titles))) < len(list(filter(None, titles))):
         raise RosterError(f"{file}: a title stands there twice")
-    rows = [(number, dict(zip(titles, line, strict=False)))
-            for number, line in enumerate(lines[1:], 2) if any(map(str.strip, line))]  # fmt: skip
+    rows = []
+    for number, line in enumerate(lines[1:], 2):
+        if any(cell.strip() for cell in line[len(titles) :]):
+            raise RosterError(f"{file}, line {number}: more cells than titles; a text that holds "
+                              f"{separator!r} stands in quotes")  # fmt: skip
+        if any(map(str.strip, line)):
+            rows.append((number, dict(zip(titles, line, strict=False))))
     return titles, rows
 
 
@@ -185,8 +196,12 @@ def _first(row, titles):
 
 
 def _has(student, fields):
-    return all(_folded(getattr(student, name)) == value for name, value in fields)
+    return all(_folded(getattr(student, name), name) == value for name, value in fields)
 
 
-def _folded(text):
+def _folded(text, field):
+    """A cell as it is compared; ü is one letter or two, by the system that wrote it."""
+    text = unicodedata.normalize("NFC", text)
+    if field == "name":
+        text = _NOT_IN_FILES.sub("", text.replace("_", " "))
     return re.sub(r"\s+", " ", text).strip().casefold()

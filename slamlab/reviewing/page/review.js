@@ -178,8 +178,8 @@ function showCell({ number, source, problem }) {
 function showTask(task, told) {
   const points = task.points === null ? "–" : plain(task.points);
   const judged = task.by_hand !== null && task.judged !== null ? ` (the judge: ${plain(task.judged)})` : "";
-  const laws = task.laws.map((law) => make("li", { className: law.failed ? "broken" : "kept", textContent:
-    `${law.failed ? "✗" : "✓"} ${law.says} (${plain(law.points)} of ${plain(law.most)}${law.failed ? `, broken by ${law.failed} of ${law.tried}` : ""})` }));
+  const laws = task.laws.map(({ mark, kind, says, points, most, why }) => make("li", { className: kind,
+    textContent: `${mark} ${says} (${plain(points)} of ${plain(most)}${why ? `: ${why}` : ""})` }));
   const mistakes = task.mistakes.map(({ text, count, own }) =>
     make("li", { className: own ? "own" : "", textContent: `${count} × ${text}${own ? " ← this one" : ""}` }));
   const [all, some, none] = task.class;

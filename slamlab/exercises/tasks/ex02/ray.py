@@ -3,7 +3,7 @@
 import numpy as np
 
 from slamlab.exercises.drives.ex02 import DRIVES
-from slamlab.exercises.law import Diagnosis, Law
+from slamlab.exercises.law import Diagnosis, Law, once
 from slamlab.exercises.task import Probe, Task
 from slamlab.exercises.tasks.ex02.walls import as_outputs, crossing, distance_is, unit
 
@@ -66,6 +66,7 @@ def _along(rng):
     return {"p": p, "phi": np.zeros(4), "wall": np.column_stack([x1, y, x2, y])}
 
 
+@once
 def kinds(inputs):
     """(n,) of ``KINDS``, one for each wall."""
     p, phi, wall = inputs["p"], inputs["phi"], inputs["wall"]

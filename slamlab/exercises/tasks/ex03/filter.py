@@ -3,7 +3,7 @@
 import numpy as np
 
 from slamlab.exercises.drives.ex03 import DRIVES
-from slamlab.exercises.law import equals
+from slamlab.exercises.law import equals, once
 from slamlab.exercises.task import Probe, Task
 from slamlab.exercises.tasks.ex03.beliefs import (
     MEASURED,
@@ -36,6 +36,7 @@ def _drawn(rng, covariance):
     return times(np.linalg.cholesky(covariance), rng.standard_normal(covariance.shape[:2]))
 
 
+@once
 def everything(i):
     """What all measurements up to each step say of the state then, all of them taken at once.
 

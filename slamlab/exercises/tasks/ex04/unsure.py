@@ -3,7 +3,7 @@
 import numpy as np
 
 from slamlab.exercises.drives.ex04 import DRIVES
-from slamlab.exercises.law import Diagnosis, Law
+from slamlab.exercises.law import Diagnosis, Law, once
 from slamlab.exercises.task import Probe, Task
 from slamlab.exercises.tasks.ex04.generic import covariances, poses
 from slamlab.geometry import wrap
@@ -59,6 +59,7 @@ def _turned(rng):
     return inputs
 
 
+@once
 def ends(inputs):
     """Mean and covariance of the pose after the drive, exact.
 
@@ -96,6 +97,7 @@ def _outer(v):
     return v[:, :, None] * v[:, None, :]
 
 
+@once
 def lost(inputs, outputs):
     """(n,) by how many nats an answer is more surprised by the ends than the best Gaussian is."""
     mean, best = ends(inputs)

@@ -8,7 +8,7 @@ import numpy as np
 from slamlab import models
 from slamlab.evaluation import nees
 from slamlab.exercises.drives.ex05 import DRIVES
-from slamlab.exercises.law import Diagnosis, Law
+from slamlab.exercises.law import Diagnosis, Law, once
 from slamlab.exercises.task import Probe, Task
 from slamlab.exercises.tasks.ex05.sights import driven, either_sign, with_wrapped_heading
 from slamlab.geometry import wrap
@@ -59,6 +59,7 @@ def _errors(rng, count, size):
     return (errors - errors.mean(axis=0)) * np.sqrt(count / (count - 1))
 
 
+@once
 def _late(inputs, outputs):
     """(k, LATE, 3) errors of the last poses, and their covariances."""
     way = driven(inputs["x"].mean(axis=0), inputs["drives"].mean(axis=0))

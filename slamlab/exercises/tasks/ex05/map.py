@@ -8,7 +8,7 @@ import numpy as np
 
 from slamlab import models
 from slamlab.exercises.drives.ex05 import DRIVES
-from slamlab.exercises.law import Law
+from slamlab.exercises.law import Law, once
 from slamlab.exercises.task import Probe, Task
 from slamlab.exercises.tasks.ex05.sights import T, covariances, each
 from slamlab.geometry import wrap
@@ -92,6 +92,7 @@ def fitted(inputs):
     ]
 
 
+@once
 def in_sigmas(inputs, outputs):
     """How far p is off (m, N, 2), and P's excess (m, N, 2, 2), in standard deviations."""
     p, P, often = fitted(inputs)

@@ -3,6 +3,7 @@
 import numpy as np
 
 from slamlab.evaluation import band, nees
+from slamlab.exercises.law import once
 from slamlab.exercises.tasks.ex06.runs import least_squares, truth
 from slamlab.geometry import wrap
 
@@ -41,6 +42,7 @@ class Ends:
             x[r], P[r] = x[r, rows], P[r][np.ix_(rows, rows)]
         return x, P
 
+    @once
     def of(self, inputs, outputs):
         """x and P that the runs ended with, landmarks in the order of meeting."""
         return self.in_order(inputs, outputs["x"], outputs["P"], outputs["ids"])

@@ -4,7 +4,7 @@ import numpy as np
 
 from slamlab.evaluation import band
 from slamlab.exercises.drives.ex07 import DRIVES
-from slamlab.exercises.law import Law, equals
+from slamlab.exercises.law import Law, equals, once
 from slamlab.exercises.task import Probe, Task
 from slamlab.exercises.tasks.ex07.beliefs import EXACT, T, covariances, expected_nees
 
@@ -50,6 +50,7 @@ def _one_step(rng):
     return walks(rng, 4, 1) | {"P": covariances(rng, rng.uniform(0.5, 2, (4, 4)))}
 
 
+@once
 def batch(inputs):
     """Robot's end and doors from all drives and sights at once, not step by step.
 

@@ -3,7 +3,7 @@
 import numpy as np
 
 from slamlab.exercises.drives.ex07 import DRIVES
-from slamlab.exercises.law import Law
+from slamlab.exercises.law import Law, once
 from slamlab.exercises.task import Probe, Task
 from slamlab.exercises.tasks.ex07.beliefs import EXACT, covariances
 
@@ -52,6 +52,7 @@ def _follows(inputs):
     return {"P of all with those in sight": np.array([P[:, s] for P, s in pairs])}
 
 
+@once
 def _blocks(inputs, outputs):
     """x and P, the entries in sight first: x, what P says of them, of them and the rest, the
     rest."""

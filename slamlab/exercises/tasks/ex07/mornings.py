@@ -3,7 +3,7 @@
 import numpy as np
 
 from slamlab.exercises.drives.ex07 import DRIVES
-from slamlab.exercises.law import Law
+from slamlab.exercises.law import Law, once
 from slamlab.exercises.task import Probe, Task
 from slamlab.exercises.tasks.ex07.beliefs import T, expected_nees
 
@@ -35,6 +35,7 @@ def corridors(rng, runs=RUNS, doors=DOORS, readings=READINGS, widths=(2, 3, 4)):
     return {"morning": morning, "door": door, "z": z, "sigma": sigma}
 
 
+@once
 def best(inputs):
     """The doors and their covariance as known best: sizes of the shared error weighed by
     likelihood.

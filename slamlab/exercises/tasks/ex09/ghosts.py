@@ -3,7 +3,7 @@
 import numpy as np
 
 from slamlab.exercises.drives.ex09 import DRIVES
-from slamlab.exercises.law import Diagnosis, Law
+from slamlab.exercises.law import Diagnosis, Law, once
 from slamlab.exercises.task import Probe, Task
 from slamlab.exercises.tasks.ex09 import rooms
 from slamlab.geometry import wrap
@@ -11,6 +11,7 @@ from slamlab.geometry import wrap
 NEAR = np.array([0.5, 0.2])  # a wall of a map is one of the room within this of it [m, rad]
 
 
+@once
 def wrong(inputs, outputs):
     """(n, 2) of each map: how many of its walls are none of the room's, and how many it lacks."""
     counts, walls = outputs["counts"], outputs["walls"]

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from slamlab.exercises.drives.ex13 import DRIVES
-from slamlab.exercises.law import equals
+from slamlab.exercises.law import equals, once
 from slamlab.exercises.task import Probe, Task
 from slamlab.exercises.tasks.ex13.icp import by_rounds, judged_at, sliding
 from slamlab.exercises.tasks.ex13.motions import first_pairs, looks, matched
@@ -25,6 +25,7 @@ def _sliding(rng):
     return inputs | {"share": np.full(2, 60.4 / inputs["source"].shape[1])}
 
 
+@once
 def want(inputs):
     """What comes of a share that is rounded down."""
     return matched(inputs, lambda share, n: int(share * n))
