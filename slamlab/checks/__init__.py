@@ -131,6 +131,13 @@ def _task(task_id):
         return None
 
 
+def _offer_hint():
+    """Put hint among a notebook's names: exercises tell of it before the first check."""
+    shell = sys.modules["IPython"].get_ipython() if "IPython" in sys.modules else None
+    if shell is not None:
+        shell.user_ns.setdefault("hint", hint)
+
+
 def _check(task_id, namespace):
     from slamlab.coursework import progress_records
     from slamlab.exercises import catalogue, report
@@ -177,3 +184,6 @@ def _run(task, namespace, tell):
         except KeyboardInterrupt:
             verdict = task.failed("stopped", "stopped before it was done")
     return verdict, printed.text
+
+
+_offer_hint()

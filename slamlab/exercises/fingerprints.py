@@ -125,7 +125,8 @@ def recognise(task, sets, answers) -> Recognised | None:
     One program that computes all of it explains it best; else one that computes all that is wrong.
     Where none does there are several mistakes, and the first part that one explains is told; but
     not of an answer that fails on some inputs: that alone would make its parts like those of every
-    program that fails there. Slips go before families; two families explain nothing.
+    program that fails there, and a family is not told of it at all. Slips go before families; two
+    families explain nothing.
 
     Parameters
     ----------
@@ -144,7 +145,10 @@ def recognise(task, sets, answers) -> Recognised | None:
     if not wrong.any():
         return None
     explaining = [same.all(axis=1)]
-    if not any(isinstance(measured(task, sets[n], answers.get(n)), StudentError) for n in sets):
+    if any(isinstance(measured(task, sets[n], answers.get(n)), StudentError) for n in sets):
+        same[table.labels > table.slips] = False
+        explaining = [same.all(axis=1)]
+    else:
         explaining += [same[:, wrong].all(axis=1), *same[:, wrong].T]
     for programs in explaining:
         label = _single(set(table.labels[programs].tolist()), table.slips)
