@@ -180,7 +180,8 @@ def _run(task, namespace, tell):
             if verdict.kind == "missing":
                 verdict = task.failed("missing", f"{verdict.problem} yet: run the cell above")
         except time_limit.TimeLimitExceeded:
-            verdict = task.failed("time", f"still running after {task.drive.seconds:g} s")
+            said = f"still running after {task.drive.seconds:g} s: an endless loop, or too slow"
+            verdict = task.failed("time", said)
         except KeyboardInterrupt:
             verdict = task.failed("stopped", "stopped before it was done")
     return verdict, printed.text
