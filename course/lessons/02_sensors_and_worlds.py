@@ -787,7 +787,7 @@ for number, sizes in enumerate(real["turns"], 1):
 # ### Two answers
 #
 # The package does so for {= real["errors"]["readings"] =} readings (`a2_at_rest.repeats`). There are
-# two ways to tell $\sigma$ from what is left: by the root of the mean square, or by the *median* of the
+# two ways to estimate $\sigma$ from what is left: by the root of the mean square, or by the *median* of the
 # absolute values. For a bell curve this median is $0.674\,\sigma$, so 1.483 times the median is
 # $\sigma$ again.
 
@@ -830,7 +830,7 @@ for low, *both in zip(a2_at_rest.SLANTS[:-1], 100 * share, 100 * predicted, stri
 # %% slideshow={"slide_type": "fragment"} name="ask-far"
 ask(
     "02-far",
-    "Over all ranges, the median told a σ of about 0.25 % of the range. **How does this share compare "
+    "Over all ranges, the median gave a σ of about 0.25 % of the range. **How does this share compare "
     "near by, at 2.4 m, and far away, at 11.5 m?**",
     {
         "it is the same: σ is a share of the range": "this is what everybody simulates, and it "
@@ -1047,7 +1047,7 @@ views.show(
 # - John Leonard and Hugh Durrant-Whyte, *Directed Sonar Sensing for Mobile Robot Navigation*, 1992: what
 #   a cone of sound sees of walls and corners.
 # - Frank Hampel, *The influence curve and its role in robust estimation*, Journal of the American
-#   Statistical Association, 1974: the spread that is told by a median.
+#   Statistical Association, 1974: the spread as the median gives it.
 #
 # **Read next:** Sebastian Thrun, Wolfram Burgard and Dieter Fox, *Probabilistic Robotics*, 2005,
 # chapter 6, on how range finders err among people and edges.

@@ -677,9 +677,9 @@ ask(
     "03-double",
     "Somebody's gain is twice the best one. How wrong are the carts after the correction?",
     {
-        "better off than with the best gain": "the best gain is at the bottom of the bowl.",
-        "worse than before, but better than nothing": "compare with the error before the "
-        "measurement, and not with the best gain.",
+        "less wrong than with the best gain": "the best gain is at the bottom of the bowl.",
+        "more wrong than with the best gain, but less than without a measurement": "this holds for "
+        "1.5 times the best gain. At twice of it the bowl has risen farther.",
         "as wrong as if they had not measured": "the bowl is a parabola in the factor, lowest at 1. "
         "At 2 it is as high as at 0.",
     },

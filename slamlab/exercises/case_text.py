@@ -49,6 +49,7 @@ def format_case(task, case: Case) -> str | None:
     got = {name: array for name, array in case.outputs.items() if name != CHANGED}
     want = case.law.want(case.inputs) if case.law.want else {}
     lines = _reason(case.law, case.inputs, got)
+    got, want = _as_returned(got), _as_returned(want)
     if not case.one:  # a whole set: too much to read
         taken = f"Taken together, with {case.probe}:" if case.probe else "Taken together:"
         return _joined([taken, *lines]) if lines else None
@@ -59,10 +60,18 @@ def format_case(task, case: Case) -> str | None:
     return _joined([begin, *told, *lines])
 
 
+def _as_returned(outputs):
+    """Outputs as a student knows them: a distance, which may be infinite, travels as two arrays."""
+    if outputs.keys() != {"met", "distance"}:
+        return outputs
+    return {"result": np.where(outputs["met"] > 0, outputs["distance"], np.inf)}
+
+
 def _worst(got, want):
     """Where the first array differs most that is too large, or whose rounded numbers look alike."""
     for name, right in want.items():
-        off = np.abs(got[name] - right)[0]
+        with np.errstate(invalid="ignore"):
+            off = np.nan_to_num(np.abs(got[name] - right)[0])
         alike = format_numbers(name, got[name][0]) == format_numbers(name, right[0])
         if off.size and off.max() > 0 and (alike or off.size > MOST):
             at = np.unravel_index(np.argmax(off), off.shape)
@@ -79,7 +88,8 @@ def format_numbers(name, array) -> str:
     if name in WRITTEN and array.ndim == 1:
         return f"{name} = {WRITTEN[name](array.astype(int))}"
     if array.dtype.kind == "f":  # neither -0 nor rounding's dust
-        array = np.where(np.abs(array) > 1e-12 * np.abs(array).max(initial=0), array, 0.0)
+        most = np.abs(array[np.isfinite(array)]).max(initial=0)
+        array = np.where(np.abs(array) > 1e-12 * most, array, 0.0)
     text = np.array2string(
         array,
         precision=4,
@@ -88,11 +98,16 @@ def format_numbers(name, array) -> str:
         edgeitems=2,
         separator=", ",
         max_line_width=WIDTH,
-        formatter={"float_kind": lambda x: f"{x:.4g}"} if array.dtype.kind == "f" else None,
+        formatter={"float_kind": _short} if array.dtype.kind == "f" else None,
     )
     label = "" if name == "result" else f"{name} = "
     size = f"   {array.shape}" if array.size > MOST else ""
     return f"{label}{text}{size}".replace("\n", "\n" + " " * len(label))
+
+
+def _short(x):
+    """A number in four digits, a whole one in all of its own: a rounded seed is another seed."""
+    return f"{x:.0f}" if float(x).is_integer() and abs(x) < 1e12 else f"{x:.4g}"
 
 
 def _reason(law, inputs, outputs):

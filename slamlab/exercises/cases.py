@@ -11,7 +11,6 @@ from slamlab.exercises.drives.input_sets import MAIN
 from slamlab.exercises.law import Law
 from slamlab.exercises.outputs import degenerate, measured
 
-MOST_RUNS = 60  # of a student's function, to shrink a case
 DIGITS = (1, 2, 3)
 KEPT = 0.2  # share of a covariance's eigenvalues, at least, when it is rounded
 
@@ -105,10 +104,7 @@ def _size(inputs):
 def _shrunk(task, case, run):
     """A case with fewer or rounder numbers on which the law fails as well."""
     if isinstance(case.outputs, StudentError):  # which of the rows it was is not known
-        tried = ((row, _tried(task, run, row)) for row in _rows(case.inputs)[:MOST_RUNS])
-        failing = (pair for pair in tried if _same_failure(pair[1], case.outputs))
-        row, outputs = next(failing, (None, None))
-        return case if row is None else Case(case.law, case.probe, row, outputs, True)
+        return _halved(task, case, run)
     if not task.rounds or not case.one:
         return case
     for name in case.inputs:
@@ -118,6 +114,22 @@ def _shrunk(task, case, run):
                 case = Case(case.law, case.probe, inputs, outputs, True)
                 break
     return case
+
+
+def _halved(task, case, run):
+    """The one row of a set that fails as the set did, found by halving; the set where none does."""
+    inputs, outputs = case.inputs, case.outputs
+    while (count := _count(inputs)) > 1:
+        for half in (slice(count // 2), slice(count // 2, None)):
+            rows = {name: array[half] for name, array in inputs.items()}
+            found = _tried(task, run, rows)
+            if _same_failure(found, case.outputs):
+                inputs, outputs = rows, found
+                break
+        else:
+            return case
+    alone = count == 1 and _same_failure(outputs, case.outputs)
+    return Case(case.law, case.probe, inputs, outputs, True) if alone else case
 
 
 def rounder(task, inputs, name):

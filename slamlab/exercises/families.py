@@ -23,9 +23,10 @@ FAMILIES = {
     "missing": "Something is left out: one term of a sum, one factor of a product, or one line.",
     "guard": "A condition decides the other way at some inputs: look at <, ≤, and, or, not, and at "
     "what happens when both sides are equal.",
-    "index": "An index or a bound is off by one, or points at the neighbour.",
-    "inverse": "A matrix stands where its inverse should, or the other way round.",
-    "name": "One variable stands where another should.",
+    "index": "A whole number is off by one: an index, a bound, or an entry of a matrix.",
+    "inverse": "Something is upside down: a matrix stands where its inverse should, or a fraction "
+    "is turned over.",
+    "name": "One name stands where another should: look at what each line reads and what it keeps.",
     "twice": "Something is done twice: one line, or one factor, too many.",
 }
 """Family's name to its hint; ``course.mutation`` makes the changes."""

@@ -125,7 +125,8 @@ def recognise(task, sets, answers) -> Recognised | None:
     One program that computes all of it explains it best; else one that computes all that is wrong.
     Where none does there are several mistakes, and the first part that one explains is told; but
     not of an answer that fails on some inputs: that alone would make its parts like those of every
-    program that fails there. Slips go before families; two families explain nothing.
+    program that fails there, and where nothing else is wrong no family is told. Slips go before
+    families; two families explain nothing.
 
     Parameters
     ----------
@@ -144,8 +145,11 @@ def recognise(task, sets, answers) -> Recognised | None:
     if not wrong.any():
         return None
     explaining = [same.all(axis=1)]
-    if not any(isinstance(measured(task, sets[n], answers.get(n)), StudentError) for n in sets):
+    found = {name: measured(task, sets[name], answers.get(name)) for name in sets}
+    if not any(isinstance(outputs, StudentError) for outputs in found.values()):
         explaining += [same[:, wrong].all(axis=1), *same[:, wrong].T]
+    elif _right_elsewhere(task, sets, found):
+        explaining = [same.all(axis=1) & (table.labels <= table.slips)]
     for programs in explaining:
         label = _single(set(table.labels[programs].tolist()), table.slips)
         if label:
@@ -183,6 +187,19 @@ def _single(labels, slips):
     if named:
         return named[0]
     return labels.pop() if len(labels) == 1 else None
+
+
+def _right_elsewhere(task, sets, found):
+    """Whether all is right that came back at all."""
+    came = {
+        name: outputs for name, outputs in found.items() if not isinstance(outputs, StudentError)
+    }
+    return not any(
+        np.any(task.broken(law, sets[name], outputs))
+        for name, outputs in came.items()
+        for law in task.all_laws
+        if task.judges(law, name)
+    )
 
 
 def _failure(error):

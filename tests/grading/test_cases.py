@@ -209,6 +209,39 @@ def test_of_an_exception_the_row_is_shown_that_met_it():
     assert verdict.kind == "raised"
 
 
+def test_of_an_exception_the_row_is_found_among_many():
+    many = {"v": np.ones((300, 2)), "angle": np.append(np.full(299, 0.4), 0.6)}
+    task = dataclasses.replace(TURN, inputs=lambda rng: many, probes=())
+    case = told(lambda v, angle: turn(v, angle) / (1 if angle < 0.5 else [][0]), task)
+    assert "angle = 0.6" in case
+
+
+def test_a_distance_that_is_infinite_is_told_as_infinity():
+    task = dataclasses.replace(
+        TURN,
+        drive=dataclasses.replace(
+            TURN.drive,
+            run=lambda functions, inputs: {
+                "met": np.zeros(len(inputs["angle"])),
+                "distance": np.zeros(len(inputs["angle"])),
+            },
+        ),
+        shapes=lambda inputs: dict.fromkeys(("met", "distance"), inputs["angle"].shape),
+        laws=(equals("far", 2, "is 2 m away", lambda i: {n: 0 * i["angle"] + a for n, a in FAR}),),
+        rounds=False,
+    )
+    lines = [line.strip() for line in told(turn, task).splitlines()]
+    assert lines[-4:] == ["it returns", "inf", "and should return", "2"]
+
+
+FAR = (("met", 1.0), ("distance", 2.0))
+
+
+def test_a_whole_number_is_told_in_all_its_digits():
+    assert case_text.format_numbers("seed", np.array(795512345.0)) == "seed = 795512345"
+    assert case_text.format_numbers("x", np.array([0.12345, 1e-20, 3.0])) == "x = [0.1235, 0, 3]"
+
+
 def test_of_an_exception_on_a_probe_the_probe_is_shown():
     def fails(v, angle):
         return turn(v, angle) / (1 if angle else [][0])

@@ -171,6 +171,14 @@ def test_a_failure_on_a_probe_is_part_of_the_fingerprint(known):
     assert named(lambda v, angle: fails(v, angle, lambda: [0, 1, 2])) is None
 
 
+def test_no_family_is_told_of_what_fails_and_is_right_elsewhere(known):
+    def failing(v, angle):
+        return RIGHT_WAY(v, angle) if angle else 1 / 0
+
+    known(*PROGRAMS, (3, failing))
+    assert named(failing) is None  # that it fails was told; a factor has nothing to do with it
+
+
 def test_failing_where_a_mistake_fails_makes_no_part_like_it(known):
     def failing(function):
         return lambda v, angle: function(v, angle) if angle else 1 / 0

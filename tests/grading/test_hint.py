@@ -2,6 +2,8 @@
 
 import dataclasses
 import re
+import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -135,6 +137,20 @@ def test_a_check_that_offers_a_hint_brings_it_along(capsys):
     assert 'hint("99-turn")' in capsys.readouterr().out
     eval("hint('99-turn')", names)
     assert "A question: Where does the point (1, 0) go?" in capsys.readouterr().out
+
+
+def test_in_a_notebook_a_hint_is_there_before_the_first_check():
+    said = shell("from slamlab.checks import check", "hint('01-drift')")
+    assert "A question to begin with" in said
+    assert "mine" in shell("hint = lambda id: print('mine')", "import slamlab.checks", "hint(1)")
+
+
+def shell(*cells):
+    """What a fresh IPython prints of some cells."""
+    lines = ["from IPython.core.interactiveshell import InteractiveShell as S", "s = S.instance()"]
+    lines += [f"s.run_cell({cell!r})" for cell in cells]
+    done = subprocess.run([sys.executable, "-c", "\n".join(lines)], capture_output=True, text=True)
+    return done.stdout
 
 
 def test_a_hint_of_ones_own_is_left_alone():

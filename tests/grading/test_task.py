@@ -5,6 +5,7 @@ import re
 
 import numpy as np
 import pytest
+from IPython.core.error import StdinNotImplementedError
 
 from slamlab.exercises.drives import Drive, StudentError
 from slamlab.exercises.drives.input_sets import MAIN
@@ -76,8 +77,16 @@ def test_of_several_functions_the_one_not_attempted_is_named():
     drive = Drive(("done", "open_"), lambda functions, inputs: [f(1) for f in functions.values()])
     with pytest.raises(StudentError, match=r"^open_ is not attempted yet$"):
         drive({"done": done, "open_": open_}, {})
+    one = Drive(("open_",), lambda functions, inputs: functions["open_"](1))
     with pytest.raises(StudentError, match=r"^not attempted yet$"):
-        Drive(("open_",), lambda functions, inputs: functions["open_"](1))({"open_": open_}, {})
+        one({"open_": open_}, {})
+
+    def asks(a):
+        raise StdinNotImplementedError("no input here")  # what input() raises where none can be
+
+    with pytest.raises(StudentError, match="no input here") as raised:
+        one({"open_": asks}, {})
+    assert raised.value.kind == "raised"
 
 
 def test_an_output_of_any_length_may_not_be_of_every_length():

@@ -158,6 +158,14 @@ def drift(n, d, sigma):
     return d * np.std((np.cumsum(errors, axis=1) - errors).sum(axis=1))
 """,
     ),
+    Slip(
+        "headings' errors added",
+        "You add up how wrong the heading is at each step, as if these were errors of their own. One "
+        "error is in all the headings that follow it: ask how far aside each single error leads.",
+        (RESULT, "sigma * d * np.sum(np.sqrt(bends))"),
+        (RESULT, "sigma * d * np.sum(np.sqrt(bends + 1))"),
+        (RESULT, "sigma * d * np.sqrt(np.sum(bends + 1))"),
+    ),
 )
 
 STUMBLES = (

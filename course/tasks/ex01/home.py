@@ -194,6 +194,25 @@ SLIPS = (
         "The gap is shared out with the wrong sign, so that the lap ends twice as far from home.",
         _shared(places="-np.linspace(0, 1, len(told))"),
     ),
+    Slip(
+        "turns of both sides added",
+        "Your factor comes from a sum in which laps to the left and laps to the right cancel. Each lap "
+        "turns once round: compare their amounts.",
+        _shared(LEARNT.replace("abs(steps[a:b, 2].sum())", "steps[a:b, 2].sum()")),
+    ),
+    Slip(
+        "docked a step too early",
+        "Your laps end a row too early. Row 0 of the track is the start, and row d lies after step d - 1: "
+        "the lap that ends at row d has the steps up to, and without, d.",
+        _shared("docked = [row - 1 for row in docked]"),
+        _shared("docked = [row - 1 for row in docked]\n    " + LEARNT),
+    ),
+    Slip(
+        "gap with the wrong sign",
+        "The laps end twice as far from the dock as they did: the gap leads from where the wheels say "
+        "the lap ends to the dock, and is added.",
+        _shared(LEARNT, places="-np.linspace(0, 1, len(told))"),
+    ),
 )
 
 STUMBLES = (

@@ -241,6 +241,20 @@ def seen_from(a, b):
     return wrap(between(a, b))
 """,
     ),
+    Slip(
+        "arctan of a quotient",
+        "The arctangent of a quotient cannot tell ahead from behind, and has nothing to divide by where "
+        "both poses are in one place: np.arctan2 takes both sides. Or do without angles: turn the vector.",
+        Edit(
+            "distance and bearing",
+            (
+                (
+                    "math.atan2(b[1] - a[1], b[0] - a[0])",
+                    "math.atan((b[1] - a[1]) / (b[0] - a[0]))",
+                ),
+            ),
+        ),
+    ),
 )
 
 STUMBLES = (

@@ -178,6 +178,12 @@ SLIPS = (
         (RETURN, "return 1 - wall.mean(), error"),
     ),
     Slip(
+        "in-per-cent",
+        "These are per cent. Both numbers are shares: 0.02 is 2 %.",
+        (RETURN, "return 100 * error, 100 * (1 - wall.mean())"),
+        (RETURN, "return 100 * error, 1 - wall.mean()"),
+    ),
+    Slip(
         "narrow-gate",
         "Your gate cuts off a large part of the wall's own readings: the error becomes too small, the "
         "gate narrower, and so on, round by round.",

@@ -62,7 +62,7 @@ SLIPS = (
     Slip(
         "feet-forgotten",
         "A wall that crosses the cone is nearest where the sensor looks at it square on, if that is in "
-        "the cone. Is this place among yours, and does its s have the right sign?",
+        "the cone. Is this place among yours, and does its τ have the right sign?",
         (PLACES, "(0, 1)"),
         (PLACES, "(0, 1, np.clip(a @ w / (w @ w), 0, 1))"),
     ),
@@ -83,6 +83,15 @@ SLIPS = (
         (PLACES, "(0, 1, -(a @ w) / (w @ w))"),
         (PLACES, "(0, 1, max(-(a @ w) / (w @ w), 0))"),
         (PLACES, "(0, 1, min(-(a @ w) / (w @ w), 1))"),
+        Edit(
+            "by bearings",
+            (
+                (
+                    "if (foot - a) @ (foot - b) < 0:\n            places.append(foot)",
+                    "places.append(foot)",
+                ),
+            ),
+        ),
     ),
     Slip(
         "nearest-place-of-each-wall-only",
@@ -154,8 +163,8 @@ SLIPS = (
     ),
     Slip(
         "distance-missing",
-        "place @ axis is in metres: it is the distance times a cosine, so the cosine alone is nothing to "
-        "compare it with.",
+        "A product of the place and the axis is in metres: it is the distance times a cosine, so the "
+        "cosine alone is nothing to compare it with.",
         (INSIDE, "if place @ axis >= np.cos(half):"),
     ),
     Slip(
@@ -182,7 +191,7 @@ SLIPS = (
     ),
     Slip(
         "foot-without-its-length",
-        "s counts whole walls, not metres: along w it is divided by the square of the wall's length.",
+        "τ counts whole walls, not metres: divide by the square of the wall's length.",
         (PLACES, "(0, 1, np.clip(-(a @ w) / np.sqrt(w @ w), 0, 1))"),
         (PLACES, "(0, 1, np.clip(-(a @ w), 0, 1))"),
     ),
@@ -232,6 +241,11 @@ SLIPS = (
         "Where nothing is heard you give a number: an echo at 0 m, or at 10 m, is a wall there.",
         (RETURN, "return nearest if nearest < np.inf else 0.0"),
         (RETURN, "return min(nearest, 10.0)"),
+    ),
+    Slip(
+        "last-place",
+        "Each place replaces the one before, be it nearer or not: keep the least distance of all.",
+        (NEARER, "                nearest = distance"),
     ),
 )
 

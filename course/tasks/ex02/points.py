@@ -105,7 +105,7 @@ SLIPS = (
     ),
     Slip(
         "front-along-y",
-        "You take the device's front for +y (as Tuček does). Here it looks along its +x: at 0° a point "
+        "You take the device's front for +y (as some devices do). Here it looks along its +x: at 0° a point "
         "lies at (r, 0).",
         (Q, "np.column_stack([-r * np.sin(beta), r * np.cos(beta)])"),
         (Q, "np.column_stack([r * np.sin(beta), r * np.cos(beta)])"),

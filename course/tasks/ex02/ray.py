@@ -119,7 +119,7 @@ SLIPS = (
     ),
     Slip(
         "behind-only",
-        "The inequality is turned: t below zero means that the wall stands behind the sensor.",
+        "The inequality is turned: r below zero means that the wall stands behind the sensor.",
         hit("t < 0 and 0 <= s <= 1"),
     ),
     Slip(
@@ -130,7 +130,7 @@ SLIPS = (
     ),
     Slip(
         "conditions-swapped",
-        "The conditions have changed places: t is a way in metres and may be as large as it likes, s is "
+        "The conditions have changed places: r is a way in metres and may be as large as it likes, τ is "
         "the share of the wall.",
         hit("s >= 0 and 0 <= t <= 1"),
         hit("0 <= t <= 1 and 0 <= s <= 1"),
@@ -175,7 +175,8 @@ SLIPS = (
     ),
     Slip(
         "from-the-wrong-end",
-        "The way d leads to one end of the wall, and w sets out from the other.",
+        "One sign of the wall's way is turned: as (02.1) has it, τ leads from p₁ to p₂, so the term with τ "
+        "changes its sign when it goes to the other side.",
         (W, "w_x, w_y = wall[0] - wall[2], wall[1] - wall[3]"),
         (D, "d_x, d_y = wall[2] - p[0], wall[3] - p[1]"),
     ),
@@ -193,14 +194,14 @@ SLIPS = (
     ),
     Slip(
         "not-divided",
-        "t and s are quotients: both are divided by the determinant.",
+        "r and τ are quotients: both are divided by the determinant.",
         (T, "t = d_x * w_y - d_y * w_x"),
         (SHARE, "s = d_x * u_y - d_y * u_x"),
     ),
     Slip(
         "numerators-swapped",
-        "t and s have changed places: for how far the beam flies, the column of the beam is replaced "
-        "by d, so what is left in the determinant is the wall.",
+        "r and τ have changed places: for r, the beam's column of the matrix is replaced by the right side, "
+        "and the wall's column is left.",
         [
             (T, "t = (d_x * u_y - d_y * u_x) / determinant"),
             (SHARE, "s = (d_x * w_y - d_y * w_x) / determinant"),
@@ -262,6 +263,27 @@ SLIPS = (
         "The distance is rounded: no sensor was asked about yet, only geometry.",
         hit("t >= 0 and 0 <= s <= 1", "round(t, 2)"),
         hit("t >= 0 and 0 <= s <= 1", "int(t)"),
+    ),
+    Slip(
+        "rows-for-columns",
+        "Rows and columns of the matrix are swapped: an unknown belongs to a column. The beam fills the "
+        "column of r, and the wall that of τ.",
+        Edit(
+            "a 2×2 system",
+            (
+                (
+                    "[[np.cos(phi), wall[0] - wall[2]], [np.sin(phi), wall[1] - wall[3]]]",
+                    "[[np.cos(phi), np.sin(phi)], [wall[0] - wall[2], wall[1] - wall[3]]]",
+                ),
+            ),
+        ),
+    ),
+    Slip(
+        "short-walls-refused",
+        "Some walls count as parallel that are not: the determinant is small for every short wall, too. "
+        "What is parallel for sure has zero, but for rounding.",
+        (NONE, "if abs(determinant) < 0.1:"),
+        (NONE, "if abs(determinant) < 0.01:"),
     ),
 )
 

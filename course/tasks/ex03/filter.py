@@ -245,6 +245,15 @@ SLIPS = (
         "        x, P = update(*predict(x, P, F, Q), zs[k], H, R)\n"
         "        xs[k], Ps[k] = x, P\n    return xs, Ps",
     ),
+    Slip(
+        "update-not-carried-on",
+        "What the update finds is told and then forgotten: the next step goes on from the prediction. Go "
+        "on with the belief after the measurement.",
+        (
+            "x, P = update(x, P, z, H, R)\n        xs.append(x)\n        Ps.append(P)",
+            "now, left = update(x, P, z, H, R)\n        xs.append(now)\n        Ps.append(left)",
+        ),
+    ),
 )
 
 STUMBLES = (

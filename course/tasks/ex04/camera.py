@@ -107,7 +107,19 @@ SLIPS = (
         "The sign of u: columns count to the right, and Y counts to the left.",
         [_returns("-u", "-H")],
         _returns("-u", "H"),
+    ),
+    Slip(
+        "sign-of-H",
+        "u is right, and every entry of H has the wrong sign. The derivative of Y/X is (Y' X − Y X')/X², "
+        "in this order, and u has a minus before it.",
         _returns("u", "-H"),
+    ),
+    Slip(
+        "upside-down",
+        "The quotient is upside down: a landmark straight ahead, with Y = 0, appears in the middle of the "
+        "image, at u = 0.",
+        _returns("-F * X / Y", "H"),
+        _returns("-F * X / Y", "-F * (X_by * Y - X * Y_by) / Y**2"),
     ),
     Slip(
         "turned-the-wrong-way",

@@ -255,6 +255,23 @@ SLIPS = (
         (f"np.array({Z})", f"np.array({Z}).astype(int)"),
         (f"np.array({XR})", f"np.array({XR}).astype(int)"),
     ),
+    Slip(
+        "bearing-before-range",
+        "Range and bearing have changed places: z is range first, bearing second.",
+        [
+            (DIRECTION, "r, direction = z[1], x[2] + z[0]"),
+            ("r, c, s = z[0], " + ANGLE, "r, c, s = z[1], " + ANGLE.replace("z[1]", "z[0]")),
+        ],
+    ),
+    Slip(
+        "sines-for-cosines",
+        "Sine and cosine have changed places: a beam along the world's x axis, at the angle 0, leads to "
+        "(r, 0).",
+        [
+            (XR, "[[1, 0, -r * np.cos(direction)], [0, 1, r * np.sin(direction)]]"),
+            (Z, "[[s, -r * c], [c, r * s]]"),
+        ],
+    ),
 )
 
 STUMBLES = (

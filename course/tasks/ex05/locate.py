@@ -247,6 +247,12 @@ SLIPS = (
         (OUT, "if abs(v[0]) > 1:\n        return x.copy(), P.copy()\n    " + OUT),
         (OUT, "if abs(v[1]) > 1:\n        return x.copy(), P.copy()\n    " + OUT),
     ),
+    Slip(
+        "R-for-S",
+        "The gain is divided by R alone. An innovation scatters by the sensor's noise and by the doubt of "
+        "the pose: that is S.",
+        (K, "K = P @ H.T @ np.linalg.inv(R)"),
+    ),
 )
 
 STUMBLES = (

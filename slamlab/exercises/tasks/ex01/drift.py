@@ -56,7 +56,7 @@ DRIFT = Task(
         equals(
             "few",
             1,
-            "so far sideways a drive of no step, of one, two or three ends",
+            "a drive of no step, of one, two or three ends as far sideways as it should",
             _want,
             tolerance=NEAR,
             asks="A drive of one step: which of its errors was there before the robot moved?",
@@ -66,7 +66,7 @@ DRIFT = Task(
         equals(
             "spread",
             3,
-            "so far sideways a drive of several steps ends, one standard deviation",
+            "so does a drive of more steps: one standard deviation",
             _want,
             tolerance=NEAR,
             asks="How far sideways does the first error alone lead, and how far the last? How do "

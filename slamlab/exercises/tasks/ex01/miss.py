@@ -91,14 +91,14 @@ MISS = Task(
         _law(
             "lengths",
             1,
-            "so far the end errs in x and in y where wheels err in length only",
+            "the errors of the end in x and in y are right where wheels err in length only",
             "A step along +x is two per cent too long: what is that to the end's x, and to its y?",
             main=False,
         ),
         _law(
             "headings",
             2,
-            "so far it errs where wheels err in heading only",
+            "they are right where wheels err in heading only",
             "Hold a stick at one end and turn it by a small angle. Which way does its other end "
             "go, and how far? Which stick is it that an error at pose k turns?",
             main=False,
@@ -106,7 +106,7 @@ MISS = Task(
         _law(
             "both",
             3,
-            "so far it errs where they err in both manners",
+            "they are right where wheels err in both ways",
             "All errors are independent. Which of their numbers can be added up?",
             after=("lengths", "headings"),
         ),

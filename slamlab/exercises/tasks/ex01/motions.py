@@ -61,7 +61,7 @@ def laws_of_a_pose(want, places, heading, asks, step=None):
         small = np.abs(outputs["result"][:, 2]) <= np.pi + ROUNDING
         return turn.holds(inputs, outputs) & small
 
-    says = "and it is told as an angle between −π and π"
+    says = "and it is an angle between −π and π"
     return place, turn, replace(turn, name="wrapped", says=says, holds=within, asks=asks[2])
 
 

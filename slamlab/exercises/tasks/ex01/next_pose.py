@@ -65,7 +65,7 @@ NEXT_POSE = Task(
     shapes={"result": (3,)},
     laws=motions.laws_of_a_pose(
         _want,
-        "seen along the old heading, the robot moves forward and to the left as the step says",
+        "the robot moves forward and to the left as the step says, along its old heading",
         "the heading grows by the turn (full turns do not matter)",
         (
             "A robot looks along +y and drives one metre forward. Which of x and y grows? And if "

@@ -61,8 +61,8 @@ SEEN_FROM = Task(
     shapes={"result": (3,)},
     laws=motions.laws_of_a_pose(
         _want,
-        "who goes from a so far ahead and so far to the left comes to b",
-        "who turns from a by the turn looks where b looks (full turns do not matter)",
+        "going that far ahead and that far to the left leads from a to b",
+        "a robot at a that makes this turn looks where b looks (full turns do not matter)",
         (
             "You look along +y, and somebody stands one metre to the east of you. How far ahead of "
             "you is that, and how far to your left?",

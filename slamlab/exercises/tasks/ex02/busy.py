@@ -123,11 +123,40 @@ def _far_off(inputs, outputs):
         return np.log(np.maximum(outputs["result"][:, 0], 1e-9) / truth(inputs)[:, 0])
 
 
+def _right_after(*changes):
+    """Whether most answers are right once one of these was done to the two numbers of each."""
+
+    def matches(inputs, outputs):
+        tried = ({"result": np.column_stack(to(*outputs["result"].T))} for to in changes)
+        return any((np.median(offs(inputs, t), axis=0) < [0.3, 0.05]).all() for t in tried)
+
+    return matches
+
+
 MISTAKES = (
     Diagnosis(
         "swapped",
         "The two numbers have changed places: error comes first.",
-        lambda inputs, outputs: (offs(inputs, {"result": outputs["result"][:, ::-1]}) < 0.3).all(),
+        _right_after(lambda error, blocked: (blocked, error)),
+    ),
+    Diagnosis(
+        "kept",
+        "Your error is right, but your second number is the share of the wall's readings: asked is "
+        "the share of people.",
+        _right_after(lambda error, blocked: (error, 1 - blocked)),
+    ),
+    Diagnosis(
+        "squared",
+        "Your error is the square of the right one: a variance is σ², and asked is σ.",
+        _right_after(lambda error, blocked: (np.sqrt(np.abs(error)), blocked)),
+    ),
+    Diagnosis(
+        "in-per-cent",
+        "These are per cent. Both numbers are shares: 0.02 is 2 %.",
+        _right_after(
+            lambda error, blocked: (error / 100, blocked),
+            lambda error, blocked: (error / 100, blocked / 100),
+        ),
     ),
     Diagnosis(
         "people-counted",
@@ -137,8 +166,8 @@ MISTAKES = (
     ),
     Diagnosis(
         "too-small",
-        "Your error is far too small for most sensors: is too much cut off, or do beams count all "
-        "of whose readings fall on one step?",
+        "Your error is far too small for most sensors: is too much cut off, is too much taken away "
+        "for the rounding, or do beams count all of whose readings fall on one step?",
         lambda inputs, outputs: np.median(_far_off(inputs, outputs)) < -0.3,
     ),
     Diagnosis(

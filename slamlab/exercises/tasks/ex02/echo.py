@@ -119,7 +119,7 @@ def _on_the_way(inputs):
     a, b, _, s = _places(inputs)
     axis = inputs["phi"][:, None]
     ends = [wrap(np.arctan2(q[..., 1], q[..., 0]) - axis) for q in (a, b)]
-    return {"s of each foot": s, "the ends' bearings off the axis": np.stack(ends, axis=-1)}
+    return {"τ of each foot": s, "the ends' bearings off the axis": np.stack(ends, axis=-1)}
 
 
 def _law(name, points, says, ways, asks):
@@ -159,19 +159,19 @@ ECHO = Task(
             2,
             "where the nearest place lies inside a wall and inside the cone, that is how far it is",
             ["foot"],
-            "From which place of an endless wall does the first echo come, and at which s is it?",
+            "From which place of an endless wall does the first echo come, and at which τ is it?",
         ),
         _law(
             "end",
             2,
-            "and so where it is the end of a wall",
+            "the same where the nearest place is the end of a wall",
             ["end"],
             "When no foot of a perpendicular lies on a wall, which place of it is the nearest?",
         ),
         _law(
             "rim",
             0.5,
-            "and so where a wall leaves the cone at its nearest place",
+            "the same where it is the place at which a wall leaves the cone",
             ["rim"],
             "A wall begins outside the cone and comes in. Where is the first place that is heard?",
         ),

@@ -129,7 +129,7 @@ NOISE = Task(
         Law(
             "dropouts",
             1,
-            "the share of lost readings is dropouts, others in every scan",
+            "the share of lost readings is dropouts, and every scan loses others",
             _lost_by_chance,
             why=_why_lost,
             asks="A number is drawn evenly from 0 to 1. With which probability is it below 0.2?",
@@ -137,7 +137,7 @@ NOISE = Task(
         Law(
             "one by one",
             0.5,
-            "each beam is lost whatever the others do: so how many are lost varies",
+            "each beam is lost whatever the others do, so their number varies",
             _one_by_one,
             why=_why_one_by_one,
             asks="Ten beams, dropouts = 0.2: in how many scans of a hundred are just two lost?",
@@ -146,7 +146,7 @@ NOISE = Task(
         Law(
             "nothing",
             1,
-            "where there is nothing nothing comes back",
+            "what was NaN already stays NaN",
             _nothing_stays,
             asks="What is NaN plus a number, and does any line of yours replace NaN?",
             alone=False,

@@ -87,7 +87,7 @@ def far(inputs):
 
 def _on_the_way(inputs):
     t, s = crossing(inputs["p"], inputs["phi"], inputs["wall"])
-    return {"t": t, "s": s}
+    return {"r": t, "τ": s}
 
 
 def _law(kind, points, says, asks):
@@ -134,7 +134,8 @@ RAY_WALL = Task(
             2,
             "where a wall stands in the way, the point at that distance lies on the beam and "
             "between the wall's ends",
-            "At which t and s are p + t u and a + s w the same place?",
+            "What becomes of (02.1) where the beam starts at p? At which r and τ do both sides "
+            "name the same place?",
         ),
         _law(
             "behind",

@@ -171,6 +171,16 @@ def _wrapped(inputs, outputs):
     return bool((share > 2).any() and (np.abs(share - 1) < 0.5).any())
 
 
+def _about_zero(inputs, outputs):
+    """Whether the covariance is the second moment, from which no mean was subtracted."""
+    mean, best = ends(inputs)
+    excess = _outer(mean)
+    off, size = (
+        np.abs(S).max(axis=(1, 2)) for S in (outputs["covariance"] - best - excess, excess)
+    )
+    return bool(np.median(off / size) < 0.1)
+
+
 def _volume_off(factor):
     def matches(inputs, outputs):
         sizes = np.linalg.slogdet(outputs["covariance"])[1] - np.linalg.slogdet(ends(inputs)[1])[1]
@@ -241,6 +251,12 @@ TASK = Task(
             "Your mean is f(x, u), the end of a robot that has just the believed heading. Those "
             "that head elsewhere get less far in that direction: where is their average?",
             _straight_mean,
+        ),
+        Diagnosis(
+            "about-zero",
+            "You took the average of the squares of the ends themselves. A covariance is about the "
+            "mean: subtract it first.",
+            _about_zero,
         ),
         Diagnosis(
             "wrapped-ends",
