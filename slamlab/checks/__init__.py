@@ -11,6 +11,7 @@ Read in this order:
 
 import os
 import sys
+from difflib import get_close_matches
 
 from slamlab.exercises.drives import describe
 
@@ -178,7 +179,10 @@ def _run(task, namespace, tell):
                 else:
                     verdict = run(task, namespace, task.draw(OPEN_SEED))
             if verdict.kind == "missing":
-                verdict = task.failed("missing", f"{verdict.problem} yet: run the cell above")
+                near = get_close_matches(verdict.problem.split()[0], namespace, n=1, cutoff=0.8)
+                meant = f"; there is {near[0]}: is it meant?" if near else ""
+                problem = f"{verdict.problem} yet: run the cell above{meant}"
+                verdict = task.failed("missing", problem)
         except time_limit.TimeLimitExceeded:
             said = f"still running after {task.drive.seconds:g} s: an endless loop, or too slow"
             verdict = task.failed("time", said)

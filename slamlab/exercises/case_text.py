@@ -42,10 +42,11 @@ def format_case(task, case: Case) -> str | None:
         fails = textwrap.fill(fails, WIDTH, subsequent_indent="      ")
         return _joined([begin, *given, fails])
     if case.law.name == "unchanged":
-        names = list(case.inputs)
-        which = [int(k) for k in case.outputs[CHANGED]]
-        changed = " and ".join(names[k] if k < len(names) else f"argument {k}" for k in which)
-        return _joined([f"{function} changes {changed}: work on a copy, such as {changed}.copy()"])
+        names = task.drive.arguments or tuple(case.inputs)
+        changed = [names[int(k)] for k in case.outputs[CHANGED]]
+        copies = f"{changed[0]} = {changed[0]}.copy()"
+        told = f"{function} changes {' and '.join(changed)}: work on a copy, such as {copies}"
+        return _joined([told])
     got = {name: array for name, array in case.outputs.items() if name != CHANGED}
     want = case.law.want(case.inputs) if case.law.want else {}
     lines = _reason(case.law, case.inputs, got)

@@ -271,7 +271,7 @@ def test_what_is_changed_in_place_is_named():
         return turn(v / (1 + angle), angle)
 
     case = told(changes)
-    assert case == "    turn changes v: work on a copy, such as v.copy()"
+    assert case == "    turn changes v: work on a copy, such as v = v.copy()"
 
 
 def test_laws_that_hold_have_no_case_and_the_first_that_fails_is_shown():

@@ -57,6 +57,14 @@ def test_a_wrong_one_is_told_which_law_broke_how_often_and_the_hint_for_its_mist
         (double("return np.zeros(10**7)"), "double returned 10000000 numbers: too many"),
         (double("return a / 0 if a < 0 else np.inf"), "double returned NaN or infinity"),
         (double("return a") + "del double\n", "double is not defined yet: run the cell above"),
+        (
+            double("return a") + "doubel = double\ndel double\n",
+            "double is not defined yet: run the cell above; there is doubel: is it meant?",
+        ),
+        (
+            "class NoInput(NotImplementedError): pass\n" + double("raise NoInput('no input here')"),
+            "NoInput: no input here",
+        ),
         ("\ndouble = 2\n", "double is of type int, not a function"),
     ],
 )  # fmt: skip

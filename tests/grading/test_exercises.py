@@ -40,6 +40,19 @@ def test_what_is_handed_out_earns_nothing_and_all_its_cells_run_in_a_worker(id):
     assert result["cells"] == {}
 
 
+@pytest.mark.parametrize("id", EXERCISES)
+def test_an_argument_that_is_told_as_changed_has_the_name_that_it_has_in_the_notebook(id):
+    exercise = catalogue.exercise(id)
+    cells = notebooks.parse((ROOT / "exercises" / exercise.file).read_bytes()).cells
+    defined = [node for _, source in cells for node in ast.walk(ast.parse(source))]
+    defined = {node.name: node for node in defined if isinstance(node, ast.FunctionDef)}
+    for task in exercise.tasks:
+        told = task.drive.arguments or tuple(task.draw(b"a seed of the suite")[MAIN])
+        for function in set(task.drive.functions) & set(defined):
+            names = [argument.arg for argument in defined[function].args.args]
+            assert names == list(told[: len(names)]), (task.id, function)
+
+
 CONSTANTS = [0.0, 1.0, -1.0, 5e-324, 1e3, -1e6, MAX_MAGNITUDE, -MAX_MAGNITUDE]
 
 

@@ -9,9 +9,10 @@ import numpy as np
 import pytest
 
 from slamlab.checks import check, hint, ladder
+from slamlab.checks.time_limit import TimeLimitExceeded
 from slamlab.exercises.law import equals
 from tests.grading import fake
-from tests.grading.test_cases import TURN, turn, want
+from tests.grading.test_cases import SETS, TURN, turn, want
 from tests.grading.test_judge import judged
 
 SINE = re.compile(r"sine = (\S+)")
@@ -112,6 +113,19 @@ def test_a_function_that_hangs_ends(said):
             pass
 
     assert said(hangs).startswith("still running after 0.6 s")
+
+
+def test_a_case_that_takes_long_to_shrink_is_shown_as_it_is(said):
+    runs, all_inputs = [], sum(len(inputs["v"]) for inputs in SETS.values())
+
+    def tires(v, angle):
+        runs.append(v)
+        if len(runs) > all_inputs:  # what is called now has smaller numbers
+            raise TimeLimitExceeded
+        return right_turn(v, angle)
+
+    assert said(tires).startswith("A question: Where does the point (1, 0) go?")
+    assert len(runs) > all_inputs
 
 
 def test_what_a_function_prints_does_not_hide_the_hint(said):

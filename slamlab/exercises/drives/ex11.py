@@ -144,10 +144,12 @@ def _belief(pair, name, shapes):
     return samples, weights
 
 
+STEP = ("rows", "weights", "u", "C", "p", "z", "R", "rng")
+
 DRIVES = {
     "11-weigh": Drive(("log_likelihoods",), weighed),
-    "11-draw": Drive(("draw",), drawn),
-    "11-localise": Drive(("localise",), localised),
+    "11-draw": Drive(("draw",), drawn, arguments=("weights", "rng")),
+    "11-localise": Drive(("localise",), localised, arguments=STEP),
     "11-proposal": Drive(("reweigh",)),
-    "11-kidnapped": Drive(("find_again",), kept),
+    "11-kidnapped": Drive(("find_again",), kept, arguments=STEP),
 }

@@ -40,5 +40,7 @@ DRIVES = {
     "12-lost": Drive(("lost_since",)),
     "12-interval": Drive(("interval",), _counted),
     "12-paired": Drive(("compare",), _compared),
-    "12-relocalise": Drive(("relocalise",), _driven),
+    "12-relocalise": Drive(
+        ("relocalise",), _driven, arguments=("start", "motions", "sights", "posts")
+    ),
 }

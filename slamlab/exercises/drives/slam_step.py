@@ -31,9 +31,7 @@ def belief(value, function, size):
     for array, name, shape in ((x, "x", (n,)), (P, "P", (n, n))):
         if array.shape != shape:
             want = "a vector" if n is None else f"expected {shape}"
-            raise StudentError(
-                "malformed", f"{function} returned an {name} of shape {array.shape}, {want}"
-            )
+            raise StudentError("malformed", f"{function}'s {name} has shape {array.shape}, {want}")
     return x, P
 
 
@@ -90,7 +88,8 @@ def _whole(ids, name):
 
 def drive_of(function):
     """The drive of a filter's step by the name of the function that takes it."""
-    return Drive((function,), _driven)
+    arguments = ("x", "P", "ids", "u", "seen", "z", "C", "R")
+    return Drive((function,), _driven, arguments=arguments)
 
 
 SLAM_STEP = drive_of("slam_step")
