@@ -38,6 +38,9 @@ LOOK_THROUGH = """async (patience) => {
     return seen.size == widgets.length;
 }"""
 
+HAS_CODE = """() => window.jupyterapp.shell.currentWidget.content.widgets
+    .some(({ model }) => model.type == "code")"""
+
 CELLS_LEFT = """(before) => {
     const prompts = [...document.querySelectorAll(".jp-InputPrompt")];
     const left = prompts.filter((prompt) => prompt.textContent == "[*]:").length;
@@ -124,6 +127,8 @@ class Visit:
     def run_all_and_wait(self):
         """Run all cells and wait until the last one is done: as long as one after another ends."""
         self.run_all()
+        if not self.page.evaluate(HAS_CODE):
+            return  # nothing ever waits
         left = self._cells_left(0, "raf")  # they might not wait for long
         while left > 0:
             left = self._cells_left(left, SELDOM)
