@@ -43,6 +43,8 @@ SEEN = """() => {
             ".jp-RenderedMarkdown p, .jp-RenderedMarkdown li, .jp-RenderedMarkdown td, .cm-line, "
             + ".jp-OutputArea-output pre, mjx-container, .widget-label, .slamlab-telling")),
         figure_letters: LETTERS_OF_A_FIGURE * Math.min(...scales),
+        telling: [...page.querySelectorAll(".slamlab-telling")].filter(isSeen)
+            .map((one) => one.textContent),
         figure: alone && figures.length == 1 ? share : 1,
         shown: [...page.querySelectorAll(".jp-Cell")].filter(isSeen)
             .map((one) => one.dataset.windowedListIndex).join()
@@ -86,13 +88,18 @@ class Lecture:
 
     @property
     def seen(self):
-        """dict : stop, stops, shrink, cut, letters, figure_letters, figure, shown."""
+        """dict : stop, stops, shrink, cut, letters, figure_letters, telling, figure, shown."""
         return self.page.evaluate(SEEN)
 
     @property
     def runs(self):
         """bool, whether the deck is there."""
         return self.page.locator(".slamlab-deck").count() > 0
+
+    @property
+    def number(self):
+        """str, the number of the slide, of how many."""
+        return self.page.locator(".slamlab-number").text_content()
 
     def walk(self):
         """Go on by PageDown from where it is to the last stop.
