@@ -27,7 +27,7 @@ class Section:
     minutes : int, planned; 0 where nothing is
     letters : float, the smallest, as a part of their full size
     wrong : list of str, what must be mended before the lecture
-    slow : list of (str, float), cells over SLOW and their seconds
+    slow : list of (str, float), where cells over SLOW stand, and their seconds
     needs : list of str
     """
 
@@ -86,10 +86,11 @@ def rehearse(notebook, screen=SCREEN, patience=PATIENCE):
     with shown(notebook, screen) as page:
         ran = page.ask("rehearsal.js", "run", patience * 60_000)
         if ran["late"]:
-            waiting = [c["id"] for c in ran["cells"] if c["error"] == "was not run"]
+            waiting = [cell for cell in ran["cells"] if cell["error"] == "was not run"]
+            last = waiting[0] if waiting else ran["cells"][-1]
             raise ShowError(
                 f"after {patience:g} minutes the cells were not done; they got as far as "
-                f"{waiting[0] if waiting else 'the last one'}"
+                f"{last['title']}: {_place(last)}"
             )
         page.begin()
         stops = page.ask("rehearsal.js", "walk")
@@ -111,16 +112,12 @@ def findings(cells, stops, promised=None, errors=(), abroad=()):
     -------
     Rehearsed
     """
-    sections, firsts = [], []
-    for title, group in groupby(stops, key=lambda stop: stop["title"]):
-        some = list(group)
-        sections.append(_section(title, some))
-        firsts.append(some[0]["first"])
-    firsts[0] = 0  # what comes before the first slide is its, too
-    ends = [*firsts[1:], len(cells)]
+    by_title = groupby(stops, key=lambda stop: stop["title"])
+    sections = [_section(title, list(group)) for title, group in by_title]
     needed = needs([cell["code"] for cell in cells])
-    for section, begin, end in zip(sections, firsts, ends, strict=True):
-        _add_cells(section, cells[begin:end], needed[begin:end])
+    for cell, needs_of in zip(cells, needed, strict=True):
+        section = next(one for one in sections if cell["slide"] <= one.slides[1])
+        _add_cell(section, cell, needs_of)
     said = any(section.minutes for section in sections)
     plans = [{"minutes": section.minutes, "stops": section.stops} for section in sections]
     for section, minutes in zip(sections, planned(plans, promised), strict=True):
@@ -140,7 +137,7 @@ def _section(title, stops):
     section.minutes = sum(minutes.values())
     section.letters = min(stop["letters"] for stop in stops)
     for stop in stops:
-        place = f"slide {stop['slide']}, cell {stop['cell']}"
+        place = _place(stop)
         if stop["letters"] < SMALL:
             section.wrong.append(f"{place}: letters of {stop['letters']:.0%}")
         if not stop["fits"]:
@@ -149,12 +146,17 @@ def _section(title, stops):
     return section
 
 
-def _add_cells(section, cells, needed):
-    """Add what running a section's cells found."""
-    for cell, needs_of in zip(cells, needed, strict=True):
-        section.seconds += cell["seconds"]
-        if cell["seconds"] > SLOW:
-            section.slow.append((cell["id"], cell["seconds"]))
-        if cell["error"]:
-            section.wrong.append(f"cell {cell['id']}: {cell['error']}")
-        section.needs += [f"cell {cell['id']}: {need}" for need in needs_of]
+def _add_cell(section, cell, needed):
+    """Add what running a cell of a section found."""
+    place = _place(cell)
+    section.seconds += cell["seconds"]
+    if cell["seconds"] > SLOW:
+        section.slow.append((place, cell["seconds"]))
+    if cell["error"]:
+        section.wrong.append(f"{place}: {cell['error']}")
+    section.needs += [f"{place}: {need}" for need in needed]
+
+
+def _place(cell):
+    """Where a lecturer finds a cell: below its section's title, on this slide."""
+    return f"slide {cell['slide']}, cell {cell['id']}"

@@ -90,7 +90,7 @@ def marks(section):
 
 
 def _slow(section):
-    return [f"cell {cell}: {seconds:.1f} s" for cell, seconds in section.slow]
+    return [f"{place}: {seconds:.1f} s" for place, seconds in section.slow]
 
 
 def _listed(sections, of):

@@ -46,6 +46,8 @@ SEEN = """() => {
             ".jp-RenderedMarkdown p, .jp-RenderedMarkdown li, .jp-RenderedMarkdown td, .cm-line, "
             + ".jp-OutputArea-output pre, mjx-container, .widget-label, .slamlab-telling")),
         figure_letters: LETTERS_OF_A_FIGURE * Math.min(...scales),
+        telling: [...page.querySelectorAll(".slamlab-telling")].filter(isSeen)
+            .map((one) => one.textContent),
         figure: alone && figures.length == 1 ? share : 1,
         shown: [...page.querySelectorAll(".jp-Cell")].filter(isSeen)
             .map((one) => one.dataset.windowedListIndex).join()
@@ -89,7 +91,7 @@ class Lecture:
 
     @property
     def seen(self):
-        """dict : stop, stops, shrink, cut, letters, figure_letters, figure, shown."""
+        """dict : stop, stops, shrink, cut, letters, figure_letters, telling, figure, shown."""
         return self.page.evaluate(SEEN)
 
     @property
@@ -104,6 +106,11 @@ class Lecture:
     def go_on_to(self, what, is_seen):
         """Go on from where it is until something is seen."""
         assert any(is_seen() for _ in self.walk()), f"no slide shows {what}"
+
+    @property
+    def number(self):
+        """str, the number of the slide, of how many."""
+        return self.page.locator(".slamlab-number").text_content()
 
     def walk(self):
         """Go on by PageDown from where it is to the last stop.

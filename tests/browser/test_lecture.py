@@ -73,6 +73,8 @@ def walk_there_and_back(lecture, lesson, screen):
     least = FIGURE_LETTERS * height / 720 - 0.01
     assert [seen["stop"] for seen in stops if seen["figure_letters"] < least] == []
     assert [seen["stop"] for seen in stops if seen["figure"] < FIGURE] == []
+    torn = [line for seen in stops for line in seen["telling"] if line.endswith(("(", "[", "{"))]
+    assert torn == []  # a line that stands for folded code says something by itself
     for seen in reversed(stops[:-1]):
         lecture.press("PageUp")
         assert lecture.seen["shown"] == seen["shown"]
@@ -86,10 +88,20 @@ def cells_of(stops):
 
 
 def on_slides(lesson):
-    """Positions of the cells that are on slides."""
+    """Positions of the cells that are on slides: no notes, not skipped, and something to see."""
     cells = json.loads((ROOT / "notebooks" / lesson).read_text())["cells"]
-    types = [cell["metadata"].get("slideshow", {}).get("slide_type") for cell in cells]
-    return {n for n, kind in enumerate(types) if kind not in ("notes", "skip")}
+    return {n for n, cell in enumerate(cells) if not is_for_others(cell["metadata"]) and sees(cell)}
+
+
+def is_for_others(metadata):
+    """Whether a cell is for the speaker or for the kernel alone."""
+    return metadata.get("slideshow", {}).get("slide_type") in ("notes", "skip")
+
+
+def sees(cell):
+    """Whether a cell shows anything: text, an output, or code that is not folded away."""
+    hidden = cell["metadata"].get("jupyter", {}).get("source_hidden")
+    return cell["cell_type"] == "markdown" or bool(cell["outputs"]) or not hidden
 
 
 def test_pages_and_folded_answers_of_long_slides_are_all_shown(lecture):
@@ -137,7 +149,7 @@ def test_what_is_unlocked_changed_and_run_is_restored(lecture, lab_folder):
     lecture.visit.open(lesson)
     lecture.start()
     lecture.go_on_to("code", lecture.page.locator(CODE).count)
-    place = lecture.seen["stop"]
+    place, number = lecture.seen["stop"], lecture.number
     lecture.press("r")  # what the cell needs
     lecture.page.wait_for_function("() => !document.querySelector('.slamlab-notice').textContent")
     lecture.press("e")
@@ -153,6 +165,10 @@ def test_what_is_unlocked_changed_and_run_is_restored(lecture, lab_folder):
     assert json.loads(stored(lab_folder, lesson)) == before
     lecture.page.get_by_role("button", name="Restore it").click()
     assert lecture.page.get_by_text("changed 42").count() == 0
+    lecture.page.locator(".slamlab-lecture-start").click()  # at the slide that was left
+    lecture.page.wait_for_selector(".slamlab-deck .slamlab-bar")
+    assert lecture.number == number
+    lecture.end()
     lecture.visit.save()
     after = json.loads(stored(lab_folder, lesson))
     assert [(cell["source"], cell.get("outputs")) for cell in after["cells"]] == [

@@ -54,7 +54,7 @@ def test_a_failing_cell_and_a_slide_too_full_are_found(write, capsys):
 @pytest.mark.slow
 def test_cells_that_never_end_are_not_waited_for(write, capsys):
     assert main(["rehearse", str(write("time.sleep(1e6)")), "--patience", "0.3"]) == 2
-    assert "as far as the-cell" in capsys.readouterr().err
+    assert "as far as Second: slide 2, cell the-cell" in capsys.readouterr().err
 
 
 def test_a_handout_has_a_page_for_each_slide_and_its_text(write, tmp_path):

@@ -12,13 +12,14 @@ from slamlab.lecturing.rehearsal_report import report
 from slamlab.lecturing.shown_lesson import ShowError, lesson
 
 
-def cell(id, seconds=0.0, error="", code="pass"):
-    return {"id": id, "type": "code", "code": code, "seconds": seconds, "error": error}
+def cell(id, slide, seconds=0.0, error=""):
+    told = {"id": id, "type": "code", "code": "pass", "seconds": seconds, "error": error}
+    return told | {"slide": slide, "title": "as its slide's"}
 
 
-def stop(slide, title, first, cell="a", minutes=0, letters=1.0, fits=True):
-    keys = ("slide", "title", "first", "cell", "minutes", "letters", "fits")
-    return dict(zip(keys, (slide, title, first, cell, minutes, letters, fits), strict=True))
+def stop(slide, title, minutes=0, letters=1.0, fits=True):
+    told = {"slide": slide, "title": title, "id": "a", "minutes": minutes}
+    return told | {"letters": letters, "fits": fits}
 
 
 def told(rehearsed):
@@ -28,16 +29,17 @@ def told(rehearsed):
     return console.file.getvalue()
 
 
-CELLS = [cell("a", 0.5), cell("b", 3.0), cell("c", 0.1)]
-STOPS = [stop(1, "Head", 1, minutes=2), stop(2, "Two", 2), stop(2, "Two", 2, minutes=5)]
+CELLS = [cell("a", 1, 0.5), cell("b", 1, 3.0), cell("c", 2, 0.1)]
+FAILS = [*CELLS[:2], cell("c", 2, error="ValueError: no")]
+STOPS = [stop(1, "Head", minutes=2), stop(2, "Two"), stop(2, "Two", minutes=5)]
 
 
 def test_a_cells_time_counts_for_the_slide_it_stands_on_or_before():
     head, two = findings(CELLS, STOPS).sections
     assert (head.seconds, two.seconds) == (3.5, pytest.approx(0.1))
-    assert head.slow == [("b", 3.0)] and not two.slow
+    assert len(head.slow) == 1 and not two.slow
     assert (head.minutes, two.minutes) == (2, 5)
-    assert "cell b: 3.0 s" in told(findings(CELLS, STOPS))
+    assert "Head: slide 1, cell b: 3.0 s" in told(findings(CELLS, STOPS))
 
 
 def test_slow_is_not_wrong():
@@ -47,9 +49,9 @@ def test_slow_is_not_wrong():
 @pytest.mark.parametrize(
     ("cells", "stops", "more", "says"),
     [
-        ([*CELLS[:2], cell("c", error="ValueError: no")], STOPS, {}, "cell c: ValueError: no"),
-        (CELLS, [*STOPS, stop(2, "Two", 2, letters=0.7)], {}, "letters of 70%"),
-        (CELLS, [*STOPS, stop(2, "Two", 2, fits=False)], {}, "does not fit"),
+        (FAILS, STOPS, {}, "Two: slide 2, cell c: ValueError: no"),
+        (CELLS, [*STOPS, stop(2, "Two", letters=0.7)], {}, "letters of 70%"),
+        (CELLS, [*STOPS, stop(2, "Two", fits=False)], {}, "does not fit"),
         (CELLS, STOPS, {"promised": 8}, "planned for 7 minutes, its head says 8"),
         (CELLS, STOPS, {"errors": ["broken"]}, "the page says: broken"),
         (CELLS, STOPS, {"abroad": ["http://far"]}, "asks another machine: http://far"),

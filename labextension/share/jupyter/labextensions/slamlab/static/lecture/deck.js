@@ -5,6 +5,7 @@ import { guard } from "./guard.js";
 import { Bar } from "./bar.js";
 import { keysOf } from "./keys.js";
 import { layOut, pagesOf, zoomOf } from "./fit.js";
+import { goToCell } from "./place.js";
 import { foldCode, giveFoldingBack, lockCode, takeFolding } from "./code.js";
 import { Signal } from "./signal.js";
 import { refold, reveal, slidesOf, stopsOf, unfold } from "./stops.js";
@@ -167,10 +168,9 @@ export class Deck {
       lockCode(cell, false);
     }
     notebook.notebookConfig = this.config;
-    notebook.activeCellIndex = this.cell;
     panel.update();
     notebook.activate();
-    requestAnimationFrame(() => notebook.scrollToItem(this.cell, "start"));
+    goToCell(notebook, this.cell);
   }
 
   // The pages of a slide; laid out for the first time they may bring stops that were not known.

@@ -2,10 +2,12 @@
 
 import { fits } from "./fit.js";
 import { settled } from "./frames.js";
+import { slidesOf } from "./stops.js";
 
 const within = (ms, promise) => Promise.race([promise, new Promise((resolve) => { setTimeout(resolve, ms, "late"); })]);
 
-// Run all cells, for at most so many ms: whether they came to an end, and of each {id, type, code, slide, seconds, error}.
+// Run all cells, for at most so many ms: whether they came to an end, and of each
+// {id, type, code, seconds, error, slide (the one it stands on or behind, from 1), title}.
 export async function run(panel, patience) {
   const app = window.jupyterapp, notebook = panel.content;
   const runAll = async () => {
@@ -14,7 +16,14 @@ export async function run(panel, patience) {
     await app.commands.execute("notebook:run-all-cells");
   };
   const ended = await within(patience, runAll());
-  return { late: ended === "late", cells: [...notebook.model.cells].map(report) };
+  const slides = slidesOf(notebook);
+  const places = notebook.widgets.map((_, index) => placeOf(slides, index));
+  return { late: ended === "late", cells: [...notebook.model.cells].map((cell, k) => ({ ...report(cell), ...places[k] })) };
+}
+
+function placeOf(slides, index) {
+  const slide = Math.max(0, slides.findLastIndex(({ cells }) => cells[0] <= index));
+  return { slide: slide + 1, title: slides[slide]?.title ?? "" };
 }
 
 function report(cell) {
@@ -36,21 +45,20 @@ function errorOf(cell) {
   return cell.executionCount === null ? "was not run" : "";
 }
 
-// Step through all stops: of each {slide, title, minutes, cell (its id), first (the slide's, its index),
-// letters (as a part of their full size), fits}.
+// Step through all stops: of each {slide, title, minutes, id (of its cell), letters (as a part of their
+// full size), fits}.
 export async function walk(panel) {
   const deck = panel.slamlabDeck, seen = [];
   deck.go(0);
   for (let before = -1; deck.at !== before; deck.next()) {
     before = deck.at;
     await settled();
-    const { title, minutes, cells } = deck.slides[deck.slide];
+    const { title, minutes } = deck.slides[deck.slide];
     seen.push({
       slide: deck.slide + 1,
       title,
       minutes: minutes ?? 0,
-      first: cells[0],
-      cell: deck.notebook.widgets[deck.cell].model.id,
+      id: deck.notebook.widgets[deck.cell].model.id,
       letters: deck.shown.shrink,
       fits: fits(deck.page),
     });

@@ -1,6 +1,7 @@
 // What a lecture changes in a lesson is kept apart from its file until the lecturer says what to keep.
 
 import { button } from "../element.js";
+import { goToCell } from "./place.js";
 import { strip } from "./strip.js";
 
 // folding and unfolding moves a cell's keys about
@@ -22,9 +23,11 @@ export function keepFile(panel, Widget) {
     asking?.dispose();
   };
   const restore = () => {
+    const { activeCell } = panel.content, place = activeCell?.model.id;
     context.model.fromJSON(JSON.parse(before));
     context.model.dirty = wasDirty;
     release();
+    goToCell(panel.content, panel.content.widgets.findIndex(({ model }) => model.id === place));
   };
   context.slamlabKept = {
     end() {

@@ -2,14 +2,19 @@
 // one key press reveals: the slide's first cells, a fragment, what follows a question, a folded answer, a
 // step of an output.
 
+import { saysLittle } from "./code.js";
 import { questionIn } from "../questions.js";
 
 const STEP = ".slamlab-step";
 
 const typeOf = (cell) => cell.model.getMetadata("slideshow")?.slide_type ?? "-";
 
-// notes are for the speaker, skipped cells only for the kernel
-export const isShown = (cell) => !["notes", "skip"].includes(typeOf(cell));
+// Folded code that was run and gave no output: helpers of the next cell, nothing to see.
+const isSilent = ({ model }) => model.type === "code" && model.getMetadata("jupyter")?.source_hidden
+  && model.executionCount !== null && !model.outputs.length;
+
+// notes are for the speaker, skipped and silent cells only for the kernel
+export const isShown = (cell) => !["notes", "skip"].includes(typeOf(cell)) && !isSilent(cell);
 
 // HTML of a cell's outputs, whether they are drawn or not.
 export function htmlOf(cell) {
@@ -31,14 +36,17 @@ const isAnswer = (cell) =>
 export function slidesOf(notebook) {
   const slides = [];
   let section = { title: "", minutes: 0 };
+  let begins = true; // with the next cell that is shown
   notebook.widgets.forEach((cell, index) => {
     const type = typeOf(cell);
     const text = cell.model.sharedModel.getSource();
-    if (isShown(cell) && (["slide", "subslide"].includes(type) || !slides.length)) {
+    begins ||= ["slide", "subslide"].includes(type);
+    if (isShown(cell) && begins) {
       const heading = cell.model.type === "markdown" && /^#+ +(.+)$/m.exec(text)?.[1];
       const minutes = cell.model.getMetadata("slamlab")?.minutes;
       section = { title: heading || section.title, minutes };
       slides.push({ cells: [], notes: [], heads: Boolean(heading), ...section });
+      begins = false;
     }
     if (!slides.length) return;
     const slide = slides.at(-1);
@@ -49,13 +57,16 @@ export function slidesOf(notebook) {
 }
 
 // The stops of a slide: {slide, cell, step}; all cells up to `cell` are shown, and of this one the
-// first `step` of what waits in it. Pages begin at the cells named in `breaks`.
+// first `step` of what waits in it. Pages begin at the cells named in `breaks`. A line that stands for
+// folded code comes with what follows on its page.
 export function stopsOf(notebook, slide, number, breaks = []) {
   const stops = [];
   let asked = true; // a slide's first cell begins a stop, too
+  let waits = false; // for what follows
   slide.cells.forEach((index) => {
     const cell = notebook.widgets[index];
-    const begins = asked || typeOf(cell) === "fragment" || breaks.includes(index);
+    const begins = breaks.includes(index) || (!waits && (asked || typeOf(cell) === "fragment"));
+    waits = saysLittle(cell);
     asked = cell.model.type === "code" && Boolean(questionIn(cell.model.sharedModel.getSource()));
     const folded = Number(isFolded(cell));
     const waiting = folded + stepsOf(cell);

@@ -1,0 +1,200 @@
+"""Controls on a slide, worked by pointer where they are seen, and by keys; the kernel is asked."""
+
+# what the page sends the kernel: presses, values, and keys for a picture that is driven
+LISTEN = """() => {
+    const { kernel } = window.jupyterapp.shell.currentWidget.sessionContext.session;
+    window.slamlabHeard = [];
+    kernel.anyMessage.connect((_, { msg, direction }) => {
+        if (direction != "send" || msg.header.msg_type != "comm_msg") return;
+        const { method, state, content } = msg.content.data;
+        if (method == "custom" && content?.event == "click") window.slamlabHeard.push("click");
+        else if (method == "custom" && content?.kind == "key") window.slamlabHeard.push("key");
+        else if (method == "update" && ["value", "index", "world"].some((one) => one in state)) {
+            window.slamlabHeard.push("value");
+        }
+    });
+}"""
+
+# of each kind of control: what of it takes the pointer and the keys
+KINDS = {
+    "slider": ".widget-slider .noUi-handle",
+    "point": ".slamlab-handle",
+    "tick": "input[type=checkbox]",
+    "choice": "select",
+    "number": "input[type=number]",
+    "line": "input[type=text]",
+    "picture": "canvas[tabindex]",
+    "button": "button:not(.slamlab-handle)",
+}
+
+# the controls that can be seen now and had no number yet: marked with one each
+FIND = """(kinds) => {
+    const found = [];
+    const cells = ".slamlab-deck .jp-Cell:not(.slamlab-off) .jp-OutputArea-output";
+    for (const [kind, selector] of Object.entries(kinds)) {
+        const all = cells + " :is(" + selector + ")";
+        for (const one of document.querySelectorAll(all)) {
+            if (!one.getClientRects().length || one.disabled || one.dataset.control) continue;
+            if (getComputedStyle(one).visibility != "visible") continue;
+            one.dataset.control = window.slamlabControls = (window.slamlabControls ?? 0) + 1;
+            found.push([kind, one.dataset.control]);
+        }
+    }
+    return found;
+}"""
+NAMED = """(one) => one.getAttribute("aria-label") || one.textContent || one.placeholder
+    || one.closest(".jupyter-widgets")?.textContent || one.tagName"""
+
+
+class Controls:
+    """The controls of a lecture that has begun.
+
+    Parameters
+    ----------
+    lecture : Lecture
+    """
+
+    def __init__(self, lecture):
+        self.lecture, self.page = lecture, lecture.page
+        self.page.evaluate(LISTEN)
+
+    def unworked(self):
+        """The controls in sight that were not found before.
+
+        Yields
+        ------
+        (str, Locator), kind and place
+        """
+        for kind, number in self.page.evaluate(FIND, KINDS):
+            place = self.page.locator(f"[data-control='{number}']")
+            if place.count():  # what was worked before may have taken it away
+                yield kind, place
+
+    def work(self, kind, place):
+        """Work a control by pointer and by keys; what did not come, as sentences.
+
+        Returns
+        -------
+        list of str
+        """
+        name = f"{kind} {place.evaluate(NAMED).strip()[:40]!r} on slide {self.lecture.number}"
+        ways = {"by pointer": f"_point_{kind}", "by keys": f"_key_{kind}"}
+        wrong = [f"{name} {way}" for way, does in ways.items() if not getattr(self, does)(place)]
+        self.page.evaluate("() => document.activeElement.blur()")  # its keys are its own
+        return wrong
+
+    def _heard(self, what, does):
+        """Whether the kernel heard this once and nothing went astray, after something was done."""
+        self.page.evaluate("() => { window.slamlabHeard.length = 0; }")
+        does()
+        self.lecture.visit.settle()
+        return what in self.page.evaluate("window.slamlabHeard")
+
+    def _middle(self, place):
+        box = place.bounding_box()
+        return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+
+    def _click(self, place):
+        self.page.mouse.click(*self._middle(place))
+
+    def _drag(self, place, x, y):
+        self.page.mouse.move(*self._middle(place))
+        self.page.mouse.down()
+        self.page.mouse.move(x, y, steps=4)
+
+    def _press(self, place, *keys):
+        place.focus()
+        for key in keys:
+            self.page.keyboard.press(key)
+
+    def _share(self, handle):
+        """Where a slider stands, between 0 and 1."""
+        now, least, most = (
+            float(handle.get_attribute(f"aria-value{end}")) for end in ("now", "min", "max")
+        )
+        return (now - least) / (most - least)
+
+    def _point_slider(self, handle):
+        track = handle.locator("xpath=ancestor::*[contains(@class, 'noUi-target')]")
+        for share in (0.25, 0.75):
+            box = track.bounding_box()
+            at = box["x"] + share * box["width"], box["y"] + box["height"] / 2
+
+            def drag(at=at):
+                self._drag(handle, *at)
+                self.page.mouse.up()
+
+            # a slider of few steps goes to the next one
+            if not self._heard("value", drag) or abs(self._share(handle) - share) > 0.26:
+                return False
+        return True
+
+    def _key_slider(self, handle):
+        before = self._share(handle)
+        key = "ArrowLeft" if before > 0.5 else "ArrowRight"
+        heard = self._heard("value", lambda: self._press(handle, key))
+        return heard and self._share(handle) != before
+
+    def _point_point(self, handle):
+        x, y = self._middle(handle)
+
+        def drag():
+            self._drag(handle, x + 30, y)
+            self.page.wait_for_timeout(50)  # drawn with the next frame
+            self.off = abs(self._middle(handle)[0] - x - 30)
+            self.page.mouse.up()
+
+        return self._heard("value", drag) and self.off < 6
+
+    def _key_point(self, handle):
+        return self._heard("value", lambda: self._press(handle, "ArrowLeft"))
+
+    def _point_tick(self, box):
+        return self._heard("value", lambda: self._click(box))
+
+    def _key_tick(self, box):
+        return self._heard("value", lambda: self._press(box, "Space"))
+
+    def _point_choice(self, select):
+        self._click(select)  # the list that opens is the browser's own
+        self.page.keyboard.press("Escape")
+        return select.evaluate("(one) => one === document.activeElement")
+
+    def _key_choice(self, select):
+        last = select.evaluate("(one) => one.selectedIndex == one.length - 1")
+        key = "ArrowUp" if last else "ArrowDown"
+        return self._heard("value", lambda: self._press(select, key))
+
+    def _point_number(self, field):
+        return self._typed(field, "7")
+
+    def _key_number(self, field):
+        return self._heard("value", lambda: self._press(field, "ArrowUp", "Enter"))
+
+    def _point_line(self, field):
+        return self._typed(field, "0, 10")
+
+    def _key_line(self, field):
+        return self._typed(field, "0, 20", by_pointer=False)
+
+    def _typed(self, field, text, by_pointer=True):
+        def type_it():
+            self._click(field) if by_pointer else field.focus()
+            self.page.keyboard.press("Control+a")
+            self.page.keyboard.type(text)
+            self.page.keyboard.press("Enter")
+
+        return self._heard("value", type_it)
+
+    def _point_picture(self, canvas):
+        self._click(canvas)
+        return canvas.evaluate("(one) => one === document.activeElement")
+
+    def _key_picture(self, canvas):
+        return self._heard("key", lambda: self._press(canvas, "ArrowUp"))
+
+    def _point_button(self, button):
+        return self._heard("click", lambda: self._click(button))
+
+    def _key_button(self, button):
+        return self._heard("click", lambda: self._press(button, "Space"))
