@@ -54,9 +54,32 @@ def slider(name, options, first):
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=4
 # ## Home again
 #
-# A robot drives once round a corridor, 42 m, and ends where it began. We let three estimators draw the map
-# from the same simulated readings: the wheels alone; `icp`, lesson 13's careful matcher, which lays each scan over
-# a *submap* of the ones just before it; and `graph`, which this lesson builds.
+# A robot drives once round a corridor, 42 m, and ends where it began. Here is the map by its wheels alone.
+
+
+# %% slideshow={"slide_type": "skip"} tags=["folded"]
+def laid(poses, clouds, name="corrected"):
+    """A track, and the scans as it lays them, by what the legend calls them."""
+    xy = [transform(pose, cloud[::3]) for pose, cloud in zip(poses, clouds, strict=True)]
+    words = {"naive": "by wheels", "corrected": "corrected"}[name]
+    return {f"scans, {words}": Points(name, np.vstack(xy)), f"track, {words}": Poses(name, poses)}
+
+
+# %% slideshow={"slide_type": "fragment"} tags=["folded"]
+corridor = sources.open("sim:corridor", np.random.default_rng(0))
+readings, truth = list(corridor), corridor.truth.poses
+tracks = {"wheels": run(corridor, estimators.DeadReckoning()).trajectory.poses}
+gaps = {"wheels": 100 * np.hypot(*(tracks["wheels"][-1] - truth[-1])[:2])}
+some = slice(0, None, 4)
+clouds = [reading.scan.points() for reading in readings[some]]
+wheels_map = laid(tracks["wheels"][some], clouds, "naive")
+fig, _ = views.side_by_side({"wheels alone": wheels_map}, size=(6, 4.2))
+views.show(fig, f"A corridor whose end lies {gaps['wheels'] / 100:.1f} m beside its start.")
+
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# By wheels the corridor ends beside itself, {= gaps["wheels"] / 100:.1f =} m off. Two more estimators draw the map from the
+# same simulated readings: `icp`, lesson 13's careful matcher, which lays each scan over the one before it; and `graph`,
+# which this lesson builds.
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
@@ -65,7 +88,7 @@ ask(
     "believed end miss the start, for the matcher `icp`?**",
     {
         "by nothing: the last scan looks like the first": "it does, but nobody compares these two. The matcher "
-        "compares a scan with the few before it, and does not know that it has come back.",
+        "compares a scan with the one before it, and does not know that it has come back.",
         "by some centimetres": "each match is off by a little, and the errors of more than a hundred matches add "
         "up.",
         "by metres, as the wheels": "matching replaces the error of the wheels by one that is far smaller.",
@@ -74,31 +97,14 @@ ask(
 )
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"] answers="15-ends"
-corridor = sources.open("sim:corridor", np.random.default_rng(0))
-readings, truth = list(corridor), corridor.truth.poses
-runs = {name: run(corridor, estimators.make(name, corridor)) for name in ("icp", "graph")}
-tracks = {"wheels": runs["graph"].naive.poses}
-tracks |= {name: each.trajectory.poses for name, each in runs.items()}
-gaps = {name: 100 * np.hypot(*(poses[-1] - truth[-1])[:2]) for name, poses in tracks.items()}
+for name in ("icp", "graph"):
+    tracks[name] = run(corridor, estimators.make(name, corridor)).trajectory.poses
+    gaps[name] = 100 * np.hypot(*(tracks[name][-1] - truth[-1])[:2])
 for name, gap in gaps.items():
     print(f"{name:>6}: the end misses the start by {gap:5.1f} cm")
 
-
-# %% slideshow={"slide_type": "subslide"} answers="15-ends"
-def laid(poses, clouds, name="corrected"):
-    """A track, and the scans as it lays them, by what the legend calls them."""
-    xy = [transform(pose, cloud[::3]) for pose, cloud in zip(poses, clouds, strict=True)]
-    words = {"naive": "by wheels", "corrected": "corrected"}[name]
-    return {f"scans, {words}": Points(name, np.vstack(xy)), f"track, {words}": Poses(name, poses)}
-
-
-# %% slideshow={"slide_type": "fragment"} answers="15-ends" tags=["folded"]
-some = slice(0, None, 4)
-clouds = [reading.scan.points() for reading in readings[some]]
-shown = {
-    "wheels alone": laid(tracks["wheels"][some], clouds, "naive"),
-    "graph": laid(tracks["graph"][some], clouds),
-}
+# %% slideshow={"slide_type": "subslide"} answers="15-ends" tags=["folded"]
+shown = {"wheels alone": wheels_map, "graph": laid(tracks["graph"][some], clouds)}
 fig, _ = views.side_by_side(shown, size=(9, 4.2))
 views.show(
     fig,
@@ -107,10 +113,9 @@ views.show(
 )
 
 # %% [markdown] slideshow={"slide_type": "subslide"} answers="15-ends"
-# By wheels the corridor ends beside itself, {= gaps["wheels"] / 100:.1f =} m off. The matcher is
-# {= gaps["wheels"] / gaps["icp"]:.0f =} times better, but it misses by {= gaps["icp"]:.0f =} cm all the same, and each
-# further lap would add to that. With `graph` the ends meet within {= max(1, np.ceil(gaps["graph"])):.0f =} cm, since it
-# *knows* that they are one place.
+# The matcher is {= gaps["wheels"] / gaps["icp"]:.0f =} times better than the wheels, but it misses by
+# {= gaps["icp"]:.0f =} cm all the same, and each further lap would add to that. With `graph` the ends meet within
+# {= max(1, np.ceil(gaps["graph"])):.0f =} cm, since it *knows* that they are one place.
 #
 # To find such a place, and to mend the map by it, is called **closing the loop**.
 
