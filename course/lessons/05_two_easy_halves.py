@@ -600,7 +600,7 @@ views.show(fig, f"The squared errors fall as one over k, over {looks[-1]} sights
 # %% slideshow={"slide_type": "fragment"}
 ask(
     "05-trust",
-    "We draw the map once more, but from the poses that the wheels tell, as if they were exact. "
+    "We draw the map once more, but from the poses that the wheels report, as if they were exact. "
     "What do the ellipses of the landmarks do?",
     {
         "they grow, as the poses are worse": "nobody told the filter: it computes its ellipses "
