@@ -17,6 +17,7 @@
 
 # %% slideshow={"slide_type": "skip"} tags=["folded"]
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import sympy as sp
@@ -417,8 +418,13 @@ ask(
 
 
 # %% slideshow={"slide_type": "fragment"}
+@cache
+def nees_off_by(metres):
+    return two_halves.mean_nees(laps_located(metres, 20))
+
+
 def wrong_map(landmarks_off_by):
-    wrong = two_halves.mean_nees(laps_located(landmarks_off_by, 20))
+    wrong = nees_off_by(landmarks_off_by)
     name = f"map off by {landmarks_off_by:.2f} m"
     values = {"exact map": exact, name: wrong}
     title, steps = f"{name}: mean NEES {wrong.mean():.1f}", np.arange(len(run))
@@ -434,7 +440,7 @@ views.explore(
     ),
     landmarks_off_by=(0.0, 0.5, 0.3),
 )
-off = {metres: two_halves.mean_nees(laps_located(metres, 20)).mean() for metres in (0.05, 0.3)}
+off = {metres: nees_off_by(metres).mean() for metres in (0.05, 0.3)}
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="05-wrong-map"
 # The scale is logarithmic. With landmarks off by 0.3 m, NEES is {= off[0.3]:.0f =} on average instead of 3,
@@ -594,7 +600,7 @@ views.show(fig, f"The squared errors fall as one over k, over {looks[-1]} sights
 # %% slideshow={"slide_type": "fragment"}
 ask(
     "05-trust",
-    "We draw the map once more, but from the poses that the wheels tell, as if they were exact. "
+    "We draw the map once more, but from the poses that the wheels report, as if they were exact. "
     "What do the ellipses of the landmarks do?",
     {
         "they grow, as the poses are worse": "nobody told the filter: it computes its ellipses "

@@ -20,6 +20,7 @@
 
 # %% slideshow={"slide_type": "skip"} tags=["folded"]
 from dataclasses import replace
+from functools import lru_cache
 
 import numpy as np
 import sympy as sp
@@ -681,15 +682,15 @@ ask(
 
 
 # %% slideshow={"slide_type": "fragment"}
-def driven_with(sight, turn_noise, count=12):
-    """Runs of a loop with this sight [m] and noise of its turns [°/s]; poses and covariances."""
+@lru_cache(4)
+def driven_with(sight, turn_noise):
+    """12 runs of a loop with this sight [m] and noise of its turns [°/s]; poses and covariances."""
     loop = replace(LOOP, range_max=sight, omega_sigma=np.radians(turn_noise))
-    for seed in range(count):
-        one, mak = (
-            LandmarkRun(loop, np.random.default_rng(seed)),
-            MAK(np.zeros(3), np.zeros((3, 3))),
-        )
-        yield one, *broken_slam.drive(one, mak), mak
+    runs = [LandmarkRun(loop, np.random.default_rng(seed)) for seed in range(12)]
+    filters = [MAK(np.zeros(3), np.zeros((3, 3))) for _ in runs]
+    return [
+        (one, *broken_slam.drive(one, mak), mak) for one, mak in zip(runs, filters, strict=True)
+    ]
 
 
 SETTLED, LIMITS = 10, band(3, 12)  # P is zero at first: NEES means nothing yet
@@ -700,7 +701,7 @@ def mean_nees(drives):
 
 
 # %% slideshow={"slide_type": "fragment"} answers="06-honest" tags=["folded"]
-by_sight = {sight: list(driven_with(sight, 1.8)) for sight in (1.5, 4.0)}
+by_sight = {sight: driven_with(sight, 1.8) for sight in (1.5, 4.0)}
 short, far_sighted = map(mean_nees, by_sight.values())
 better = {
     sight: sum(
@@ -730,7 +731,7 @@ as_before = mean_nees(driven_with(2.5, 0.7))
 
 
 def sight_and_noise(sight, turn_noise):
-    drives = list(driven_with(sight, turn_noise))
+    drives = driven_with(sight, turn_noise)
     one, way, _, mak = drives[4]
     values = mean_nees(drives)
     fig, (left, right) = views.panels(["one of 12 runs", "all 12 runs"], (11, 5.2), shared=False)

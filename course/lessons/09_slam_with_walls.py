@@ -104,7 +104,7 @@ views.show(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="09-odometry"
-# The middle one of 60 drives ends {= 100 * many["situation-1"]["odometry"]["final_m"]:.0f =} cm off,
+# The median of 60 drives ends {= 100 * many["situation-1"]["odometry"]["final_m"]:.0f =} cm off,
 # and the worst {= 100 * many["situation-1"]["odometry"]["final_m_worst"]:.0f =} cm. The drive of the
 # picture ends {= 100 * np.hypot(*(naive["situation-1"] - sources["situation-1"].truth.poses)[-1, :2]):.0f =}
 # cm off, by luck: its heading is wrong by {= abs(wrong):.0f =}°, but a round trip ends near where it began.
@@ -366,8 +366,8 @@ views.show(
 # ## Drive it yourself
 #
 # Choose a simulation and press **run**. The first two drive the tour and then listen to the arrow
-# keys; "by hand" listens at once: click the picture first. Red are the points of all scans, blue the
-# walls of the map, and the robot has an ellipse, where one can see it. (Without a running kernel you
+# keys; "by hand" listens at once: click the picture first. The points of all scans are red, the walls
+# of the map blue; the robot has an ellipse where it is large enough to be seen. (Without a running kernel you
 # see a still picture.)
 #
 # Try to make the robot unsure. In which corner of the building would that be easiest?
@@ -630,7 +630,7 @@ Markdown("\n".join(rows))
 #
 # Walls placed before predict lose the robot: it is
 # {= 100 * tours[1]["placed before predict"]["rms_m"]:.0f =} cm off in situation 2, and odometry
-# {= 100 * tours[1]["odometry"]["rms_m"]:.0f =} cm. Degrees leave the robot better than its wheels, but NEES is
+# {= 100 * tours[1]["odometry"]["rms_m"]:.0f =} cm. With degrees the robot does better than by its wheels, but NEES is
 # {= tours[1]["degrees in the Jacobians"]["nees"]:.0f =}, and so true walls fail the gate and enter the
 # map again: it holds {= tours[1]["degrees in the Jacobians"]["walls"]:.0f =} walls instead of
 # {= tours[1]["as it should be"]["walls"]:.0f =}.
@@ -662,7 +662,7 @@ PARTS = [name for name in reversed(spoilt_walls.VARIANTS) if name not in own_lin
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Spoil it yourself
 #
-# Choose a part, and turn the number of sightings and the gate. Does a wider gate help against any of
+# Choose a part, and move the number of sightings and the gate. Does a wider gate help against any of
 # these mistakes? Does patience?
 
 # %% slideshow={"slide_type": "fragment"} tags=["folded"]
@@ -994,7 +994,7 @@ for row in sound["incidences"]:
     print(f"echoes up to {row['degrees']:2}° off square on: {told}")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# Without the rule nearly every fifth "wall" is none. With it a bit more than half of the lines are left,
+# Without the rule nearly every fifth "wall" is no wall. With it a bit more than half of the lines are left,
 # and nearly all are right. Smooth walls are another limit: if only echoes up to 10° come back, only flat
 # pieces are left, and these tell no direction.
 
@@ -1210,7 +1210,7 @@ Markdown("\n".join(rows))
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### His constants
 #
-# Turn them, with all mends or as printed. (60 scans of situation 2.)
+# Move them, with all mends or as printed. (60 scans of situation 2.)
 
 
 # %% slideshow={"slide_type": "fragment"} tags=["folded"]

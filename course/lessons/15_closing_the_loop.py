@@ -54,9 +54,32 @@ def slider(name, options, first):
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=4
 # ## Home again
 #
-# A robot drives once round a corridor, 42 m, and ends where it began. We let three estimators draw the map
-# from the same simulated readings: the wheels alone; `icp`, lesson 13's careful matcher, which lays each scan over
-# a *submap* of the ones just before it; and `graph`, which this lesson builds.
+# A robot drives once round a corridor, 42 m, and ends where it began. Here is the map by its wheels alone.
+
+
+# %% slideshow={"slide_type": "skip"} tags=["folded"]
+def laid(poses, clouds, name="corrected"):
+    """A track, and the scans as it lays them, by what the legend calls them."""
+    xy = [transform(pose, cloud[::3]) for pose, cloud in zip(poses, clouds, strict=True)]
+    words = {"naive": "by wheels", "corrected": "corrected"}[name]
+    return {f"scans, {words}": Points(name, np.vstack(xy)), f"track, {words}": Poses(name, poses)}
+
+
+# %% slideshow={"slide_type": "fragment"} tags=["folded"]
+corridor = sources.open("sim:corridor", np.random.default_rng(0))
+readings, truth = list(corridor), corridor.truth.poses
+tracks = {"wheels": run(corridor, estimators.DeadReckoning()).trajectory.poses}
+gaps = {"wheels": 100 * np.hypot(*(tracks["wheels"][-1] - truth[-1])[:2])}
+some = slice(0, None, 4)
+clouds = [reading.scan.points() for reading in readings[some]]
+wheels_map = laid(tracks["wheels"][some], clouds, "naive")
+fig, _ = views.side_by_side({"wheels alone": wheels_map}, size=(6, 4.2))
+views.show(fig, f"A corridor whose end lies {gaps['wheels'] / 100:.1f} m beside its start.")
+
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# By wheels the corridor ends beside itself, {= gaps["wheels"] / 100:.1f =} m off. Two more estimators draw the map from the
+# same simulated readings: `icp`, lesson 13's careful matcher, which lays each scan over the one before it; and `graph`,
+# which this lesson builds.
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
@@ -65,7 +88,7 @@ ask(
     "believed end miss the start, for the matcher `icp`?**",
     {
         "by nothing: the last scan looks like the first": "it does, but nobody compares these two. The matcher "
-        "compares a scan with the few before it, and does not know that it has come back.",
+        "compares a scan with the one before it, and does not know that it has come back.",
         "by some centimetres": "each match is off by a little, and the errors of more than a hundred matches add "
         "up.",
         "by metres, as the wheels": "matching replaces the error of the wheels by one that is far smaller.",
@@ -74,31 +97,14 @@ ask(
 )
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"] answers="15-ends"
-corridor = sources.open("sim:corridor", np.random.default_rng(0))
-readings, truth = list(corridor), corridor.truth.poses
-runs = {name: run(corridor, estimators.make(name, corridor)) for name in ("icp", "graph")}
-tracks = {"wheels": runs["graph"].naive.poses}
-tracks |= {name: each.trajectory.poses for name, each in runs.items()}
-gaps = {name: 100 * np.hypot(*(poses[-1] - truth[-1])[:2]) for name, poses in tracks.items()}
+for name in ("icp", "graph"):
+    tracks[name] = run(corridor, estimators.make(name, corridor)).trajectory.poses
+    gaps[name] = 100 * np.hypot(*(tracks[name][-1] - truth[-1])[:2])
 for name, gap in gaps.items():
     print(f"{name:>6}: the end misses the start by {gap:5.1f} cm")
 
-
-# %% slideshow={"slide_type": "subslide"} answers="15-ends"
-def laid(poses, clouds, name="corrected"):
-    """A track, and the scans as it lays them, by what the legend calls them."""
-    xy = [transform(pose, cloud[::3]) for pose, cloud in zip(poses, clouds, strict=True)]
-    words = {"naive": "by wheels", "corrected": "corrected"}[name]
-    return {f"scans, {words}": Points(name, np.vstack(xy)), f"track, {words}": Poses(name, poses)}
-
-
-# %% slideshow={"slide_type": "fragment"} answers="15-ends" tags=["folded"]
-some = slice(0, None, 4)
-clouds = [reading.scan.points() for reading in readings[some]]
-shown = {
-    "wheels alone": laid(tracks["wheels"][some], clouds, "naive"),
-    "graph": laid(tracks["graph"][some], clouds),
-}
+# %% slideshow={"slide_type": "subslide"} answers="15-ends" tags=["folded"]
+shown = {"wheels alone": wheels_map, "graph": laid(tracks["graph"][some], clouds)}
 fig, _ = views.side_by_side(shown, size=(9, 4.2))
 views.show(
     fig,
@@ -107,10 +113,9 @@ views.show(
 )
 
 # %% [markdown] slideshow={"slide_type": "subslide"} answers="15-ends"
-# By wheels the corridor ends beside itself, {= gaps["wheels"] / 100:.1f =} m off. The matcher is
-# {= gaps["wheels"] / gaps["icp"]:.0f =} times better, but it misses by {= gaps["icp"]:.0f =} cm all the same, and each
-# further lap would add to that. With `graph` the ends meet within {= max(1, np.ceil(gaps["graph"])):.0f =} cm, since it
-# *knows* that they are one place.
+# The matcher is {= gaps["wheels"] / gaps["icp"]:.0f =} times better than the wheels, but it misses by
+# {= gaps["icp"]:.0f =} cm all the same, and each further lap would add to that. With `graph` the ends meet within
+# {= max(1, np.ceil(gaps["graph"])):.0f =} cm, since it *knows* that they are one place.
 #
 # To find such a place, and to mend the map by it, is called **closing the loop**.
 
@@ -559,7 +564,7 @@ views.explore(
 # sees its own beginning, and the whole map snaps shut.
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="15-halfway"
-# A $\chi^2$ of {= optimum.chi2:.0f =} is more than chance would have: 11.3 is exceeded once in a hundred. These wheels err always
+# A $\chi^2$ of {= optimum.chi2:.0f =} is more than chance would have: 11.3 is exceeded once in a hundred. These wheels always err
 # to the same side, while $Q$ takes each step's error for a new one.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
@@ -572,7 +577,7 @@ views.explore(
 # That loop was given. A robot has to find it, in three steps: **propose, verify, optimise**.
 #
 # *Propose:* an old pose is a candidate if it may be near. That is: near by what is believed, allowing for the drift since
-# then. The robot of the handshake is {= off["wheels"][-1]:.1f =} m beside itself. If it asks only within 1.5 m, it does not
+# then. The robot of the handshake is {= off["wheels"][-1]:.1f =} m from where it believes it is. If it asks only within 1.5 m, it does not
 # find its start.
 #
 # *Verify* (the field says geometric verification): lay the new scan over the old one, and ask lesson 13's matcher for its
@@ -582,7 +587,7 @@ views.explore(
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Three pairs of scans
 #
-# The end of the corridor and its start; two scans in a bare corridor, 3 m apart; and two different corners of ours.
+# The end of the corridor and its start; two scans in a bare corridor, 3 m apart; and two different corners of our corridor.
 
 # %% slideshow={"slide_type": "fragment"}
 bare, rng = World([[-30, -1, 30, -1], [-30, 1, 30, 1]]), np.random.default_rng(1)
@@ -616,7 +621,7 @@ views.show(
 # All three look good, and only the first is a loop. In the bare corridor the verdict says what is wrong: nothing is fixed
 # along it, so the two might be 3 m apart, or in one place. Such a match closes nothing.
 #
-# The third is the trap. A corner is a corner, and *nothing* in the two scans says that these are two.
+# The third is the trap. A corner is a corner, and *nothing* in the two scans says that there are two of them.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* "fits" is said of all three. Let the class invent further tests: higher overlap, more scans at once (the
@@ -716,7 +721,7 @@ ask(
     {
         "about one in a hundred": "that would be so if the wheels erred by chance alone, as Q says. They err "
         "systematically as well: one wheel is always a little larger.",
-        "many more than one in a hundred": "the wheels err always to the same side, and by more than Q claims after a long "
+        "many more than one in a hundred": "the wheels always err to the same side, and by more than Q claims after a long "
         "way. So right loops come as a surprise.",
         "none: right loops do not surprise": "every loop says something new, or it would be of no use.",
     },
@@ -853,7 +858,7 @@ views.explore(
 #
 # 1. Offer one false loop, then two, then five. Where does the map break?
 # 2. With two false loops, raise $\Phi$ to 100: now two are enough. Lower it to 1: right loops lose their weight, too.
-# 3. With all false loops on offer, lower the gate. From where on is the map whole? And what happens when the gate is so low that it
+# 3. With all false loops on offer, lower the gate. Below which gate is the map whole? And what happens when the gate is so low that it
 #    refuses right loops?
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"] answers="15-liars"
@@ -899,7 +904,7 @@ print({name: f"{cost:,.0f}" for name, cost in paid.items()})
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## A map that changes its mind
 #
-# A robot that comes back may find a door open that was closed. Points pile up, and keep both for ever. The cure is the *occupancy
+# A robot that comes back may find a door open that was closed. A map of points only piles up, and keeps both for ever. The cure is the *occupancy
 # grid* of Moravec and Elfes. Each cell keeps the **odds** that it is occupied, the probability that it is over the probability
 # that it is not. If a cell of which nobody knows anything has even odds, then by Bayes' rule the odds $o$ after a scan are
 #
@@ -912,7 +917,7 @@ print({name: f"{cost:,.0f}" for name, cost in paid.items()})
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### The clamp
 #
-# A door that was seen closed in 40 scans has enormous odds. So log odds are **clamped**: no cell is believed by more than 97 %. Now
+# A door that was seen closed in 40 scans has enormous odds. So log odds are **clamped**: no cell is held to be occupied, or free, with more than 97 %. Now
 # the door is open. A map for ROS calls a cell free below a probability of 0.196. How many scans does it take?
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
@@ -969,7 +974,7 @@ print("read again, the same cells:", bool((again.states == grid.states).all()))
 # ## A real building
 #
 # Back to lesson 01's real log: {= intel_maps.stored().readings =} scans in {= intel_maps.stored().minutes:.0f =} minutes through the
-# Intel Research Lab, several laps, raw odometry. The matcher's map had many walls twice. The recording is not part of the course, so
+# Intel Research Lab, several laps, raw odometry. The matcher's map showed many walls twice. The recording is not part of the course, so
 # these maps were computed before and are stored; everything else in this lesson is simulated.
 
 # %% slideshow={"slide_type": "subslide"} tags=["folded"]

@@ -4,12 +4,23 @@ import json
 import re
 from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 from slamlab.exercises import catalogue
 from slamlab.exercises.report import number
 
 QUESTION = re.compile(r"\bask\(\s*\"([^\"\\]+)\"")
 """A question and its id, where a cell asks it."""
+
+
+class Answers(NamedTuple):
+    """How many of a notebook's questions were answered: both int."""
+
+    given: int
+    asked: int
+
+    def __str__(self):
+        return f"{self.given} of {self.asked}" if self.asked else "–"
 
 
 @dataclass(frozen=True)
@@ -20,7 +31,7 @@ class Row:
     ----------
     id : str such as "04"
     title : str
-    answered, questions : int, of the lesson
+    in_lesson, in_exercise : Answers
     marks : str, a letter a task: ● all points, ◐ some, ○ none yet
     points, of : float
     minutes : float
@@ -28,8 +39,8 @@ class Row:
 
     id: str
     title: str
-    answered: int
-    questions: int
+    in_lesson: Answers
+    in_exercise: Answers
     marks: str
     points: float
     of: float
@@ -41,7 +52,7 @@ def rows(folder: Path | None, progress: dict) -> list[Row]:
 
     Parameters
     ----------
-    folder : Path, of the course, whose lessons are looked into for questions; None for none
+    folder : Path, of the course, whose notebooks are looked into for questions; None for none
     progress : dict, as ``progress_file.read`` returns it
 
     Returns
@@ -56,13 +67,14 @@ def rows(folder: Path | None, progress: dict) -> list[Row]:
             earned = _number(entry.get("points"))
             points += earned
             marks.append("●" if earned >= task.points else "◐" if entry else "○")
-        asked = _questions(folder, id) if folder else []
-        answered = sum(question in progress["questions"] for question in asked)
+        asked = _questions(folder, id) if folder else ([], [])
+        answers = [
+            Answers(sum(each in progress["questions"] for each in ids), len(ids)) for ids in asked
+        ]
         minutes = sum(_number(progress["minutes"].get(name)) for name in (id, f"ex{id}"))
         found.append(
-            Row(id, exercise.title, answered, len(asked), "".join(marks), points,
-                exercise.points, minutes)
-        )  # fmt: skip
+            Row(id, exercise.title, *answers, "".join(marks), points, exercise.points, minutes)
+        )
     return found
 
 
@@ -80,11 +92,14 @@ def overview(folder: Path | None, progress: dict) -> str:
     """
     table = rows(folder, progress)
     width = max(len(row.title) for row in table)
-    lines = [f"{'lesson':<{width + 3}}  questions  tasks       points"]
+    lines = [
+        f"{'':<{width + 3}}  questions of",
+        f"{'lesson':<{width + 3}}  lesson   exercise  tasks       points",
+    ]
     for row in table:
-        asked = f"{row.answered} of {row.questions}" if row.questions else "–"
+        asked = f"{row.in_lesson!s:<7}  {row.in_exercise!s:<8}"
         score = f"{number(row.points):>4} of {number(row.of)}"
-        lines.append(f"{row.id} {row.title:<{width}}  {asked:<9}  {row.marks:<9} {score}")
+        lines.append(f"{row.id} {row.title:<{width}}  {asked}  {row.marks:<9} {score}")
     whole = sum(row.marks.count("●") for row in table)
     tasks = sum(len(row.marks) for row in table)
     points, of = sum(row.points for row in table), sum(row.of for row in table)
@@ -112,7 +127,7 @@ def next_step(table) -> str:
     for row in table:
         if row.marks.count("●") == len(row.marks):
             continue
-        begun = row.minutes > 0 or row.answered
+        begun = row.minutes > 0 or row.in_lesson.given
         exercise = catalogue.exercise(row.id)
         open_ = next(t for t, mark in zip(exercise.tasks, row.marks, strict=True) if mark != "●")
         if begun:
@@ -122,9 +137,13 @@ def next_step(table) -> str:
 
 
 def _questions(folder, id):
-    """Ids of a lesson's questions, as its file asks them."""
+    """Ids of the questions of a lesson, and of its exercise, as their files ask them."""
+    return _asked(folder / "notebooks", f"{id}_*"), _asked(folder / "exercises", f"ex{id}_*")
+
+
+def _asked(folder, stem):
     asked = []
-    for path in sorted((folder / "notebooks").glob(f"{id}_*.ipynb"))[:1]:
+    for path in sorted(folder.glob(f"{stem}.ipynb"))[:1]:
         try:
             cells = json.loads(path.read_text(encoding="utf-8"))["cells"]
         except (OSError, ValueError, KeyError):

@@ -70,6 +70,10 @@ class Cloud:
         """(n,) bool, whether more than a few empty beams lie between a point and the one before."""
         return np.diff(self.beams, prepend=self.beams[-1:]) % self.total > MAX_EMPTY + 1
 
+    @cached_property
+    def _farthest(self):
+        return 1.2 * self.ranges
+
     def variance(self, rows, rho, alpha):
         """(k,) measurement noise: variance of some points across a line they may lie on [m²].
 
@@ -78,7 +82,7 @@ class Cloud:
         """
         c = np.cos(self.angles[rows] - alpha)
         # a beam along the line, or from behind it, meets it nowhere near
-        r = np.minimum(max(rho, 0.0) / np.maximum(c, 1e-3), 1.2 * self.ranges[rows])
+        r = np.minimum(max(rho, 0.0) / np.maximum(c, 1e-3), self._farthest[rows])
         along, across = self.sensor.sigma(r), self.sensor.bearing_sigma * r
         return (along * c) ** 2 + across**2 * (1 - c * c) + self.floor**2
 

@@ -145,10 +145,11 @@ def _connected_inliers(points, free, line, seed, ransac):
     places[places < 0] += len(points)
     along = points.points[inliers] @ [-sin(line[1]), cos(line[1])]
     through = ((residuals > band) | points.after_gap).cumsum()
-    views = np.diff(through[inliers])  # one may be noise
+    passed = through[inliers]
+    views = passed[1:] - passed[:-1]  # one may be noise
     if 0 < turned < len(inliers):
         views[len(inliers) - turned - 1] += through[-1]  # from the last beam to the first
-    apart, neighbours = np.abs(np.diff(along)), np.diff(places) == 1
+    apart, neighbours = np.abs(along[1:] - along[:-1]), places[1:] - places[:-1] == 1
     holes = (views > 1) | (views == 1) & (apart > ransac.gap)
     ends = (holes | ~neighbours & (apart > ransac.max_hidden * ransac.gap)).nonzero()[0]
     nearest = np.abs(places - (seed - opposite) % len(points)).argmin()

@@ -66,8 +66,7 @@ class SensorModel:
         -------
         (...,) [m]
         """
-        return np.sqrt(
-            (self.range_error * ranges) ** 2
-            + self.range_sigma**2
-            + (self.range_curvature * ranges**2) ** 2
-        )
+        variance = (self.range_error * ranges) ** 2 + self.range_sigma**2
+        if self.range_curvature:  # as few sensors have: asked for every line of every scan
+            variance += (self.range_curvature * ranges**2) ** 2
+        return np.sqrt(variance)

@@ -4,6 +4,7 @@ No scan, no walls: the landmarks come with their ids, so that a filter can be tr
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -129,19 +130,29 @@ class LandmarkRun(Source):
         -------
         (m,) int ids, which are rows of ``landmarks``
         """
-        r, bearing = h(pose, self.landmarks).T
+        return self._visible(h(pose, self.landmarks))
+
+    def _visible(self, z):
+        r, bearing = z.T
         near = (r > 0) & (r <= self.loop.range_max)
         return np.flatnonzero(near & (np.abs(bearing) <= self.loop.field_of_view / 2))
 
+    @cached_property
+    def _noise(self):
+        """Of each reading, kept because many estimators take in one run: (n, 2), (n, k, 2) [1]."""
+        rngs = [self._rng(i) for i in range(len(self))]
+        of_motion = [rng.standard_normal(2) for rng in rngs]
+        return of_motion, [rng.standard_normal((self.loop.landmarks, 2)) for rng in rngs]
+
     def _reading(self, i):
-        loop, rng, pose = self.loop, self._rng(i), self.truth.poses[i]
-        v, omega = np.array([loop.v, loop.v / loop.radius]) + rng.standard_normal(2) * [
+        loop, (of_motion, of_sights) = self.loop, self._noise
+        v, omega = np.array([loop.v, loop.v / loop.radius]) + of_motion[i] * [
             loop.v_sigma,
             loop.omega_sigma,
         ]
-        noise = rng.standard_normal((loop.landmarks, 2)) * [loop.range_sigma, loop.bearing_sigma]
-        ids = self.seen(pose)
-        z = h(pose, self.landmarks[ids]) + noise[ids]
+        z = h(self.truth.poses[i], self.landmarks)
+        ids = self._visible(z)
+        z = z[ids] + of_sights[i][ids] * [loop.range_sigma, loop.bearing_sigma]
         z[:, 1] = wrap(z[:, 1])
         usable = z[:, 0] > 0  # noise may push a near landmark behind the sensor
         return Reading(

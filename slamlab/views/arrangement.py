@@ -13,6 +13,8 @@ STILL = 1e-3  # of the figure: what moves by less stands still
 def lay_out(fig):
     """Lay out until nothing moves: maps of equal scale shrink as others grow, or the reverse.
 
+    Where no scale is equal, nothing moves after the first time.
+
     Parameters
     ----------
     fig : Figure
@@ -20,8 +22,11 @@ def lay_out(fig):
     engine = fig.get_layout_engine()
     if engine is None:
         return
+    for spine in (spine for ax in fig.axes for spine in ax.spines.values()):
+        spine.set_in_layout(False)  # it ends where its axes do, and takes long to measure
+    alone = all(ax.get_aspect() == "auto" for ax in fig.axes)
     before = None
-    for _ in range(MOST_LAYOUTS):
+    for _ in range(1 if alone else MOST_LAYOUTS):
         engine.execute(fig)
         places = np.array([ax.get_position().bounds for ax in fig.axes])
         if before is not None and np.allclose(places, before, atol=STILL):

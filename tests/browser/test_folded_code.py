@@ -50,3 +50,42 @@ def test_a_lecture_opens_it_at_wish_and_leaves_it_as_it_was(visit, lesson, lab_f
     visit.save()
     saved = nbformat.reads((lab_folder / LESSON).read_text(), 4)
     assert saved.cells == nbformat.reads(before.decode(), 4).cells
+
+
+ASKED = """from slamlab.checks.questions import ask_choice
+ask_choice("00-x", "Which one?", {"this": "it is.", "that": "it is not."}, "this");
+"""
+
+
+@pytest.fixture
+def question(visit, lab_folder):
+    """A page with a question, whose answers in code and in words are folded."""
+    shown, answers = new_output("stream", text="the answer\n"), {"answers": "00-x"}
+    code = {"jupyter": {"outputs_hidden": True, "source_hidden": True}, "slamlab": answers}
+    words = {"jupyter": {"source_hidden": True}, "slamlab": answers}
+    cells = [
+        new_markdown_cell("# A question"),
+        new_code_cell(ASKED),
+        new_code_cell("print('the', 'answer')", metadata=code, outputs=[shown], execution_count=1),
+        new_markdown_cell("What it means.", metadata=words),
+        new_code_cell("print('the', 'end')"),
+    ]
+    kernel = {"kernelspec": {"name": "python3", "display_name": "Python 3 (ipykernel)"}}
+    nbformat.write(new_notebook(cells=cells, metadata=kernel), lab_folder / "question.ipynb")
+    visit.open("question.ipynb")
+    return visit.page
+
+
+def test_answers_stay_folded_when_all_is_run_and_open_once_they_are_asked_for(visit, question):
+    texts = "the answer", "What it means."
+    answer, words = (question.get_by_text(text).locator("visible=true") for text in texts)
+    visit.run_all_and_wait()
+    question.get_by_text("the end", exact=True).wait_for()
+    assert (answer.count(), words.count()) == (0, 0)
+    question.get_by_role("button", name="show me").click()
+    answer.wait_for()
+    words.wait_for()
+    visit.run_all_and_wait()
+    visit.settle()
+    answer.wait_for()
+    assert (answer.count(), words.count()) == (1, 1)

@@ -145,12 +145,22 @@ def test_the_overview_says_what_is_next(course):
     assert last.id in overview.next_step(table)
 
 
-def test_questions_of_a_lesson_are_counted(course):
-    cell = {"cell_type": "code", "source": ["ask(\n", '    "01-why", "?")\n']}
-    (course / "notebooks" / "01_x.ipynb").write_text(json.dumps({"cells": [cell]}))
+def test_questions_of_a_lesson_and_of_its_exercise_are_counted_and_shown(course):
+    for name, asked in {
+        "notebooks/01_x": ["01-why"],
+        "exercises/ex01_x": ["ex01-a", "ex01-b"],
+    }.items():
+        cells = [{"cell_type": "code", "source": ["ask(\n", f'    "{id}", "?")\n']} for id in asked]
+        path = course / f"{name}.ipynb"
+        path.parent.mkdir(exist_ok=True)
+        path.write_text(json.dumps({"cells": cells}))
     progress_records.keep_answer("01-why", "A", True)
-    row = overview.rows(course, progress_file.read(course))[0]
-    assert (row.answered, row.questions) == (1, 1)
+    progress_records.keep_answer("ex01-b", "A", False)
+    kept = progress_file.read(course)
+    row = overview.rows(course, kept)[0]
+    assert (row.in_lesson, row.in_exercise) == ((1, 1), (1, 2))
+    line = next(line for line in overview.overview(course, kept).splitlines() if "01 " in line)
+    assert "1 of 1   1 of 2" in line
 
 
 def test_the_overview_in_a_notebook_prints(course, capsys):

@@ -21,10 +21,10 @@ class MovingLidar:
     """
 
     def __init__(self, body, rng, scanner=RPLIDAR_A2):
-        self._body, self._scanner = body, scanner
+        self._body, self._scanner, self._model = body, scanner, scanner.model
         self._noise = rng.standard_normal((1 << TABLE_BITS, 2))
         self._lost = rng.random(1 << TABLE_BITS) < scanner.dropouts
-        self._times, self._poses = None, None  # of the samples asked for last
+        self._times = None  # of the samples asked for last, and what hangs on them alone
 
     def __call__(self, times, directions):
         """Measure distances, each from the robot's pose at its time.
@@ -40,18 +40,23 @@ class MovingLidar:
         """
         scanner, world = self._scanner, self._body.world
         if times is not self._times:  # a packet asks for its samples again and again
-            self._times, self._poses = times, self._body.pose_at(times)
-        poses = self._poses
+            self._times, self._sampled = times, self._sample(times)
+        poses, beside, along, lost = self._sampled
+        headings = poses[:, 2] - np.radians(directions) + beside
+        ranges = cast_each_ray(poses[:, :2], headings, world.walls, world.circles)
+        seen = np.isfinite(ranges) & ~lost
+        ranges = np.where(seen, ranges, 0.0)
+        ranges += self._model.sigma(ranges) * along
+        inside = (ranges >= scanner.range_min) & (ranges <= scanner.range_max)
+        return np.where(seen & inside, 1000 * ranges, 0.0)
+
+    def _sample(self, times):
+        """Poses, noise of bearings and of ranges, and which are lost: what hangs on times alone."""
         key = np.ascontiguousarray(times, dtype=float).view(np.uint64)
         row = (key * HASH_MULTIPLIER) >> np.uint64(64 - TABLE_BITS)
         beside, along = self._noise[row].T
-        headings = poses[:, 2] - np.radians(directions) + scanner.bearing_sigma * beside
-        ranges = cast_each_ray(poses[:, :2], headings, world.walls, world.circles)
-        seen = np.isfinite(ranges) & ~self._lost[row]
-        ranges = np.where(seen, ranges, 0.0)
-        ranges += scanner.model.sigma(ranges) * along
-        inside = (ranges >= scanner.range_min) & (ranges <= scanner.range_max)
-        return np.where(seen & inside, 1000 * ranges, 0.0)
+        beside = self._scanner.bearing_sigma * beside
+        return self._body.pose_at(times), beside, along, self._lost[row]
 
 
 def cast_each_ray(positions, directions, walls, circles):

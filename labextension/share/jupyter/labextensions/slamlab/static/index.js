@@ -1,6 +1,6 @@
 // Plugins of the course: each keeps one thing in order, and all else works without them.
 
-import { openAnswers } from "./answers.js";
+import { keepFolded, openAnswers } from "./answers.js";
 import { keepClean } from "./clean.js";
 import { nameControls, nameParts, tellDeadWidgets } from "./controls.js";
 import { lecturePlugin } from "./lecture/plugin.js";
@@ -11,7 +11,7 @@ const NARROW = 1000; // pixels, below which the side bar leaves a notebook too l
 
 // The plugins; offered is what the application shares: its classes and tokens by their names.
 export function plugins(offered) {
-  const { INotebookTracker, Widget } = offered;
+  const { INotebookTracker, NotebookActions, Widget } = offered;
   for (const sheet of ["style.css", "lecture/lecture.css", "lecture/ink.css", "lecture/audience.css"]) {
     const style = document.createElement("link");
     style.rel = "stylesheet";
@@ -39,6 +39,12 @@ export function plugins(offered) {
     forEachNotebook("dead", "Controls without a kernel say how they come alive.", tellDeadWidgets),
     forEachNotebook("derivations", "Derivations are played line by line.", playDerivations),
     forEachNotebook("progress", "The head of a notebook shows how far one is.", showProgress),
+    {
+      id: "slamlab:folded",
+      description: "Answers stay folded when they are run.",
+      autoStart: true,
+      activate: () => keepFolded(NotebookActions),
+    },
     lecturePlugin(offered),
     {
       id: "slamlab:narrow",
