@@ -91,7 +91,8 @@ def _with_task_reset(path, handed_out, task):
     cells = json.loads(handed_out)["cells"]
     wanted = task_cells(cells, task)
     if not wanted:
-        raise ResetError(f"no task {task!r} in {path.name}")
+        known = [cell["id"] for cell in cells if _TASK.fullmatch(cell["id"])]
+        raise ResetError(f"no task {task!r} in {path.name}, which has {', '.join(known)}")
     try:
         notebook = json.loads(path.read_text(encoding="utf-8"))
         own = notebook["cells"]

@@ -7,7 +7,7 @@ import numpy as np
 
 from slamlab.exercises.cases import Case
 from slamlab.exercises.drives import StudentError
-from slamlab.exercises.drives.arguments import CHANGED
+from slamlab.exercises.drives.arguments import CHANGED, NAMES
 
 WIDTH = 92  # of what is said [letters]
 MOST = 60  # numbers of an array that are shown
@@ -42,7 +42,7 @@ def format_case(task, case: Case) -> str | None:
         fails = textwrap.fill(fails, WIDTH, subsequent_indent="      ")
         return _joined([begin, *given, fails])
     if case.law.name == "unchanged":
-        names = task.drive.arguments or tuple(case.inputs)
+        names = NAMES.get(task.id) or list(case.inputs)
         changed = [names[int(k)] for k in case.outputs[CHANGED]]
         copies = f"{changed[0]} = {changed[0]}.copy()"
         told = f"{function} changes {' and '.join(changed)}: work on a copy, such as {copies}"

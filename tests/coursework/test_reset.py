@@ -288,3 +288,8 @@ def test_a_milestone_without_cells_of_its_own_has_those_of_the_task_before():
         for task in ("04-a", "04-a-too", "04-b", "04-none")
     }
     assert of == {"04-a": ["a", "a2"], "04-a-too": ["a", "a2"], "04-b": ["b"], "04-none": []}
+
+
+def test_of_a_misspelt_task_the_right_names_are_told(course):
+    with pytest.raises(ResetError, match="which has 04-a, 04-b"):
+        notebook_reset.reset(course, "04-h-robots", NOW)

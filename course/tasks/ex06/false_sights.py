@@ -58,6 +58,12 @@ SLIPS = (
         ("< 13.8", "< 0.05"),
     ),
     Slip(
+        "eyes-shut",
+        "No landmark ever comes into the map. One that is new has to be augmented, and one that is known "
+        "corrects the pose, unless its sight is false.",
+        "def careful_step(x, P, ids, u, seen, z, C, R):\n    return *predict(x, P, u, C), list(ids)\n",
+    ),
+    Slip(
         "gate-turned",
         "Sights that agree were thrown away and those that do not were used: the inequality is turned.",
         ("< 13.8", "> 13.8"),

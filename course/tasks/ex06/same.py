@@ -119,6 +119,7 @@ def merge(x, P, i, j):
         "Something was added to S. What was told does not err at all: its R is zero.",
         (S, "S = D @ P @ D.T + np.eye(2)"),
         (S, "S = D @ P @ D.T + 0.01 * np.eye(2)"),
+        (S, "S = D @ P @ D.T + 0.001 * np.eye(2)"),
     ),
     Slip(
         "cross-ignored",

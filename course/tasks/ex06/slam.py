@@ -78,6 +78,11 @@ SLIPS = (
         ("zip(seen, z, strict=True)", "list(zip(seen, z, strict=True))[1:]"),
     ),
     Slip(
+        "stops-early",
+        "The loop ends before all that was seen has been used: look for a break or a return inside it.",
+        (KEEP, KEEP + "\n            break"),
+    ),
+    Slip(
         "wrong-landmark",
         "Sights go to the wrong landmark: ids[j] names landmark j of x, new ones come last in both, and "
         "z[k] belongs to seen[k].",

@@ -142,6 +142,7 @@ SLIPS = (
         "from 0.",
         ("at = 3 + 2 * j", "at = 2 * j"),
         ("at = 3 + 2 * j", "at = 1 + 2 * j"),
+        ("at = 3 + 2 * j", "at = 3 + j"),
         ("at = 3 + 2 * j", "at = 3 + 2 * ((j + 1) % (len(x) // 2 - 1))"),
         ("H_full(x, j)", "H_full(x, (j + 1) % (len(x) // 2 - 1))"),
         ("at = 3 + 2 * j", "at = 3"),
@@ -181,6 +182,12 @@ SLIPS = (
         "off, not 358°.",
         ("v[1] = wrap(v[1])", "pass"),
         Edit("Joseph's form", (("v[1] = wrap(v[1])", "pass"),)),
+    ),
+    Slip(
+        "bearing-from-0-to-2π",
+        "The innovation's bearing is counted from 0 to 2π: what is seen 2° farther to the right than "
+        "expected is then 358° to the left. Wrap it into (−π, π].",
+        ("v[1] = wrap(v[1])", "v[1] = v[1] % (2 * np.pi)"),
     ),
     Slip(
         "range-wrapped",

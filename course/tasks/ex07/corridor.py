@@ -111,6 +111,12 @@ SLIPS = (
         "A door behind the robot has a negative distance, and the sign is lost on the way.",
         (_x, "x + K * (abs(z) - abs(H @ x))"),
         (_x, "x + K * (abs(z) - H @ x)"),
+        ("H[0], H[i] = -1, 1", "side = np.sign(x[i] - x[0])\n    H[0], H[i] = -side, side"),
+    ),
+    Slip(
+        "robot-not-in-H",
+        "H has an entry for the door and none for the robot: what is seen errs with both.",
+        [("H[0], H[i] = -1, 1", "H[i] = 1"), (_x, "x + K * (z - x[i] + x[0])")],
     ),
     Slip(
         "signs-of-H",

@@ -96,6 +96,12 @@ SLIPS = (
         _MEASURED,
     ),
     Slip(
+        "rest-forgotten",
+        "The covariance is that of G x̃_s alone. The others' errors have another part, the rest: nothing "
+        "was learned of it, so it is as large as it was.",
+        (_P, "G @ P_seen @ G.T"),
+    ),
+    Slip(
         "others-untouched",
         "The others stay as they were, but they share an error with those in sight: as these turn "
         "out to have been wrong, so were they.",

@@ -246,6 +246,19 @@ SLIPS = (
         (_BOTH, "P_first - P @ H_2.T @ np.linalg.inv(H_2 @ P @ H_2.T + R) @ H_2 @ P_first"),
     ),
     Slip(
+        "S-of-the-first",
+        "The second update divides by the first one's S. The second sight has an H of its own.",
+        (_BOTH, "P_first - P_first @ H_2.T @ np.linalg.inv(H_1 @ P @ H_1.T + R) @ H_2 @ P_first"),
+        """
+def two_updates(P, H_1, H_2, R):
+    S = H_1 @ P @ H_1.T + R
+    K = P @ H_1.T @ np.linalg.inv(S)
+    P_first = P - K @ S @ K.T
+    K = P_first @ H_2.T @ np.linalg.inv(S)
+    return P_first, P_first - K @ S @ K.T
+""",
+    ),
+    Slip(
         "S-after-the-update",
         "S was made from the covariance after the update, as the thesis prints it for S(2|1): but "
         "that covariance is made from S.",

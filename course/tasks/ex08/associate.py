@@ -26,6 +26,26 @@ SLIPS = (
         ("v @ np.linalg.inv(S[j]) @ v", "v @ v"),
     ),
     Slip(
+        "best-in-total",
+        "The pairs are chosen so that all of them together are nearest. The nearest pair of all comes "
+        "first, whatever that leaves for the others.",
+        """
+def associate(z, expected, S, gate):
+    from scipy.optimize import linear_sum_assignment
+
+    m, N = len(z), len(expected)
+    d2 = np.zeros((m, N))
+    for i in range(m):
+        for j in range(N):
+            v = z[i] - expected[j]
+            v[1] = wrap(v[1])
+            d2[i, j] = v @ np.linalg.inv(S[j]) @ v
+    pairs = zip(*linear_sum_assignment(np.minimum(d2, gate + 1e-6)))
+    found = {i: int(j) for i, j in pairs if d2[i, j] <= gate}
+    return [found.get(i) for i in range(m)]
+""",
+    ),
+    Slip(
         "S-not-inverted",
         "S⁻¹ is needed, not S: the larger the doubt, the less a difference counts.",
         ("np.linalg.inv(S[j])", "S[j]"),

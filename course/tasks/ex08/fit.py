@@ -64,6 +64,15 @@ SLIPS = (
         "The line goes through two of the points, whatever the others say. All of them count.",
         _ENDS,
         _ENDS.replace("points[1] - points[0]", "points[-1] - points[0]"),
+        """
+def fit_line(points):
+    along = points[-1] - points[0]
+    normal = np.array([-along[1], along[0]]) / np.hypot(*along)
+    rho = normal @ points.mean(axis=0)
+    if rho < 0:
+        rho, normal = -rho, -normal
+    return rho, np.arctan2(normal[1], normal[0])
+""",
     ),
     Slip(
         "not-centred",
@@ -155,6 +164,10 @@ SLIPS = (
         "degrees",
         "α is in degrees. The course measures angles in radians.",
         ("return rho, alpha", "return rho, np.degrees(alpha)"),
+        [
+            ("return rho, alpha", "return rho, np.degrees(np.arctan2(normal[1], normal[0]))"),
+            ("rho, alpha = -rho, wrap(alpha + np.pi)", "rho, normal = -rho, -normal"),
+        ],
     ),
     Slip(
         "negative",

@@ -81,6 +81,15 @@ SLIPS = (
         "Walls that were seen pay a life, too. Only those that were not seen do.",
         (SEEN, "after[i] = (count + 1, lives - 1)"),
         (SEEN, "after[i] = (count + 1, lives - (i in book))"),
+        """
+def keep_book(book, seen, N, lives):
+    new = {i: (book.get(i, (0, 0))[0] + 1, lives) for i in set(seen)}
+    for i in book:
+        count, left = new.get(i, book[i])
+        new[i] = (count, left - 1)
+    new = {i: entry for i, entry in new.items() if entry[1] > 0}
+    return new, [i for i in sorted(set(seen)) if i in new and new[i][0] >= N]
+""",
     ),
     Slip(
         "one-life-too-many",

@@ -105,6 +105,16 @@ SLIPS = (
         (V, "v = z - np.array([abs(rho) - x[0] * c - x[1] * s, alpha - x[2]])"),
     ),
     Slip(
+        "turned-round",
+        "A wall with a negative expected ρ' was turned round. It is the same wall, which the estimate has "
+        "passed: its ρ' stays negative.",
+        (
+            V,
+            V + "\n    if rho < x[0] * c + x[1] * s:"
+            "\n        v = z - [x[0] * c + x[1] * s - rho, alpha - x[2] + np.pi]",
+        ),
+    ),
+    Slip(
         "unwrapped",
         "The innovation's angle is not wrapped: a normal expected at 179° and seen at −179° is 2° off, "
         "not 358°.",
@@ -167,6 +177,7 @@ SLIPS = (
         "Another wall's numbers are used: the robot takes three numbers of x, and walls are counted from "
         "0.",
         ("at = 3 + 2 * j", "at = 1 + 2 * j"),
+        ("at = 3 + 2 * j", "at = 3 + j"),
         ("at = 3 + 2 * j", "at = 3"),
         ("at = 3 + 2 * j", "at = 3 + 2 * ((j + 1) % (len(x) // 2 - 1))"),
         ("rho, alpha = x[at : at + 2]", "rho, alpha = x[3:5]"),

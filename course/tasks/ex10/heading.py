@@ -166,6 +166,10 @@ SLIPS = (
         "intervals to the same turn first.",
         (TURNS, "turns = 0"),
         (TURNS, "turns = wrap(right) - right"),
+        [
+            (OFF, "[angle - seen[0] for angle in seen]"),
+            (TURNS, "turns = 0"),
+        ],
         [(TURNS, "turns = 0"), (HERE, "right, left = wrap(float(right)), wrap(float(left))")],
     ),
     Slip(
@@ -210,6 +214,17 @@ SLIPS = (
         "Where the boxes overlap, object and robot may stand in any direction of each other. What does the "
         "sighting say about the heading then?",
         (APART, "apart = True"),
+        """
+def sharpen(heading, robot, box, bearing, bound):
+    seen = [np.arctan2(v - y, u - x) for x in robot[:2] for y in robot[2:] for u in box[:2] for v in box[2:]]
+    middle = np.arctan2(sum(box[2:]) - sum(robot[2:]), sum(box[:2]) - sum(robot[:2]))
+    off = wrap(np.array(seen) - middle)
+    right, left = middle + off.min() - bearing - bound, middle + off.max() - bearing + bound
+    here, there = (heading[0] + heading[1]) / 2, (right + left) / 2
+    turns = here + wrap(there - here) - there
+    right, left = max(heading[0], right + turns), min(heading[1], left + turns)
+    return np.array([wrap(right), wrap(right) + left - right])
+""",
     ),
     Slip(
         "overlap-in-one-axis",

@@ -80,6 +80,7 @@ SLIPS = (
         "The box is that of the ends of the intervals: unsound. A heading of −0.5 to 0.5 rad has "
         "cos 0.88 at both ends and 1 between them. Ask whether a multiple of π/2 lies inside.",
         ENDS,
+        SAMPLED.format(course="np.add.outer(heading, direction).ravel()"),
     ),
     Slip(
         "once-round",
@@ -117,6 +118,10 @@ SLIPS = (
         "be negative. Which of the four products is least, and which largest?",
         (PRODUCTS, "dx, dy = np.sort(np.multiply(way, cosines)), np.sort(np.multiply(way, sines))"),
         (PRODUCTS, "dx, dy = np.multiply(way, cosines), np.multiply(way, sines)"),
+        [
+            (PRODUCTS, "dx, dy = np.multiply(way, cosines), np.multiply(way, sines)"),
+            (RESULT, "[box[0] + dx[0], box[1] + dx[1], box[2] + dy[0], box[3] + dy[1]]"),
+        ],
     ),
     Slip(
         "longest-way-only",

@@ -140,13 +140,11 @@ class Drive:
     functions : names the student must define, in order
     run : (functions by name, inputs) -> arrays
     seconds : float, timeout (wall clock) of one run [s]
-    arguments : names of what the functions are given, in order; None: those of the inputs
     """
 
     functions: tuple[str, ...]
     run: Callable[[Mapping[str, Callable], Arrays], dict[str, np.ndarray]] = call_each
     seconds: float = 10.0
-    arguments: tuple[str, ...] | None = None
 
     def __call__(self, namespace: Mapping, inputs: Arrays) -> dict[str, np.ndarray]:
         """Find the functions in a namespace and run them.

@@ -5,6 +5,24 @@ import numpy as np
 CHANGED = "arguments changed"
 """Name of the output that tells which arguments were changed, counted from 0."""
 
+_SLAM = ["x", "P", "ids", "u", "seen", "z", "C", "R"]
+_SAMPLES = ["rows", "weights", "u", "C", "p", "z", "R", "rng"]
+NAMES = {
+    "02-noise": ["ranges", "error", "dropouts", "rng"],
+    "06-slam": _SLAM,
+    "06-false-sights": _SLAM,
+    "08-pillar": ["points", "band", "largest", "needed", "tries", "rng"],
+    "09-life": ["book", "seen", "N", "lives"],
+    "09-ghosts": ["x", "P", "drives", "C", "scans", "R", "far"],
+    "11-draw": ["weights", "rng"],
+    "11-localise": _SAMPLES,
+    "11-kidnapped": _SAMPLES,
+    "12-relocalise": ["start", "motions", "sights", "posts"],
+    "15-step": ["poses", "edges"],
+    "15-liars": ["poses", "edges", "loops"],
+}
+"""Task's id to the names of its arguments in the notebook, where its inputs have others."""
+
 
 class Watched:
     """A function that is called on copies of its arguments, which are then compared with them.

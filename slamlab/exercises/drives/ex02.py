@@ -145,6 +145,6 @@ DRIVES = {
     "02-ray-wall": Drive(("ray_wall",), run=distances("ray_wall")),
     "02-echo": Drive(("echo",), run=distances("echo")),
     "02-to-points": Drive(("to_points",), run=placed),
-    "02-noise": Drive(("noisy",), run=thrice, arguments=("ranges", "error", "dropouts", "rng")),
+    "02-noise": Drive(("noisy",), run=thrice),
     "02-busy-room": Drive(("busy_fit",), run=fitted),
 }

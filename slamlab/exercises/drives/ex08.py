@@ -152,10 +152,6 @@ DRIVES = {
     "08-fit-line": Drive(("fit_line",)),
     "08-corner": Drive(("corner",), run=cornered),
     "08-associate": Drive(("associate",), run=associated),
-    "08-pillar": Drive(
-        ("fit_circle", "find_pillar"),
-        run=pillars,
-        arguments=("points", "band", "largest", "needed", "tries", "rng"),
-    ),
+    "08-pillar": Drive(("fit_circle", "find_pillar"), run=pillars),
     "08-segments": Drive(("segment",), run=segmented),
 }

@@ -103,9 +103,7 @@ def _mapped(functions, inputs):
 DRIVES = {
     "09-place": Drive(("place",), _stacked(("line", "C", "X"), lambda n: ((2,), (2, 2), (2, 3)))),
     "09-update": Drive(("update",), _stacked(("x", "P"), lambda n: ((n,), (n, n)))),
-    "09-life": Drive(("keep_book",), _lived, arguments=("book", "seen", "N", "lives")),
+    "09-life": Drive(("keep_book",), _lived),
     "09-end": Drive(("end_point",), _stacked(("p", "C", "X"), lambda n: ((2,), (2, 2), (2, n)))),
-    "09-ghosts": Drive(
-        ("clean_map",), _mapped, arguments=("x", "P", "drives", "C", "scans", "R", "far")
-    ),
+    "09-ghosts": Drive(("clean_map",), _mapped),
 }

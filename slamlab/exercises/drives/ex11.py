@@ -144,12 +144,10 @@ def _belief(pair, name, shapes):
     return samples, weights
 
 
-STEP = ("rows", "weights", "u", "C", "p", "z", "R", "rng")
-
 DRIVES = {
     "11-weigh": Drive(("log_likelihoods",), weighed),
-    "11-draw": Drive(("draw",), drawn, arguments=("weights", "rng")),
-    "11-localise": Drive(("localise",), localised, arguments=STEP),
+    "11-draw": Drive(("draw",), drawn),
+    "11-localise": Drive(("localise",), localised),
     "11-proposal": Drive(("reweigh",)),
-    "11-kidnapped": Drive(("find_again",), kept, arguments=STEP),
+    "11-kidnapped": Drive(("find_again",), kept),
 }

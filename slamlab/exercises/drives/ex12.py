@@ -40,7 +40,5 @@ DRIVES = {
     "12-lost": Drive(("lost_since",)),
     "12-interval": Drive(("interval",), _counted),
     "12-paired": Drive(("compare",), _compared),
-    "12-relocalise": Drive(
-        ("relocalise",), _driven, arguments=("start", "motions", "sights", "posts")
-    ),
+    "12-relocalise": Drive(("relocalise",), _driven),
 }

@@ -54,7 +54,7 @@ def _listed(pairs, measured, information):
 DRIVES = {
     "15-error": Drive(("error",)),
     "15-jacobians": Drive(("jacobians",), _jacobians),
-    "15-step": Drive(("step",), _steps, arguments=("poses", "edges")),
+    "15-step": Drive(("step",), _steps),
     "15-range": Drive(("range_edge",), _ranges),
-    "15-liars": Drive(("close_loops",), _closed, arguments=("poses", "edges", "loops")),
+    "15-liars": Drive(("close_loops",), _closed),
 }

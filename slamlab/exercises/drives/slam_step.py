@@ -88,8 +88,7 @@ def _whole(ids, name):
 
 def drive_of(function):
     """The drive of a filter's step by the name of the function that takes it."""
-    arguments = ("x", "P", "ids", "u", "seen", "z", "C", "R")
-    return Drive((function,), _driven, arguments=arguments)
+    return Drive((function,), _driven)
 
 
 SLAM_STEP = drive_of("slam_step")
