@@ -87,6 +87,7 @@ def hold_contest(contest, found, out, prepared, workers, *, jobs=1, names=False,
     scoreboard.write_board(out / BOARD, rows, marks, prepared, contest, unjudged, opened)
     said = [f"{len(rows)} judged, {len(unjudged)} not: {out / BOARD / 'index.html'}"]
     said += [f"{e.student}: {e.reason}" for e in entries if e.reason is not None]
+    said += [] if again else _late(entries)
     if not names:
         said.append(f"{out / PSEUDONYMS} says whose a pseudonym is: for you alone")
     if any(entry.failed for entry in entries):
@@ -117,7 +118,16 @@ def _open_board(contest, entries, out, names):
     write_open_board(out / BOARD, known, contest)
     said = [f"{len(points)} judged, {len(entries) - len(points)} not: {out / BOARD / 'index.html'}"]
     said += [f"{e.student}: {e.reason}" for e in entries if e.reason is not None]
+    said += _late(entries)
     return [*said, "the contest is open: nothing is revealed until it is judged without --open"]
+
+
+def _late(entries):
+    """Whom a limit of time ended: on a busy machine that may be no fault of theirs."""
+    late = {entry.student: sum(driven.late for driven in entry.drives) for entry in entries}
+    told = ", ".join(f"{student} ({count})" for student, count in late.items() if count)
+    more = "on a machine that is busy with other work seconds of CPU are longer, too"
+    return [f"a limit of time ended worlds of {told}; {more}"] if told else []
 
 
 def contest_again(folder):

@@ -27,8 +27,9 @@ TOO_LONG = "{} took {:.1f} s of CPU, more than the {:g} s that are allowed"
 class Budget:
     """The seconds that one estimator may use: the same for all, and told beforehand.
 
-    They are seconds of CPU, which a busy machine does not make longer. What neither works nor ends
-    is stopped by ``patience``, the only seconds of a wall clock.
+    They are seconds of CPU: who waits for a processor uses none, though on a crowded one the same
+    work takes up to twice as many. What neither works nor ends is stopped by ``patience``, the only
+    seconds of a wall clock.
 
     Parameters
     ----------

@@ -5,6 +5,7 @@ import hashlib
 import json
 import re
 import shutil
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -175,6 +176,18 @@ def test_the_last_notebook_with_the_class_takes_part(tmp_path):
     found = entrants(find_submissions(tmp_path))
     assert [(s.student, s.problem is None) for s in found] == [("broken", False), ("eva", True)]
     assert found[1].name == "eva/a.ipynb"
+
+
+def test_whom_a_limit_of_time_ended_is_told_to_the_judge(held, tmp_path):
+    shutil.copytree(held.out / "drives", tmp_path / "drives")
+    assert not any("limit of time" in line for line in held.said)
+    (file, *_) = sorted((tmp_path / "drives").rglob("002.npz"))
+    write_drive(file, replace(read_drive(file), late=True))
+    keep = {"workers": NOBODY, "prepared": held.arenas, "out": tmp_path}
+    for stays_open in (True, False):
+        said = holding.hold_contest(held.contest, held.found, stays_open=stays_open, **keep)
+        (told,) = [line for line in said if "limit of time" in line]
+        assert re.search(r"worlds of (ada|bob|cem|fox) \(1\); on a machine", told)
 
 
 @pytest.mark.parametrize(
