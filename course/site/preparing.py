@@ -35,8 +35,10 @@ def prepare(folder, cache, lessons_rendered=None, whole=True):
     -------
     list of str, which lessons could not be rendered, and why: they keep their still pictures
     """
-    moving, failed = _moving(cache, lessons_rendered, whole)
-    files = {"index.md": _start("index" if whole else "pack")} | start_film.files(cache)
+    with ThreadPoolExecutor(1) as beside:  # it takes as long as a lesson's films
+        film = beside.submit(start_film.files, cache)
+        moving, failed = _moving(cache, lessons_rendered, whole)
+    files = {"index.md": _start("index" if whole else "pack")} | film.result()
     files |= {f"_static/{path.name}": path.read_bytes() for path in (HERE / "static").iterdir()}
     player = library.script(library.FILM, HERE / "static" / "films_on_page.js")
     files["_static/films_on_page.js"] = player.encode()
