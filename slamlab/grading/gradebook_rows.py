@@ -67,6 +67,8 @@ def storable(value):
         return {storable(str(name)): storable(item) for name, item in value.items()}
     if isinstance(value, list | tuple):
         return [storable(item) for item in value]
+    if value is None or isinstance(value, int | float):
+        return value
     return storable(vars(value)) if is_dataclass(value) else value
 
 

@@ -12,7 +12,7 @@ from slamlab.grading.worker_pool import WorkerStartError
 START_TIMEOUT = 120.0  # of a worker [s]
 CELL_TIMEOUT = 10.0  # [s]
 NOTEBOOK_TIMEOUT = 300.0  # of all cells and tasks [s]
-BATCH_CHARACTERS = 50_000  # letters of cells in one frame, each at most twelve bytes of JSON
+BATCH_CHARACTERS = 50_000  # of cells sent in one frame; each letter is 12 bytes of JSON at most
 POLL_SECONDS = 0.2
 """Polling interval of the stop event [s]."""
 

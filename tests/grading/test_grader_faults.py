@@ -248,6 +248,27 @@ def test_a_regrade_that_is_ended_leaves_every_older_mark(tmp_path):
         assert len(book.attempts()) == 3
 
 
+def test_results_of_a_moment_are_stored_at_once_and_when_it_is_broken_off(tmp_path, monkeypatch):
+    monkeypatch.setattr(storing.time, "monotonic", lambda: 0.0)  # all of it in one moment
+    made, stored = [record(f"{k}.ipynb") for k in range(6)], []
+
+    def broken_off():
+        yield from made
+        raise KeyboardInterrupt
+
+    with Gradebook(f"sqlite:///{tmp_path / 'grades.db'}") as book:
+        add_all = book.add_all
+        monkeypatch.setattr(book, "add_all", lambda some: stored.append(len(some)) or add_all(some))
+        told = storing.store_records(broken_off(), tmp_path, book)
+        assert next(told) == made[0]
+        assert stored == [1]  # the first of a moment waits for nobody
+        with pytest.raises(KeyboardInterrupt):
+            list(told)
+        assert stored == [1, 5]
+        assert book.latest_attempts() == made
+        assert len(list((tmp_path / "feedback").iterdir())) == 6
+
+
 def test_what_the_grader_fails_at_in_a_regrade_keeps_its_mark(tmp_path):
     older = record()
     failed = dataclasses.replace(older, verdicts=(), reason="no worker", failed=True)

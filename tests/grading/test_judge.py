@@ -60,6 +60,18 @@ def test_the_same_seed_gives_the_same_verdicts_and_secrets_differ():
     assert one == judge.seed_for(b"a" * 16, "99", "abc") != judge.seed_for(b"a" * 16, "99", "abd")
 
 
+def test_cells_run_in_their_order_however_many_are_sent_at_once(monkeypatch):
+    cells = [f"x = {k} if {k} == 0 else x * 2 + {k}" for k in range(40)] + ["assert x < 0, x"]
+    x = 0
+    for k in range(1, 40):
+        x = x * 2 + k
+    for most in (1, 100, 50_000):
+        monkeypatch.setattr(worker_client, "BATCH_CHARACTERS", most)
+        found = judge.judge_notebook(fake.EXERCISE, list(enumerate(cells)), b"seed", workers())
+        assert list(found["cells"]) == [40]
+        assert str(x) in found["cells"][40]
+
+
 @pytest.mark.parametrize(
     ("body", "kind", "said"),
     [

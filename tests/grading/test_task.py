@@ -10,7 +10,7 @@ from IPython.core.error import StdinNotImplementedError
 from slamlab.exercises.drives import Drive, StudentError
 from slamlab.exercises.drives.input_sets import MAIN
 from slamlab.exercises.exercise import Exercise
-from slamlab.exercises.law import Law
+from slamlab.exercises.law import Law, equals, once, one_judging
 from tests.grading import fake
 
 TURN = fake.EXERCISE.task("99-turn")
@@ -24,6 +24,38 @@ def test_inputs_are_told_by_the_seed_and_the_task():
     again = TURN.draw(b"seed")[MAIN]
     assert all(np.array_equal(INPUTS[name], again[name]) for name in INPUTS)
     assert not np.array_equal(TURN.draw(b"other")[MAIN]["v"], INPUTS["v"])
+
+
+def test_what_several_laws_ask_for_is_computed_once_a_judging_for_the_same_arrays():
+    asked = []
+
+    @once
+    def half(inputs):
+        asked.append(inputs["a"][0])
+        return inputs["a"] / 2
+
+    one, other = {"a": np.array([2.0])}, {"a": np.array([4.0])}
+    with one_judging():
+        assert half(one) is half(one)
+        assert half(other) == 2
+        half({"a": np.array([2.0])})  # as large, but not the same
+    assert asked == [2, 4, 2]
+    half(one)
+    half(one)  # in a notebook, where arrays may change between two calls
+    assert asked == [2, 4, 2, 2, 2]
+
+
+def test_laws_that_want_the_same_ask_for_it_once():
+    asked = []
+
+    def want(inputs):
+        asked.append(id(inputs))
+        return {"result": RIGHT}
+
+    laws = tuple(equals(name, 1, name, want) for name in ("one", "two", "three"))
+    task = dataclasses.replace(TURN, laws=laws)
+    assert task.judge(SETS, {MAIN: {"result": RIGHT, "arguments changed": np.zeros(0)}}).full
+    assert len(asked) == len(SETS)
 
 
 @pytest.mark.parametrize(

@@ -4,7 +4,7 @@ import csv
 
 import pytest
 
-from slamlab.cli import main
+from slamlab.cli import SUBCOMMANDS, main
 from slamlab.grading import late_policy, notebooks, submissions
 from slamlab.grading.late_policy import LatePolicyError
 from slamlab.grading.submissions import Submission, SubmissionError
@@ -141,3 +141,13 @@ def test_a_marker_inside_a_name_makes_no_second_participant(tmp_path, name, who)
     (tmp_path / name).write_text("{}")
     (found,) = submissions.find_submissions(tmp_path)
     assert (found.student, found.number) == who
+
+
+# (help) a newcomer did not learn from --help that there are other words behind grade
+
+
+def test_help_names_every_word_behind_grade(capsys):
+    with pytest.raises(SystemExit):
+        main(["grade", "--help"])
+    told = capsys.readouterr().out
+    assert [word for word in SUBCOMMANDS["grade"] if word not in told] == []
