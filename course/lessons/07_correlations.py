@@ -132,7 +132,6 @@ update
 
 
 # %% slideshow={"slide_type": "fragment"}
-@cache
 def sighting(P, H):
     """What a sighting makes of a covariance in blocks, as a derivation."""
     PHt, given = blockwise(P * H.T), {any_P: P, any_H: H}
