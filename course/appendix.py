@@ -8,6 +8,7 @@ from course.site import gathered
 from course.source import ROOT
 
 FILE = "notebooks/in_print.ipynb"
+_BETWEEN_TABLES = re.compile(r"(?<=\|)\n{2,}(?=\|)")
 _CLOSING = "\n\nThe way through the course: [Start here](00_start_here.ipynb)."
 
 
@@ -32,11 +33,20 @@ def notebook(root=ROOT):
     made = nbformat.v4.new_notebook()
     made.metadata["slamlab"] = {"appendix": "in print"}
     made.metadata["kernelspec"] = {"name": "python3", "display_name": "Python 3 (ipykernel)"}
-    made.cells = [
-        nbformat.v4.new_markdown_cell(part.strip(), id=f"in-print-{k}")
-        for k, part in enumerate(parts)
-    ]
+    made.cells = [cell for k, part in enumerate(parts) for cell in _slides(part.strip(), k)]
     return made
+
+
+def _slides(part, number):
+    """A lesson's part as cells: a slide for each table, as the lesson itself has it."""
+    return [
+        nbformat.v4.new_markdown_cell(
+            text,
+            id=f"in-print-{number}" + (f"-{k}" if k else ""),
+            metadata={"slideshow": {"slide_type": "subslide" if k else "slide"}},
+        )
+        for k, text in enumerate(_BETWEEN_TABLES.split(part))
+    ]
 
 
 def is_stored(root=ROOT):

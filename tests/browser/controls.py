@@ -1,5 +1,7 @@
 """Controls on a slide, worked by pointer where they are seen, and by keys; the kernel is asked."""
 
+from playwright.sync_api import TimeoutError
+
 # what the page sends the kernel: presses, values, and keys for a picture that is driven
 LISTEN = """() => {
     const { kernel } = window.jupyterapp.shell.currentWidget.sessionContext.session;
@@ -84,11 +86,15 @@ class Controls:
         return wrong
 
     def _heard(self, what, does):
-        """Whether the kernel heard this once and nothing went astray, after something was done."""
+        """Whether the kernel heard of it, after something was done, and has done what it asks."""
         self.page.evaluate("() => { window.slamlabHeard.length = 0; }")
         does()
+        try:  # a value waits until the kernel is done with the one before
+            self.page.wait_for_function("(what) => window.slamlabHeard.includes(what)", arg=what)
+        except TimeoutError:
+            return False
         self.lecture.visit.settle()
-        return what in self.page.evaluate("window.slamlabHeard")
+        return True
 
     def _middle(self, place):
         box = place.bounding_box()
@@ -107,13 +113,6 @@ class Controls:
         for key in keys:
             self.page.keyboard.press(key)
 
-    def _share(self, handle):
-        """Where a slider stands, between 0 and 1."""
-        now, least, most = (
-            float(handle.get_attribute(f"aria-value{end}")) for end in ("now", "min", "max")
-        )
-        return (now - least) / (most - least)
-
     def _point_slider(self, handle):
         track = handle.locator("xpath=ancestor::*[contains(@class, 'noUi-target')]")
         for share in (0.25, 0.75):
@@ -124,16 +123,17 @@ class Controls:
                 self._drag(handle, *at)
                 self.page.mouse.up()
 
-            # a slider of few steps goes to the next one
-            if not self._heard("value", drag) or abs(self._share(handle) - share) > 0.26:
+            heard = self._heard("value", drag)
+            box = track.bounding_box()  # the slide may be laid out anew
+            stands = (self._middle(handle)[0] - box["x"]) / box["width"]
+            if not heard or abs(stands - share) > 0.26:  # one of few steps goes to the next
                 return False
         return True
 
     def _key_slider(self, handle):
-        before = self._share(handle)
-        key = "ArrowLeft" if before > 0.5 else "ArrowRight"
-        heard = self._heard("value", lambda: self._press(handle, key))
-        return heard and self._share(handle) != before
+        before = handle.get_attribute("aria-valuetext")  # aria-valuenow is rounded
+        heard = self._heard("value", lambda: self._press(handle, "ArrowLeft"))
+        return heard and handle.get_attribute("aria-valuetext") != before
 
     def _point_point(self, handle):
         x, y = self._middle(handle)

@@ -8,7 +8,7 @@ const SHORT = 6; // lines that need no folding
 const SUBJECT = "code"; // tag of a cell whose code is what the slide is about
 const SHOWS = /^(views\.|ax\.|fig\b|plt\.|display\(|with |for |@|\)|\]|\}|\w+ = \(?f?["'])/; // says little
 const FOLDED = "slamlabFolded"; // by the notebook
-const OPENS = /[([{,]$/; // a statement's first line alone says little, too
+const OPENS = /[([{,]$|= (\{\}|\[\])$/; // a statement's first line alone, or a beginning, says little, too
 const DRAWS = /^((\w+ = )?views\.|[)\]}])/; // the figure says more
 
 const outerLines = (source) => source.split("\n").filter((line) => /^[^\s#]/.test(line));

@@ -11,6 +11,8 @@ import { Signal } from "./signal.js";
 import { refold, reveal, slidesOf, stopsOf, unfold } from "./stops.js";
 
 const PANEL = "slamlab-deck";
+const AHEAD = 3; // slides that are laid out before they are shown
+const PAUSE = 150; // ms without a key before the next one of them
 
 // JupyterLab draws cells when they come into sight; a slide needs all of its own.
 function draw(notebook, indices) {
@@ -220,17 +222,19 @@ export class Deck {
     }
   }
 
-  // Lay out the next slide while nobody waits, and no control would lose its focus by it.
+  // Lay out the next slides, one by one, while nobody waits, and no control would lose its focus by it.
   #prepare() {
-    const next = this.slide + 1;
-    if (next >= this.slides.length || this.layouts.has(next)) return;
     clearTimeout(this.preparing);
+    const ahead = this.slides.slice(0, this.slide + 1 + AHEAD);
+    const next = ahead.findIndex((_, number) => number > this.slide && !this.layouts.has(number));
+    if (next < 0) return;
     this.preparing = setTimeout(() => {
       if (!this.panel.node.classList.contains(PANEL) || this.page.contains(document.activeElement)) return;
       this.#pages(next);
       this.#reveal();
       layOut(this.page, this.notebook, this.shown, this.zoom);
-    }, 150);
+      this.#prepare();
+    }, PAUSE);
   }
 
   #later() {
