@@ -77,8 +77,8 @@ fig, _ = views.side_by_side({"wheels alone": wheels_map}, size=(6, 4.2))
 views.show(fig, f"A corridor whose end lies {gaps['wheels'] / 100:.1f} m beside its start.")
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
-# By wheels the corridor ends beside itself, {= gaps["wheels"] / 100:.1f =} m off. Two more estimators draw the map from the
-# same simulated readings: `icp`, lesson 13's careful matcher, which lays each scan over the one before it; and `graph`,
+# By the wheels the end of the corridor lies {= gaps["wheels"] / 100:.1f =} m beside its start. Two more estimators draw the
+# map from the same simulated readings: `icp`, lesson 13's careful matcher, which lays each scan over the one before it; and `graph`,
 # which this lesson builds.
 
 # %% slideshow={"slide_type": "fragment"}

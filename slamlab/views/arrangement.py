@@ -24,9 +24,9 @@ def lay_out(fig):
         return
     for spine in (spine for ax in fig.axes for spine in ax.spines.values()):
         spine.set_in_layout(False)  # it ends where its axes do, and takes long to measure
-    alone = all(ax.get_aspect() == "auto" for ax in fig.axes)
+    free = all(ax.get_aspect() == "auto" for ax in fig.axes)
     before = None
-    for _ in range(1 if alone else MOST_LAYOUTS):
+    for _ in range(1 if free else MOST_LAYOUTS):
         engine.execute(fig)
         places = np.array([ax.get_position().bounds for ax in fig.axes])
         if before is not None and np.allclose(places, before, atol=STILL):

@@ -79,13 +79,13 @@ def question(visit, lab_folder):
 def test_answers_stay_folded_when_all_is_run_and_open_once_they_are_asked_for(visit, question):
     texts = "the answer", "What it means."
     answer, words = (question.get_by_text(text).locator("visible=true") for text in texts)
-    visit.run_all_and_wait()
+    visit.run_all()
     question.get_by_text("the end", exact=True).wait_for()
     assert (answer.count(), words.count()) == (0, 0)
     question.get_by_role("button", name="show me").click()
     answer.wait_for()
     words.wait_for()
-    visit.run_all_and_wait()
+    visit.run_all()
+    question.get_by_text("The cells below answer it.").wait_for(state="hidden")  # asked anew
     visit.settle()
-    answer.wait_for()
     assert (answer.count(), words.count()) == (1, 1)

@@ -9,6 +9,8 @@ from html.parser import HTMLParser
 import ipywidgets
 import numpy as np
 import pytest
+from matplotlib.figure import Figure
+from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.patches import Rectangle
 from PIL import Image
 
@@ -401,3 +403,21 @@ def test_the_band_of_an_estimate_reaches_two_sigma_to_either_side():
     for k in range(3):
         heights = corners[corners[:, 0] == x[k], 1]
         assert np.allclose([heights.min(), heights.max()], y[k] + 2 * sigma[k] * np.array([-1, 1]))
+
+
+def test_a_figure_is_drawn_once_and_a_chart_is_laid_out_once(monkeypatch):
+    done = []
+    layout, draw = ConstrainedLayoutEngine.execute, Figure.draw
+    monkeypatch.setattr(
+        ConstrainedLayoutEngine, "execute", lambda *a: (done.append("layout"), layout(*a))
+    )
+    monkeypatch.setattr(Figure, "draw", lambda *a: (done.append("draw"), draw(*a)))
+    fig, ax = views.chart("time [s]", "error [m]")
+    ax.plot([0, 1], [0, 1])
+    views.png(fig)
+    assert done == ["layout", "draw"]
+    # of a map the second layout may shrink what the first one made
+    done.clear()
+    views.png(views.side_by_side({"a": [], "b": []})[0])
+    assert done.count("layout") > 1
+    assert done.count("draw") == 1
