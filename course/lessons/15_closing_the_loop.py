@@ -864,7 +864,7 @@ views.explore(
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"] answers="15-liars"
 trials = {}
 print("false loops   trusted   Φ = 11.3   Φ = 11.3 and a gate at 60")
-for count in (0, 1, 2, 5, 46):
+for count in (0, 1, 2, 5, np.sum(twins.false)):
     offered = twins.offered(count)
     kept = offered[surprises[offered] <= 60]
     tried = (offered, np.inf), (offered, 11.3), (kept, 11.3)

@@ -19,6 +19,7 @@ from slamlab.sources.simulated_robot import simulation
 from slamlab.studies.wheel_graphs import wheels_graph
 
 APART = 0.15, 0.1  # farther from the truth than this, a loop is false [m], [rad]
+ELSEWHERE = 1.0  # a loop of the twins that is farther off takes one room for the other [m]
 FAR = 3.0  # times a scan's reach: how far the estimator of the twins looks for loops [1]
 
 
@@ -268,6 +269,13 @@ def twins(seed=0):
         edge._replace(i=of_open[edge.i], j=of_open[edge.j])
         for edge, bad in zip(offered, lies, strict=True)
         if bad and None not in (of_open[edge.i], of_open[edge.j])
+    ]
+    # a poor match within a room is no lie: whether there is one hangs on the last digits
+    truth = way[readings]
+    false = [
+        edge
+        for edge in false
+        if np.hypot(*(between(truth[edge.i], truth[edge.j]) - edge.measured)[:2]) > ELSEWHERE
     ]
     return Twins(
         way,
