@@ -26,7 +26,8 @@ KINDS = {
     "number": "input[type=number]",
     "line": "input[type=text]",
     "picture": "canvas[tabindex]",
-    "button": "button:not(.slamlab-handle)",
+    "look": ".slamlab-live button",  # at the picture: nothing that the kernel hears of
+    "button": ".jupyter-button",
 }
 
 # the controls that can be seen now and had no number yet: marked with one each
@@ -43,6 +44,10 @@ FIND = """(kinds) => {
         }
     }
     return found;
+}"""
+COUNT_CLICKS = """(one) => {
+    one.dataset.clicks = 0;
+    one.onclick = () => { one.dataset.clicks++; };
 }"""
 NAMED = """(one) => one.getAttribute("aria-label") || one.textContent || one.placeholder
     || one.closest(".jupyter-widgets")?.textContent || one.tagName"""
@@ -68,9 +73,7 @@ class Controls:
         (str, Locator), kind and place
         """
         for kind, number in self.page.evaluate(FIND, KINDS):
-            place = self.page.locator(f"[data-control='{number}']")
-            if place.count():  # what was worked before may have taken it away
-                yield kind, place
+            yield kind, self.page.locator(f"[data-control='{number}']")
 
     def work(self, kind, place):
         """Work a control by pointer and by keys; what did not come, as sentences.
@@ -79,6 +82,8 @@ class Controls:
         -------
         list of str
         """
+        if not place.is_visible():  # what was worked before has taken it away
+            return []
         name = f"{kind} {place.evaluate(NAMED).strip()[:40]!r} on slide {self.lecture.number}"
         ways = {"by pointer": f"_point_{kind}", "by keys": f"_key_{kind}"}
         wrong = [f"{name} {way}" for way, does in ways.items() if not getattr(self, does)(place)]
@@ -192,6 +197,18 @@ class Controls:
 
     def _key_picture(self, canvas):
         return self._heard("key", lambda: self._press(canvas, "ArrowUp"))
+
+    def _point_look(self, button):
+        return self._clicked(button, lambda: self._click(button))
+
+    def _key_look(self, button):
+        return self._clicked(button, lambda: self._press(button, "Space"))
+
+    def _clicked(self, button, does):
+        """Whether the page itself heard a click, and one alone."""
+        button.evaluate(COUNT_CLICKS)
+        does()
+        return button.get_attribute("data-clicks") == "1"
 
     def _point_button(self, button):
         return self._heard("click", lambda: self._click(button))

@@ -33,11 +33,10 @@ SEEN = """() => {
     const style = getComputedStyle(page);
     const margin = (side) => zoom * parseFloat(style[`padding${side}`]);
     const alone = page.querySelectorAll(".jp-Cell:not(.slamlab-off)").length == 1;
-    const height = (one) => one.getBoundingClientRect().height;
-    const beside = (one) => height(one.closest(".jp-Cell")) - height(one); // its code and sliders
-    const share = Math.max(...figures.map((one) => Math.max(
-        one.getBoundingClientRect().width / (box.width - margin("Left") - margin("Right")),
-        height(one) / (box.height - margin("Top") - margin("Bottom") - beside(one)))));
+    const sizes = figures.map((one) => one.getBoundingClientRect());
+    const share = Math.max(...sizes.map((one) => Math.max(
+        one.width / (box.width - margin("Left") - margin("Right")),
+        one.height / (box.height - margin("Top") - margin("Bottom")))));
     return {
         stop: Number(stop), stops: Number(stops), shrink: Number(shrink),
         cut: page.scrollHeight > page.clientHeight + 1 || covered

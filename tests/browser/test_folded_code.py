@@ -6,22 +6,31 @@ from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_outp
 
 from tests.browser.lecture import Lecture
 
-LESSON = "folded.ipynb"
+LESSON, HELPED = "folded.ipynb", "helped.ipynb"
 LINES = "\n".join(f"line_{k} = {k}" for k in range(9))
+SHOWN = new_output("stream", text="what it shows\n")
+FOLDED = {"jupyter": {"source_hidden": True}, "tags": ["folded"]}
+KERNEL = {"kernelspec": {"name": "python3", "display_name": "Python 3 (ipykernel)"}}
+
+
+def slide(kind):
+    """Metadata of a cell that begins a slide."""
+    return {"slideshow": {"slide_type": kind}}
+
+
+def write(file, *cells):
+    """Write a lesson."""
+    nbformat.write(new_notebook(cells=list(cells), metadata=KERNEL), file)
 
 
 @pytest.fixture
 def lesson(visit, lab_folder):
     """A page with a slide of folded code."""
-    shown = new_output("stream", text="what it shows\n")
-    folded = {"jupyter": {"source_hidden": True}, "tags": ["folded"]}
-    slide = {"slideshow": {"slide_type": "slide"}}
-    cells = [
-        new_markdown_cell("# A slide", metadata=slide),
-        new_code_cell(LINES, metadata=folded, outputs=[shown], execution_count=1),
-    ]
-    kernel = {"kernelspec": {"name": "python3", "display_name": "Python 3 (ipykernel)"}}
-    nbformat.write(new_notebook(cells=cells, metadata=kernel), lab_folder / LESSON)
+    write(
+        lab_folder / LESSON,
+        new_markdown_cell("# A slide", metadata=slide("slide")),
+        new_code_cell(LINES, metadata=FOLDED, outputs=[SHOWN], execution_count=1),
+    )
     visit.page.set_viewport_size({"width": 1280, "height": 720})
     visit.open(LESSON)
     visit.page.get_by_text("what it shows").wait_for()
@@ -40,8 +49,8 @@ def test_a_lecture_opens_it_at_wish_and_leaves_it_as_it_was(visit, lesson, lab_f
     before = (lab_folder / LESSON).read_bytes()
     lecture = Lecture(visit)
     lecture.start()
-    lesson.locator(".slamlab-telling:visible", has_text="line_8 = 8").wait_for()
     assert lesson.locator(".jp-InputPlaceholder").count() == 0
+    assert lecture.seen["telling"] == []  # the output stands for it
     lecture.press("c")
     lesson.locator(".jp-CodeCell .cm-content:visible", has_text="line_4 = 4").wait_for()
     lecture.press("Escape")
@@ -89,3 +98,22 @@ def test_answers_stay_folded_when_all_is_run_and_open_once_they_are_asked_for(vi
     question.get_by_text("The cells below answer it.").wait_for(state="hidden")  # asked anew
     visit.settle()
     assert (answer.count(), words.count()) == (1, 1)
+
+
+def test_a_slide_has_no_more_of_the_code_than_the_notebook(visit, lab_folder):
+    write(
+        lab_folder / HELPED,
+        new_markdown_cell("# A slide", metadata=slide("slide")),
+        new_code_cell("def helper(): ...", metadata=FOLDED | slide("subslide"), execution_count=1),
+        new_code_cell(
+            LINES, metadata=FOLDED | slide("fragment"), outputs=[SHOWN], execution_count=2
+        ),
+        new_code_cell(f"{LINES}\nlist(", outputs=[SHOWN], execution_count=3),
+    )
+    visit.open(HELPED)
+    lecture = Lecture(visit)
+    lecture.start()
+    first, second = lecture.walk()  # the helper, which shows nothing, begins the next one's slide
+    assert (first["shown"], second["shown"]) == ("0/0", "2,3/0")
+    assert lecture.number == "2 / 2"
+    assert second["telling"] == ["line_8 = 8"]  # what is folded by the lecture alone has a line

@@ -88,7 +88,7 @@ def cells_of(stops):
 
 
 def on_slides(lesson):
-    """Positions of the cells that are on slides: no notes, not skipped, and something to see."""
+    """Positions of the cells on slides: neither notes nor skipped, and with something to see."""
     cells = json.loads((ROOT / "notebooks" / lesson).read_text())["cells"]
     return {n for n, cell in enumerate(cells) if not is_for_others(cell["metadata"]) and sees(cell)}
 
