@@ -22,6 +22,27 @@ def in_the_world(poses, world):
     return compose(start, between(poses[0], poses)) if len(poses) else poses
 
 
+def _frame(arena):
+    """Lowest and highest x and y of a picture: of the walls, in a log of the package's own tracks.
+
+    Not of the estimate's: who runs off leaves the picture, and does not make it endless.
+    """
+    if arena.world.truth is None:
+        own = [in_the_world(driven.online, arena.world) for driven in arena.drives.values()]
+        corners = np.concatenate(own)[:, :2]
+    else:
+        corners = arena.world.floor.outline().reshape(-1, 2)
+    return corners.min(axis=0) - MARGIN, corners.max(axis=0) + MARGIN
+
+
+def _near(rows, arena):
+    """Which rows (n, 2 or 3) are finite and in the picture, or beside it by its size at most."""
+    low, high = _frame(arena)
+    size = (high - low).max()
+    inside = (rows[:, :2] > low - size) & (rows[:, :2] < high + size)
+    return np.isfinite(rows).all(axis=1) & inside.all(axis=1)
+
+
 def map_picture(arena, drive, moment=None):
     """Draw a map of a world: its walls, the true track, odometry's and the estimate's.
 
@@ -43,14 +64,10 @@ def map_picture(arena, drive, moment=None):
     if world.truth is None:
         walls, truth = np.empty((0, 4)), np.empty((0, 3))
         title = "Two tracks of a recorded log: odometry, estimate"
-        # not the estimate's: who runs off leaves the picture, and does not make it endless
-        corners = np.concatenate([in_the_world(d.online, world) for d in arena.drives.values()])
-        corners = corners[:, :2]
     else:
         walls, truth = world.floor.outline(), world.truth.poses
         title = "Map of the world with three tracks: true, odometry, estimate"
-        corners = walls.reshape(-1, 2)
-    low, high = corners.min(axis=0) - MARGIN, corners.max(axis=0) + MARGIN
+    low, high = _frame(arena)
     scale = WIDTH / (high[0] - low[0])
     height = scale * (high[1] - low[1])
 
@@ -120,7 +137,7 @@ def _scenes(arena, drive):
     walls = Segments("walls", world.floor.outline()) if known_track else None
     odometry = in_the_world(arena.drives["odometry"].online, world)
     online = in_the_world(drive.online, world)
-    known = np.isfinite(online).all(axis=1)
+    known = _near(online, arena)
     cloud, cells = np.empty((0, 2)), set()
     for i, reading in enumerate(arena.readings):
         if known[i] and reading.scan is not None:
@@ -142,6 +159,7 @@ def _scenes(arena, drive):
     motion = aligned(np.where(np.isfinite(there), drive.trajectory, np.nan), there)
     final = drive.trajectory[np.isfinite(drive.trajectory).all(axis=1)]
     laid, points = compose(motion, final) if len(final) else final, transform(motion, drive.points)
+    laid, points = laid[_near(laid, arena)], points[_near(points, arena)]
     yield _scene(walls, truth, odometry, laid, points, "the trajectory and the map at the end")
 
 

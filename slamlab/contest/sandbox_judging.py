@@ -5,6 +5,7 @@ ahead; no truth, no seed and no other world is ever in it. What comes back are a
 here. Its CPU time is the kernel's, not the worker's word.
 """
 
+import re
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -22,7 +23,8 @@ from slamlab.project.streamed_drive import DRIVES
 
 PROJECT = replace(EXERCISE, tasks=(), drives="slamlab.project.streamed_drive")
 """What a worker holds that drives through hidden worlds, and what never."""
-MAX_CELLS = 5  # that failed are told where no estimator could be made
+MAX_CELLS = 5  # that failed are told: those that define something, or all where nothing drives
+_DEFINES = re.compile(r"^(class|def)\s", re.MULTILINE)
 
 
 @dataclass(frozen=True)
@@ -107,7 +109,12 @@ def drive_in_sandbox(cells, readings, start, budget, stop=None):
             driven = drive(partial(RemoteEstimator, client), readings, budget)
         except ZygoteError as error:
             raise GraderFault(str(error)) from error
-    if np.isfinite(driven.online).any() or not driven.mistakes:
-        return driven
-    cells = [f"cell {number}: {problem}" for number, problem in client.problems.items()]
-    return replace(driven, mistakes=(*driven.mistakes, *cells[:MAX_CELLS]))
+    # a cell that failed may have left an older class in its place, which drives without a word
+    nothing = driven.mistakes and not np.isfinite(driven.online).any()
+    sources = dict(cells)
+    told = [
+        f"cell {number}: {problem}"
+        for number, problem in client.problems.items()
+        if nothing or _DEFINES.search(sources.get(number, ""))
+    ]
+    return replace(driven, mistakes=(*driven.mistakes, *told[:MAX_CELLS]))

@@ -2,6 +2,7 @@
 
 import csv
 import json
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -9,12 +10,13 @@ import pytest
 
 from slamlab import sources
 from slamlab.cli import main
-from slamlab.contest import commitment, contest_logs
+from slamlab.contest import commitment, contest_logs, pictures
 from slamlab.contest.commitment import ContestError
 from slamlab.contest.pictures import film_page, map_picture
 from slamlab.contest.ranking import by_families
 from slamlab.evaluation.relations import Relations, load_relations
 from slamlab.geometry import between
+from slamlab.layers import Points, Poses
 from slamlab.project.drawing import draw_world
 from slamlab.project.driving import Drive
 from slamlab.project.recorded_logs import MAX_LOG_READINGS, recorded_log
@@ -214,11 +216,19 @@ def test_a_film_and_a_map_of_a_log_need_no_truth_and_no_finite_pose(tmp_path):
         assert "the true track" not in page
 
 
-def test_who_runs_off_in_a_log_leaves_the_map_and_does_not_stretch_it():
-    gone = estimate(0.1)
-    gone.online[:] = np.linspace([0, 0, 0], [3.0, 1e5, 0], len(world()))
-    box, usual = (
-        map_picture(arena(), driven).split('viewBox="')[1].split('"')[0]
-        for driven in (gone, estimate(0.1))
-    )
-    assert box == usual
+def test_who_runs_off_leaves_map_and_film_and_does_not_stretch_them():
+    inside = prepare(world())
+    for where in (arena(), inside):
+        gone, usual = estimate(0.1), estimate(0.1)
+        far = np.linspace([0, 0, 0], [3.0, 1e5, 0], len(world()))
+        gone = replace(gone, online=far, trajectory=far, points=far[:, :2])
+        box, usual_box = (
+            map_picture(where, driven).split('viewBox="')[1].split('"')[0]
+            for driven in (gone, usual)
+        )
+        assert box == usual_box
+        for scene in pictures._scenes(where, gone):
+            for layer in scene.layers:
+                if isinstance(layer, Points | Poses):
+                    rows = layer.xy if isinstance(layer, Points) else layer.rows
+                    assert np.abs(rows[:, :2]).max(initial=0) < 200

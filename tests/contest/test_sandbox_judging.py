@@ -146,6 +146,20 @@ def test_a_notebook_without_the_class_is_told_which_cell_failed():
     assert found.completeness == 0
 
 
+@pytest.mark.parametrize(
+    ("cell", "is_told"),
+    [
+        ("from slamlab.project import practice\nclass MySlam(MySlam):\n    pass", True),
+        ("unknown\ndef match():\n    pass", True),
+        ("print(unknown)", False),
+    ],
+)
+def test_a_cell_that_failed_and_left_the_class_before_it_is_told(cell, is_told):
+    found = driven([(1, cheaters.TEMPLATE), (4, cell)], arena().readings[:3])
+    assert np.isfinite(found.online).all()
+    assert [mistake.startswith("cell 4: ") for mistake in found.mistakes] == [True] * is_told
+
+
 def test_a_fault_of_the_graders_is_not_told_as_the_students():
     def none(exercise):
         raise WorkerStartError("no worker today")
