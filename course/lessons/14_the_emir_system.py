@@ -766,14 +766,14 @@ print(f"of 20 ways to cut the bytes into pieces, {differ} gave other points")
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=12
 # ## Live
 #
-# Now all of it together, as in Tuček's program: two maps grow side by side. The **naive** map believes the wheels
-# alone. The **corrected** one lays each scan over the former ones by the scan matching of lesson 13. Both take a
-# count for 1 cm and 2°, as the thesis does.
+# Now all of it together, as in Tuček's program: two maps grow side by side. One believes **odometry alone**; the
+# thesis calls it naive. The other, the **estimate**, lays each scan over the former ones by the scan matching of
+# lesson 13. Both take a count for 1 cm and 2°, as the thesis does.
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
     "14-live",
-    "The heading of the naive map slowly goes wrong. **Where do its walls smear first?**",
+    "The heading by odometry alone slowly goes wrong. **Where do the walls of its map smear first?**",
     {
         "near the robot, where most points fall": "points near the robot are many, but a wrong heading moves them little.",
         "far from the robot": "a wrong heading turns the scan about the robot: a point is displaced by the angle times its distance.",
@@ -793,11 +793,11 @@ played = {
 seen_live = views.live(
     played,
     views.apart(partial(estimators.make, "icp"), naive=(-8.5, 0)),
-    "Left the naive map, its walls fanned out; right the corrected map, one sharp room.",
+    "Left the map by odometry alone, its walls fanned out; right the estimate, one sharp room.",
     steps=350,
     note=trials.errors_now,
     truth=False,
-    title="eMIR: naive map on the left, corrected map on the right",
+    title="eMIR: odometry alone on the left, the estimate on the right",
     speed=10,
     tops=(0.3, 0.6),
     size=(860, 400),
@@ -805,9 +805,9 @@ seen_live = views.live(
 naive_off, corrected_off = trials.errors(seen_live.pair.estimator, true.poses[-1])
 
 # %% [markdown] slideshow={"slide_type": "subslide"} answers="14-live"
-# After one round of the table the naive map shows each wall several times, fanned out like cards, and most of all
-# the far ones. In the corrected map every wall is one line. Both maps come from the same bytes. At the end of
-# this simulated drive the naive pose was {= naive_off:.0f =} cm off, and the corrected one {= corrected_off:.0f
+# After one round of the table the map by odometry alone shows each wall several times, fanned out like cards, and
+# most of all the far ones. In the estimated map every wall is one line. Both maps come from the same bytes. At the
+# end of this simulated drive odometry alone was {= naive_off:.0f =} cm off, and the estimate {= corrected_off:.0f
 # =} cm.
 
 # %% [markdown] slideshow={"slide_type": "subslide"} answers="14-live"
@@ -816,8 +816,8 @@ naive_off, corrected_off = trials.errors(seen_live.pair.estimator, true.poses[-1
 # - **A recording** needs no robot: press *reset* and *run*.
 # - **A robot**: press it, then *run*. Drive by the buttons, or click the picture and use the arrow keys (space
 #   stops). Or type as in the thesis: `distance, angle`, `reset`, `exit`. A way of `0.5, 30` is a turn by 30° and
-#   then half a metre, by the corrected pose.
-# - **A robot, calibrated** is the same with your own scale factors. The naive map gets better, too, but the
+#   then half a metre, by the estimated pose.
+# - **A robot, calibrated** is the same with your own scale factors. Odometry alone gets better, too, but the
 #   wheels still slip.
 #
 # *pause*, *exit*, running the cell again, or ending the kernel stops the robot.
@@ -851,7 +851,7 @@ naive_off, corrected_off = trials.errors(seen_live.pair.estimator, true.poses[-1
 # You can read a device's bytes, test for a wrong sign, send commands that arrive, unwrap counters, calibrate,
 # record and replay, and drive a robot through a growing map.
 #
-# **What comes next:** the corrected map is sharp after one round. In a larger building small errors add up, and
+# **What comes next:** the estimated map is sharp after one round. In a larger building small errors add up, and
 # where the robot comes back, walls stand twice. Lesson [15](15_closing_the_loop.ipynb) recognises places and
 # closes the loop.
 #
