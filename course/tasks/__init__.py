@@ -34,10 +34,13 @@ class Slip:
     hint : str, for the student: what is wrong and what to think of, not the solution
     programs : edits or sources
     before : names of slips that compute the same, over which this one has precedence
+    shaky : bool, what it computes hangs on the machine's rounding: it is named where it is
+        recognised, and else told by its laws alone
     """
 
-    def __init__(self, name, hint, *programs, before=()):
+    def __init__(self, name, hint, *programs, before=(), shaky=False):
         self.name, self.hint, self.programs, self.before = name, hint, programs, before
+        self.shaky = shaky
 
 
 class Stumble:

@@ -146,7 +146,8 @@ SLIPS = (
     Slip(
         "noise-in-all-of-S",
         "σ² stands in every place of S, as if all ranges erred alike. They err independently of each other.",
-        (NOISE, "sigma**2"),
+        (NOISE, "sigma**2"),  # S is singular: its inverse is what rounding left
+        shaky=True,
     ),
     Slip(
         "noise-forgotten",
