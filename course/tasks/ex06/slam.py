@@ -79,7 +79,7 @@ SLIPS = (
     ),
     Slip(
         "stops-early",
-        "The loop ends before all that was seen has been used: look for a break or a return inside it.",
+        "The loop ends before all that was seen has been used: look inside it for a break, or for a return.",
         (KEEP, KEEP + "\n            break"),
     ),
     Slip(
