@@ -119,11 +119,13 @@ def test_a_slider_has_a_name_and_is_moved_by_the_keyboard(visit):
     visit.open(LESSON)
     visit.run_all_and_wait()
     handle = visit.page.get_by_role("slider", name="x", exact=True)
-    before = visit.page.locator(FIGURES).nth(1).get_attribute("src")
+    cell = visit.page.locator(".jp-CodeCell").filter(has=handle)
+    before = cell.locator(FIGURES).get_attribute("src")
     handle.focus()
     visit.page.keyboard.press("ArrowLeft")
     visit.page.wait_for_function(
-        f"(before) => document.querySelectorAll('{FIGURES}')[1].src != before", arg=before
+        f"([cell, before]) => cell.querySelector('{FIGURES}').src != before",
+        arg=[cell.element_handle(), before],
     )
 
 
