@@ -57,7 +57,7 @@ def test_figures_are_there_when_a_saved_notebook_is_opened_again(browser, tmp_pa
             if not round_:
                 visit.run_all_and_wait()
                 visit.save()
-            visit.page.wait_for_function(f"document.querySelectorAll('{FIGURES}').length >= 3")
+            visit.page.wait_for_function(f"document.querySelectorAll('{FIGURES}').length >= 2")
             alts = visit.page.locator(FIGURES).evaluate_all("all => all.map((one) => one.alt)")
             seen.append(sorted(alts))
             assert visit.page.get_by_text("Error displaying widget").count() == 0

@@ -226,7 +226,7 @@ def test_a_regrade_killed_at_any_moment_changes_no_mark_and_no_row(tmp_path):
 def test_a_database_stopped_in_mid_run_is_waited_for_and_nothing_is_lost(tmp_path, server):
     url, does = server
     forget(url)
-    names = class_of(tmp_path / "class", 20)
+    names = class_of(tmp_path / "class", 100)  # not done while it is being stopped
     grading = grading_of(tmp_path, "--db", url, "--jobs", "1")
     until(lambda: len(list((tmp_path / "out").glob("feedback/*"))) > 1)
     does("stop")
