@@ -47,4 +47,4 @@ def test_the_recording_gives_the_stored_maps(tmp_path):
             np.testing.assert_allclose(made[name], kept[name], rtol=0.05)
         for name in intel_maps.SIDES:  # cells: another machine rounds a point into the next
             same = set(map(tuple, made[name])) & set(map(tuple, kept[name]))
-            assert len(same) > 0.95 * len(kept[name])
+            assert len(same) > 0.9 * len(kept[name])
