@@ -96,14 +96,14 @@ def run(arguments) -> int:
     told = (UsageError, SubmissionError, GradebookError, IsolationError, LatePolicyError, TermError)
     try:
         with tempfile.TemporaryDirectory(prefix="slamlab-zips-") as scratch:
-            records, *told = _grade(arguments, Path(scratch))
+            records, *said = _grade(arguments, Path(scratch))
     except (*told, RunError, KeyError) as error:
         print(f"slamlab grade: {error.args[0]}", file=sys.stderr)
         return 2
     except OSError as error:
         print(f"slamlab grade: {error.filename}: {error.strerror}", file=sys.stderr)
         return 2
-    print_summary(records, arguments.out, *told)
+    print_summary(records, arguments.out, *said)
     return 0
 
 

@@ -111,9 +111,8 @@ def _evaluated(line, symbols):
             sp.sympify(e).xreplace(point).doit().evalf(DIGITS) for e in _entries(line)
         ]
     symbols = list(symbols)
-    program = sp.lambdify(
-        symbols, line, docstring_limit=0
-    )  # a docstring takes longer than the rest
+    # a docstring would take longer than the rest
+    program = sp.lambdify(symbols, line, docstring_limit=0)
     return lambda point: [
         sp.Float(float(entry)) for entry in program(*(_array(point[s]) for s in symbols)).ravel()
     ]
