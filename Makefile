@@ -22,7 +22,7 @@ test: lint clients  ## Set up, run every test that is not long, and every notebo
 	$(PYTEST) -m "not soak and not walk and not slow" $(TEST_ARGS)
 	rm -f $(FAULTS)
 	PYTHONHASHSEED=0 SLAMLAB_FIGURE_FAULTS="$(CURDIR)/$(FAULTS)" \
-		$(RUN) pytest @tests/notebooks/nbval.args notebooks exercises solutions
+		$(RUN) pytest -p tests.notebooks.nearly @tests/notebooks/nbval.args notebooks exercises solutions
 	$(RUN) course.known_faults $(FAULTS)
 
 LONG = slow or walk

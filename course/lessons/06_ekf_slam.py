@@ -1081,7 +1081,7 @@ for name, formula in {
     except sp.ShapeError:
         print(name, "is refused: the shapes do not fit")
 
-# %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
+# %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output", "nearly"]
 forgetful = broken_slam.at_the_end(ten, broken_slam.Forgetful)
 never = broken_slam.at_the_end(ten, broken_slam.NeverSurer)
 print(f"{'10 runs, at the end':28} map [m]  robot [m]  claimed [m]  NEES")

@@ -599,7 +599,7 @@ pairs = {
 }
 found = {name: match(new, old) for name, (new, old) in pairs.items()}
 
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output", "nearly"]
 for name, m in found.items():
     share, fixed = m.fit.overlap, m.observability.fixed.sum()
     verified = loops.is_verified(m, *pairs[name])
@@ -652,7 +652,7 @@ print(
 # overlap, all fixed, nothing contradicts. *No surprise*: (15.8) is below 60. A match is called wrong if it is more than
 # 15 cm or 6° off.
 
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output", "nearly"]
 slam = run(corridor, GraphSlam(corridor.robot, loops=False)).estimator
 wrong, gates = false_loops.judged(slam, false_loops.true_poses(slam, corridor))
 gates = {"asked": np.full(len(wrong), True)} | gates
@@ -682,7 +682,7 @@ for name, (right, bad) in passed.items():
 # look five times as far for loops as it would. It runs once with its gate, which refuses a surprise above 60, and once with
 # the gate wide open.
 
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output", "nearly"]
 twins = false_loops.twins()
 systems = {"gate at 60": twins.with_gate, "no gate": twins.without}
 for name, slam in systems.items():
@@ -729,7 +729,7 @@ ask(
 )
 
 
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="15-width"
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output", "nearly"] answers="15-width"
 by_claim = {claim: twins.surprises(claim) for claim in (0.2, 1, 3)}
 print("claimed error ×   right ones up to   false ones from")
 for claim, s in by_claim.items():
@@ -861,7 +861,7 @@ views.explore(
 # 3. With all false loops on offer, lower the gate. Below which gate is the map whole? And what happens when the gate is so low that it
 #    refuses right loops?
 
-# %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"] answers="15-liars"
+# %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output", "nearly"] answers="15-liars"
 trials = {}
 print("false loops   trusted   Φ = 11.3   Φ = 11.3 and a gate at 60")
 for count in (0, 1, 2, 5, np.sum(twins.false)):
@@ -882,7 +882,7 @@ for count in (0, 1, 2, 5, np.sum(twins.false)):
 # The optimiser looks for the least cost. Perhaps the broken map *is* cheaper? We ask what the map of the five liars costs, and what
 # the map of the right loops alone would cost, with all the same edges:
 
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output", "nearly"]
 graph, _ = twins.closed(twins.offered(5), 11.3)
 paid = {"the broken map": false_loops.cost(graph, 11.3)}
 graph.poses = twins.closed(twins.offered(0), 11.3)[0].poses

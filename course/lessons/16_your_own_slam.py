@@ -320,7 +320,7 @@ views.explore(
 # for both.
 
 
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output", "nearly"]
 e = {name: errors_over(20.0, name) for name in NAMES}
 for name in ("no loops", "graph"):
     print(f"{name:>9}:", "  ".join(f"{error:.3f}" for error in e[name]), "m")
@@ -378,7 +378,7 @@ views.show(
 # A SLAM has parts, and you will have built each of them with effort. Which of them helps? Take out **one**,
 # leave everything else, and drive the same worlds. Our five variants are such a row, from nothing to all.
 
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output", "nearly"]
 print(f"{'':>9} {'1 m':>7} {'5 m':>7} {'20 m':>7}   map")
 for name in NAMES:
     found = [a.judge(own[name]).measures for a, own in zip(arenas, drives, strict=True)]

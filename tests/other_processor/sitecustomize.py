@@ -1,0 +1,59 @@
+"""Numpy as another processor computes it: every fourth last bit differs.
+
+Put this folder first on PYTHONPATH. Processors differ in the last bit of sines, angles and
+products; what hangs on that bit differs from machine to machine. OTHER_PROCESSOR=2 and so on are
+further processors.
+"""
+
+import os
+
+import numpy as np
+
+ODD = np.uint64(0x9E3779B97F4A7C15 + 2 * int(os.environ.get("OTHER_PROCESSOR", "1")))
+
+NAMES = [
+    "sin",
+    "cos",
+    "tan",
+    "exp",
+    "log",
+    "arctan2",
+    "arctan",
+    "arcsin",
+    "arccos",
+    "hypot",
+    "power",
+]
+
+
+def nudged(found: np.ndarray) -> np.ndarray:
+    """The numbers (...), a quarter of them one bit nearer zero; 0 and ±1 stay exact."""
+    bits = found.view(np.uint64) * ODD
+    chosen = (bits >> np.uint64(62) == 0) & (found != 0) & (np.abs(found) != 1)
+    return np.where(chosen & np.isfinite(found), np.nextafter(found, 0), found)
+
+
+class Nudged:
+    """A ufunc whose answers are nudged; its methods, as ``outer``, stay as they are."""
+
+    def __init__(self, exact):
+        self.exact = exact
+        self.__name__, self.__doc__ = exact.__name__, exact.__doc__
+
+    def __call__(self, *values, **named):
+        found = self.exact(*values, **named)
+        if isinstance(found, np.float64):
+            return nudged(np.atleast_1d(found))[0]
+        if type(found) is not np.ndarray or found.dtype != np.float64:
+            return found
+        if "out" in named or "where" in named:
+            found[...] = nudged(found)
+            return found
+        return nudged(found)
+
+    def __getattr__(self, name):
+        return getattr(self.exact, name)
+
+
+for name in NAMES:
+    setattr(np, name, Nudged(getattr(np, name)))
