@@ -11,19 +11,7 @@ import numpy as np
 
 ODD = np.uint64(0x9E3779B97F4A7C15 + 2 * int(os.environ.get("OTHER_PROCESSOR", "1")))
 
-NAMES = [
-    "sin",
-    "cos",
-    "tan",
-    "exp",
-    "log",
-    "arctan2",
-    "arctan",
-    "arcsin",
-    "arccos",
-    "hypot",
-    "power",
-]
+NAMES = ["sin", "cos", "tan", "exp", "log", "arctan2", "arctan", "arcsin", "arccos", "hypot"]
 
 
 def nudged(found: np.ndarray) -> np.ndarray:
