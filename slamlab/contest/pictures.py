@@ -4,6 +4,7 @@ import numpy as np
 
 from slamlab.films import FilmRecorder, page
 from slamlab.geometry import between, compose, transform
+from slamlab.landmarks.downsampling import FirstOfCells
 from slamlab.layers import Points, Poses, Segments
 from slamlab.project.drive_errors import aligned
 from slamlab.views.colours import COLOURS
@@ -138,16 +139,11 @@ def _scenes(arena, drive):
     odometry = in_the_world(arena.drives["odometry"].online, world)
     online = in_the_world(drive.online, world)
     known = _near(online, arena)
-    cloud, cells = np.empty((0, 2)), set()
+    cloud, cells = np.empty((0, 2)), FirstOfCells(CELL)
     for i, reading in enumerate(arena.readings):
         if known[i] and reading.scan is not None:
-            fresh = []
-            for point in transform(online[i], reading.scan.points()):
-                cell = tuple(np.floor(point / CELL).astype(int))
-                if cell not in cells:
-                    cells.add(cell)
-                    fresh.append(point)
-            cloud = np.concatenate([cloud, np.reshape(fresh, (-1, 2))])
+            seen = transform(online[i], reading.scan.points())
+            cloud = np.concatenate([cloud, cells.add(seen)])
         own = online[: i + 1][known[: i + 1]]
         status = f"reading {i + 1} of {len(online)}"
         if known_track:

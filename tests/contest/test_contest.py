@@ -84,6 +84,7 @@ def test_the_better_is_ahead_and_who_fails_in_every_world_is_last(held):
 def test_nothing_that_may_be_published_holds_a_name(held):
     for path in held.board.rglob("*"):
         text = path.read_text("utf-8") if path.is_file() else ""
+        text = re.sub(r"[\w+/=]{1000,}", "", text)  # a film's bytes may spell any short word
         assert not re.search(r"\b(ada|bob|cem|dora|fox)\b", text), path
         assert path.stem not in CLASS
 

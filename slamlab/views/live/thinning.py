@@ -8,12 +8,12 @@ from dataclasses import replace
 
 import numpy as np
 
+from slamlab.landmarks.downsampling import FirstOfCells
 from slamlab.layers import Points
 
 CELL = 0.01  # side of the cells of which one point is drawn [m]
 MANY = 20_000  # points, up to which all are drawn
 PROBES = 64  # points by which a cloud is known again
-_ROW = np.int64(1) << 32  # one more than there are cells in a row of the plane
 
 
 class Thinning:
@@ -62,20 +62,12 @@ class ThinnedCloud:
         if len(xy) < self._count or not np.array_equal(xy[self._at], self._probes):
             self._begin()
         if len(xy) > self._count:
-            self._drawn = np.concatenate([self._drawn, self._first_of_cells(xy[self._count :])])
+            self._drawn = np.concatenate([self._drawn, self._cells.add(xy[self._count :])])
         self._count = len(xy)
         self._at = np.linspace(0, self._count - 1, PROBES).astype(int)
         self._probes = xy[self._at]
         return self._drawn
 
     def _begin(self):
-        self._known, self._count, self._at = set(), 0, np.empty(0, int)
+        self._cells, self._count, self._at = FirstOfCells(CELL), 0, np.empty(0, int)
         self._drawn = self._probes = np.empty((0, 2))
-
-    def _first_of_cells(self, xy):
-        xy = xy[np.isfinite(xy).all(axis=1)]
-        cells = np.floor(xy / CELL).astype(np.int64)
-        keys, first = np.unique(cells[:, 0] * _ROW + cells[:, 1], return_index=True)
-        new = [at for key, at in zip(keys.tolist(), first, strict=True) if key not in self._known]
-        self._known.update(keys.tolist())
-        return xy[np.sort(np.array(new, dtype=int))]
