@@ -219,22 +219,24 @@ def icp(cloud, target, guess, sigma, reach=0.5):
 def optimise(poses, ties, rounds=4):
     """Gauss-Newton on the keyframes' poses; far too large errors of a tie lose their weight."""
     x = np.array(poses)
+    i, j, tie, sigma = (np.array(each) for each in zip(*ties, strict=True))
+    rows = (3 * np.column_stack([i, i, i, j, j, j])) + np.array([0, 1, 2, 0, 1, 2])
     for _ in range(rounds):
+        c, s = np.cos(x[i, 2]), np.sin(x[i, 2])
+        R = np.array([[c, s], [-s, c]]).transpose(2, 0, 1)
+        turned = np.array([[-s, c], [-c, -s]]).transpose(2, 0, 1)  # ∂R/∂θ
+        d = (x[j, :2] - x[i, :2])[..., None]
+        e = np.column_stack([(R @ d)[..., 0], x[j, 2] - x[i, 2]]) - tie
+        e[:, 2] = wrap(e[:, 2])
+        J = np.zeros((len(ties), 3, 6))
+        J[:, :2, :2], J[:, :2, 2:3], J[:, 2, 2] = -R, turned @ d, -1
+        J[:, :2, 3:5], J[:, 2, 5] = R, 1
+        w = 1 / sigma**2 / (1 + np.sum((e / sigma) ** 2, axis=1) / 50)[:, None]
+        weighted = J.transpose(0, 2, 1) * w[:, None]
         H, b = np.zeros((x.size, x.size)), np.zeros(x.size)
-        H[:3, :3] += 1e9 * np.eye(3)
-        for i, j, tie, sigma in ties:
-            c, s = np.cos(x[i, 2]), np.sin(x[i, 2])
-            R = np.array([[c, s], [-s, c]])
-            d = x[j, :2] - x[i, :2]
-            e = np.append(R @ d - tie[:2], wrap(float(x[j, 2] - x[i, 2] - tie[2])))
-            A, B = np.zeros((3, 3)), np.eye(3)
-            A[:2, :2], A[2, 2], B[:2, :2] = -R, -1, R
-            A[:2, 2] = np.array([[-s, c], [-c, -s]]) @ d
-            W = np.diag(1 / sigma**2) / (1 + np.sum((e / sigma) ** 2) / 50)
-            both = np.hstack([A, B])
-            rows = np.r_[3 * i : 3 * i + 3, 3 * j : 3 * j + 3]
-            H[np.ix_(rows, rows)] += both.T @ W @ both
-            b[rows] -= both.T @ W @ e
+        H[:3, :3] = 1e9 * np.eye(3)
+        np.add.at(H, (rows[:, :, None], rows[:, None]), weighted @ J)
+        np.add.at(b, rows, -(weighted @ e[..., None])[..., 0])
         x = x + np.linalg.solve(H, b).reshape(-1, 3)
     x[:, 2] = wrap(x[:, 2])
     return list(x)
