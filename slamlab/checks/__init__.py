@@ -3,6 +3,7 @@
 Read in this order:
 
 - here: check, hint, ask, attempt, validate; ``time_limit``: their timeout
+- ``borrowed``: what a student took from the package that grading does not hold
 - ``ladder``: what hint says; ``questions``: what ask shows, ``stored_questions``: of lessons
 - ``notebook_file``: where this notebook stands, what of it is not saved
 - ``validation``: a whole notebook judged as grading judges it
@@ -140,6 +141,7 @@ def _offer_hint():
 
 
 def _check(task_id, namespace):
+    from slamlab.checks.borrowed import borrowed
     from slamlab.coursework import progress_records
     from slamlab.exercises import catalogue, report
 
@@ -155,6 +157,9 @@ def _check(task_id, namespace):
     namespace.setdefault("hint", hint)  # what a check offers is there to be called
     exercise = catalogue.exercise(task.id[:2])
     verdict = exercise.verdicts(judge_one, only=[task.id])[task.id]
+    if taken := borrowed(task.drive.functions, namespace, exercise.answers):
+        problem = f"{taken}, which answers this exercise: at grading it is not there"
+        verdict = task.failed("borrowed", problem)
     if printed.get(task.id):
         print(f"your code printed:\n{printed[task.id]}\n")
     print(report.coloured(report.format_verdict(task, verdict)))
