@@ -4,7 +4,7 @@ Read in this order:
 
 - ``submissions``, ``notebooks``, ``hand_in_times``: what was handed in, and when; ``preflight``:
   warnings about its form
-- ``judge``, ``task_judging``: one submission; ``batch``, ``dask_cluster``: a folder of them;
+- ``judge``, ``task_judging``: one submission; ``batch``, ``joining``, ``dask_cluster``: a folder;
   ``storing``, ``records``
 - ``worker_pool``, ``zygote``, ``forked_workers``, ``fresh_workers``, ``worker_client``, ``worker``,
   ``wire_protocol``: fork server (zygote) and sandboxed processes, serialisation between them

@@ -7,6 +7,7 @@ from hashlib import sha256
 from pathlib import Path
 
 from slamlab.grading import forked_workers, judge
+from slamlab.grading.joining import Joining
 from slamlab.grading.records import private_folder
 from slamlab.grading.submissions import SubmissionError, read_bytes
 from slamlab.grading.term.hand_ins import find_hand_ins
@@ -80,22 +81,25 @@ def grade_locally(found, secret, workers, default=None, known=None, jobs=1):
     workers : WorkerPool, closed in the end
     default : str or None, the exercise that all are to be of
     known : attempt's key to Record; these attempts are not graded again
-    jobs : int, how many at once
+    jobs : int, how many at once; the others join the first one when that pays
 
     Yields
     ------
     Record
     """
-    stop = threading.Event()
-    with ThreadPoolExecutor(max(1, jobs)) as pool:
+    stop, joining = threading.Event(), Joining(len(found))
+    with ThreadPoolExecutor(max(1, jobs), initializer=joining) as pool:
         futures = [
             pool.submit(judge.grade_submission, s, secret, workers, default, known, stop)
             for s in found
         ]
+        for future in futures:
+            future.add_done_callback(joining.done)
         try:
             yield from (future.result() for future in as_completed(futures))
         finally:
             stop.set()
+            joining.release()
             for future in futures:
                 future.cancel()
             wait(futures)
