@@ -50,8 +50,10 @@ def alternatives(visit):
 
 def unfold_outputs(visit):
     """Open the outputs that wait for an answer, of all cells; a file keeps them folded."""
-    for folded in visit.page.locator(".jp-OutputPlaceholder:visible").all():
-        folded.click()
+    # all at once: each that is opened is one fewer to count by
+    folded = visit.page.locator(".jp-OutputPlaceholder:visible")
+    folded.evaluate_all("all => all.forEach((one) => one.click())")
+    assert folded.count() == 0
 
 
 def move_by_keyboard(page, handle):
