@@ -1,5 +1,7 @@
 """The wall follower and its arena: no wall is touched, three laps close, logs are the run again."""
 
+import subprocess
+import sys
 from itertools import accumulate
 from typing import ClassVar
 
@@ -14,6 +16,7 @@ from slamlab.sources import Source, arena_runs
 from slamlab.sources.arena_runs import LAPS, ROBOT, ArenaRun, data_set
 from slamlab.studies.three import with_corners
 from tests.laws import assert_same_pose
+from tests.notebooks.test_other_processor import other_processor
 
 FOLLOWER = WallFollower()
 PERFECT = DifferentialDrive(base=0.1, tick=1e-9, radius=0.06)
@@ -96,6 +99,31 @@ def test_a_perfect_robots_odometry_is_the_truth():
     for reading, true in zip(source, source.truth.poses, strict=True):
         pose = compose(pose, reading.odometry)
         assert_same_pose(pose, true, tolerance=1e-5)
+
+
+DRIVE = """
+import sys
+import numpy as np
+from slamlab.sources.arena_runs import ArenaRun
+run = ArenaRun(np.random.default_rng(int(sys.argv[1])), laps=1)
+given = list(run)
+odometry, ranges = [r.odometry for r in given], [r.scan.ranges for r in given]
+np.savez(sys.argv[2], truth=run.truth.poses, odometry=odometry, ranges=ranges)
+"""
+
+
+@pytest.mark.parametrize("seed", [0, 1, 65])
+def test_a_drive_is_the_same_on_another_processor(tmp_path, seed):
+    drives = []
+    for number, env in enumerate([None, other_processor(1), other_processor(2)]):
+        path = tmp_path / f"{number}.npz"
+        subprocess.run([sys.executable, "-c", DRIVE, str(seed), path], env=env, check=True)
+        drives.append(np.load(path))
+    here, *others = drives
+    for there in others:
+        for name in here:
+            np.testing.assert_allclose(there[name], here[name], rtol=0, atol=1e-9)
+        assert any(np.any(here[name] != there[name]) for name in here)  # it does round otherwise
 
 
 class Blind:

@@ -68,6 +68,12 @@ def test_ticks_that_are_not_whole_are_counted_later_and_never_lost():
         assert -1e-9 <= simulator.pose[0] - believed < robot.tick + 1e-9
 
 
+def test_in_mid_phase_a_way_of_whole_ticks_is_counted_whole_whatever_the_last_bit():
+    simulator = Simulator(DifferentialDrive(tick=0.0002, phase=0.5), rng())
+    for seconds in np.nextafter(0.1, [0.0, 1.0] * 500):
+        assert simulator.step(0.1, 0.0, seconds)[0] == pytest.approx(0.01, abs=1e-12)
+
+
 def test_odometry_is_a_motion_in_the_frame_of_the_pose_before():
     simulator = Simulator(FINE, rng(), pose=(3.0, -2.0, 2.4))
     for command in [(0.3, 0.5, 1.0), (0.2, -0.9, 2.0)]:
@@ -168,6 +174,7 @@ def test_following_keeps_to_its_top_speeds():
         ({"base": 0.0}, "above zero"),
         ({"right_scale": -1.0}, "above zero"),
         ({"slip": -0.1}, "slip"),
+        ({"phase": 1.0}, "phase"),
     ],
 )
 def test_a_robot_that_makes_no_sense_is_refused(wrong, message):

@@ -11,6 +11,8 @@ import numpy as np
 
 from slamlab.geometry import compose
 
+MARGIN = 1e-6  # of a step, which is a whole number of polls: rounding must not add another [m]
+
 
 @dataclass(frozen=True)
 class WallFollower:
@@ -70,6 +72,6 @@ class WallFollower:
         while read() < self.near:
             go(0, -self.omega)
         target = moved[:2]  # the listing's name for where the drive starts
-        while np.hypot(*(moved[:2] - target)) < self.step and read() > self.near:
+        while np.hypot(*(moved[:2] - target)) < self.step - MARGIN and read() > self.near:
             go(self.v, 0)
         return moved, polls * self.period

@@ -17,7 +17,7 @@ from slamlab.simulation.range_scanners import GP2D120
 from slamlab.simulation.wall_follower import WallFollower
 from slamlab.sources.base import Source
 
-ROBOT = DifferentialDrive(base=0.1, tick=0.0002, slip=0.003, radius=0.06)
+ROBOT = DifferentialDrive(base=0.1, tick=0.0002, slip=0.003, radius=0.06, phase=0.5)
 """Robot of 12 × 12 cm (differential drive): a toy's chassis with the encoders of a computer mouse.
 
 The thesis gives no figures of its odometry but that it strays farther and farther; this slip is
