@@ -255,7 +255,7 @@ ask(
     "12-corners",
     "The robot drives along the walls of an arena full of corners, seldom more than a hand away. **In how many of a "
     "hundred scans does it find a corner?**",
-    right=38,
+    right=36,
     tolerance=13,
     unit="scans",
     reason="it needs a good piece of both walls within 28 cm, and mostly has one wall only.",
@@ -319,12 +319,12 @@ views.show(fig, "Two scans: a concave corner between its walls, a convex one see
 # the filter believed the robot was.
 
 # %% slideshow={"slide_type": "fragment"} tags=["folded"]
-other = data_set(65)
+other = data_set(246)
 corners = with_corners(other)
 
 
-def map_of(slam, readings):
-    one = record(slam, other, readings)
+def map_of(slam, source, readings):
+    one = record(slam, source, readings)
     said = "" if one.false is None else f"{one.false} false names, "
     said += f"{one.landmarks} corners in the map, {100 * one.errors[-1]:.0f} cm off at the end"
     fig, ax = views.axes(said, size=(8.5, 5.4))
@@ -339,14 +339,14 @@ def map_of(slam, readings):
 
 # %% slideshow={"slide_type": "subslide"}
 def associated(opening, times_R):
-    return map_of(FILTERS["MAK"](other), with_changed_corners(corners, opening, times_R))
+    return map_of(FILTERS["MAK"](other), other, with_changed_corners(corners, opening, times_R))
 
 
 views.explore(
     associated,
     lambda opening, times_R: (
         f"Scans by MAK, corners compared by place{' and opening' * opening}, R times {times_R}: "
-        "without openings the walls are drawn several times and turned; with them and a doubled R, once."
+        "without openings the map's corners are turned off the walls; with them and four times R they lie near the true ones."
     ),
     opening=False,
     times_R=[1, 2, 4],
@@ -354,12 +354,12 @@ views.explore(
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # One sighting taken for the wrong corner turns the map, and then the next mistakes come by themselves. Now compare the
-# openings as well. Is that enough? And what if you only double $R$?
+# openings as well. Is that enough? And what if you only enlarge $R$?
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
 false = {}
 for opening in (False, True):
-    for times in (1, 2):
+    for times in (1, 2, 4):
         one = record(FILTERS["MAK"](other), other, with_changed_corners(corners, opening, times))
         false[opening, times] = one.false
         print(
@@ -367,12 +367,13 @@ for opening in (False, True):
             end="",
         )
         print(f"{one.duplicates:2} corners twice in the map, {100 * one.errors[-1]:4.1f} cm off")
-assert false[True, 2] == 0 < min(false[False, 1], false[False, 2], false[True, 1])
+assert false.pop((True, 4)) == 0 < min(false.values())
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# On this drive it takes both. Openings keep unlike corners apart. The doubled $R$ is for the rare sighting that is no
+# On this drive it takes both. Openings keep unlike corners apart. The larger $R$ is for the rare sighting that is no
 # corner at all but lies some centimetres beside one, farther than the lines' own $R$ allows: a Gaussian has no such tail.
-# The package does both.
+# But the larger $R$ is, the less all good sightings count. The package compares openings and doubles $R$. This drive is
+# one of the few on which that is not enough.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Who gives the names?
@@ -393,10 +394,10 @@ ask(
         "condition, that every name is right.",
         "in a few of a thousand": "that would be rare bad luck. But a wrong name is no luck: a wide box overlaps "
         "many sightings that are not its own, and what it cuts off stays cut off.",
-        "in about a quarter": "one wrong name cuts the truth off, and from there on the box is wrong for many "
+        "in about a fifth": "one wrong name cuts the truth off, and from there on the box is wrong for many "
         "scans.",
     },
-    right="in about a quarter",
+    right="in about a fifth",
 )
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"] answers="12-promise"
@@ -418,18 +419,19 @@ assert named_box["scans_outside"] == 0 and own_box["runs_outside"] == runs == 80
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Your choice of names
 #
-# The same drive as before. Choose a filter, and who names its corners.
+# Our first drive again. Choose a filter, and who names its corners.
 
 # %% slideshow={"slide_type": "fragment"}
-makers = {"own": (OWN_NAMES, corners), "MAK": (FILTERS, named(other, corners))}
+told = named(drive, given)
+makers = {"own": (OWN_NAMES, given), "MAK": (FILTERS, told)}
 ends = {}
 for names, (make, taken) in makers.items():
-    ends[names] = 100 * record(make["Monte Carlo"](other), other, taken).errors[-1]
+    ends[names] = 100 * record(make["Monte Carlo"](drive), drive, taken).errors[-1]
 
 
 def with_names(filter, names):
     make, taken = makers[names]
-    return map_of(make[filter](other), taken)
+    return map_of(make[filter](drive), drive, taken)
 
 
 # %% slideshow={"slide_type": "subslide"}
@@ -466,7 +468,7 @@ Markdown("\n".join([head, "|---" * 6 + "|", *rows]))
 # median in about 95 % of such studies. (A median of differences is in general not the difference of two medians.) All four
 # intervals lie below zero, so each filter is nearer to the truth with MAK's names;
 # FastSLAM, whose samples keep correlations of their own, hardly (its upper end is less than a millimetre below zero). MAK itself took
-# {= free["MAK"]["association"]["false"] =} sighting in {= runs =} drives for another corner.
+# {= free["MAK"]["association"]["false"] or "no" =} sighting in {= runs =} drives for another corner.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* Here is a good place for the break. Ask what a comparison of filters is worth in which each filter
@@ -487,7 +489,7 @@ Markdown("\n".join([head, "|---" * 6 + "|", *rows]))
 # - **walls**: EKF-SLAM again, but its landmarks are the lines of the walls (lesson 09).
 
 # %% slideshow={"slide_type": "subslide"}
-told, film, way = named(drive, given), {}, {}
+film, way = {}, {}
 for name, make in FILTERS.items():
     slam, film[name] = make(drive), []
     for k, reading in enumerate(told):
@@ -889,12 +891,12 @@ nearer = {n: free[n]["nearer_than_monte_carlo"] for n in names if n != "Monte Ca
 more = {n: verdict(share, 0.5, "nearer", "farther") for n, share in nearer.items()}
 for n, share in nearer.items():
     print(f"{n:26} nearer than Monte Carlo in {percent(share):20} {more[n]}")
-assert (more["BOR, honest"], more["BOR, tuned"]) == ("farther", "undecided")
+assert more["BOR, honest"] == more["BOR, tuned"] == "undecided"
 assert {more[n] for n in ("MAK", "FastSLAM", "walls")} == {"nearer"}
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# For honest boxes it is refuted. For tuned boxes it is undecided even after {= runs =} drives: until one of them strays, they
-# are about equally good. Those that keep correlations are nearer than both.
+# For both kinds of boxes it is undecided even after {= runs =} drives: until one of them strays, boxes and sample sets are
+# about equally good. Those that keep correlations are nearer than both.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Finding 3: "once lost, lost for good"
@@ -907,7 +909,7 @@ ask(
     "12-back",
     "Take the drives on which odometry strays. **In how many of a hundred is it back near the truth at the end of the third "
     "lap?**",
-    right=43,
+    right=50,
     tolerance=13,
     unit="drives",
     reason="a round trip ends where it began, and there a wrong heading does least harm.",
@@ -923,15 +925,15 @@ for n in names:
     gone = percent(line["lost_of_strayed"])
     print(f"{n:26} strayed {line['runs_strayed']:3} of {runs}, of these lost {gone}")
 back = 1 - free["odometry"]["lost_of_strayed"][0]
-for n in ("MAK", "FastSLAM"):
+for n in ("MAK", "FastSLAM", "BOR, tuned"):
     assert verdict(free[n]["lost_of_strayed"], 0.5, "", "come back") == "come back"
-for n in ("BOR, honest", "BOR, tuned"):
-    assert verdict(free[n]["lost_of_strayed"], 0.5, "", "") == "undecided"
+assert verdict(free["BOR, honest"]["lost_of_strayed"], 0.5, "", "") == "undecided"
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="12-back"
 # Odometry, which mends nothing, is back in {= back:.0% =} of its strayed runs. So "it came back" proves nothing by itself. For
-# both boxes it stays undecided whether most of the strayed runs are lost, for their intervals hold one half. MAK and FastSLAM
-# stray seldom, and fewer than half of those runs are lost, by the whole interval.
+# the honest box it stays undecided whether most of the strayed runs are lost, for its interval holds one half. For the tuned
+# box the finding is refuted: fewer than half of those runs are lost, by the whole interval. That does not yet show that the box
+# mends them, for odometry, too, is back in many. MAK and FastSLAM stray seldom, and come back nearly always.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Finding 4: "samples get lost only by the cable"
@@ -983,8 +985,8 @@ for k, reading in enumerate(again):
         heard = says
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# After {= SUSPICIOUS =} suspicious scans in a row it *says* so, and after {= MIN_SCANS =} it acts. The first two alarms were
-# false, and it took them back at the next scan. While it searches it strays, in
+# After {= SUSPICIOUS =} suspicious scans in a row it *says* so, and after {= MIN_SCANS =} it acts. The first alarm was
+# false, and it took it back two scans later. While it searches it strays, in
 # {= percent(snagged["walls"]["strayed"]) =} of the snagged drives, but it is lost in
 # {= percent(snagged["walls"]["lost"]) =} only. This is no merit of the filter, which is an EKF like MAK. It is the merit of
 # landmarks that are in sight.
@@ -1074,11 +1076,11 @@ never, frozen = free["Monte Carlo, never frozen"], free["Monte Carlo"]
 freezing = paired_difference(never["rms_each_m"], frozen["rms_each_m"])
 print(f"never frozen less frozen, RMS on the same drive: {cm(freezing, '+')} cm")
 print(f"lost: frozen {frozen['runs_lost']}, never frozen {never['runs_lost']} of {runs}")
-assert verdict(freezing, 0, "worse", "better") == "undecided"
+assert verdict(freezing, 0, "worse", "better") == "better"
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# The interval holds zero and is narrow: whichever is better is so by millimetres. The difference in lost runs is no proof
-# either, but a reason to look at more drives.
+# It does, but little: the interval leaves out zero, and on a middling drive the filter that never freezes is nearer to the
+# truth by {= -1000 * freezing[0]:.0f =} mm. The difference in lost runs is no proof, but a reason to look at more drives.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Deeper: what a scan costs
