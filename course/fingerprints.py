@@ -1,13 +1,12 @@
 """Compile the fingerprints of slips and small mistakes: ``python -m course.fingerprints 06``.
 
-Programs are run on the open inputs twice, the second time with other kernels of linear algebra;
-rows that move are dropped. What ships is numbers and hints, no program.
+Programs are run on the open inputs twice, the second time as on another processor; rows that move
+are dropped. What ships is numbers and hints, no program.
 """
 
 import argparse
 import ast
 import hashlib
-import os
 import subprocess
 import sys
 import tempfile
@@ -16,6 +15,7 @@ from pathlib import Path
 import numpy as np
 
 from course.mutation import mutants
+from course.other_processor import environment
 from course.programs import SOLUTION, ProgramError, Programs, namespace, programs
 from course.source import ROOT
 from slamlab.checks.time_limit import TimeLimitExceeded, time_limit
@@ -25,7 +25,6 @@ from slamlab.exercises.families import FAMILIES
 from slamlab.exercises.task import OPEN_SEED
 
 FOLDER = ROOT / "slamlab" / "data" / "fingerprints"
-OTHER_KERNEL = {"OPENBLAS_CORETYPE": "Nehalem", "NPY_DISABLE_CPU_FEATURES": "AVX2 FMA3 AVX512F"}
 MUTANT_SECONDS = 2.0
 """Time limit of one mutant, which may never end [s of CPU]."""
 
@@ -159,11 +158,11 @@ def _close(a, b):
 
 
 def stable(arrays, others):
-    """Tables without the rows that move under other kernels.
+    """Tables without the rows that move on another processor.
 
     Parameters
     ----------
-    arrays, others : what :func:`compiled` made with two kernels
+    arrays, others : what :func:`compiled` made on two processors
 
     Returns
     -------
@@ -197,7 +196,7 @@ def main():
         if arguments.to:
             np.savez(arguments.to, **arrays)
             continue
-        arrays, moved = stable(arrays, _with_other_kernel(id))
+        arrays, moved = stable(arrays, _on_other_processor(id))
         FOLDER.mkdir(parents=True, exist_ok=True)
         np.savez_compressed(FOLDER / f"{id}.npz", **arrays)
         rows = sum(len(a) for key, a in arrays.items() if key.endswith("/prints"))
@@ -205,11 +204,11 @@ def main():
         print(f"{id}: {rows} fingerprints, {moved} dropped that moved, {size:.0f} kB")
 
 
-def _with_other_kernel(id):
+def _on_other_processor(id):
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "other.npz"
         command = [sys.executable, "-m", "course.fingerprints", id, "--to", str(file)]
-        subprocess.run(command, check=True, cwd=ROOT, env=os.environ | OTHER_KERNEL)
+        subprocess.run(command, check=True, cwd=ROOT, env=environment())
         with np.load(file) as stored:
             return dict(stored)
 

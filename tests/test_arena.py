@@ -8,6 +8,7 @@ from typing import ClassVar
 import numpy as np
 import pytest
 
+from course.other_processor import environment
 from slamlab import sources, worlds
 from slamlab.geometry import compose
 from slamlab.simulation.differential_drive import DifferentialDrive, Simulator
@@ -16,7 +17,6 @@ from slamlab.sources import Source, arena_runs
 from slamlab.sources.arena_runs import LAPS, ROBOT, ArenaRun, data_set
 from slamlab.studies.three import with_corners
 from tests.laws import assert_same_pose
-from tests.notebooks.test_other_processor import other_processor
 
 FOLLOWER = WallFollower()
 PERFECT = DifferentialDrive(base=0.1, tick=1e-9, radius=0.06)
@@ -115,7 +115,7 @@ np.savez(sys.argv[2], truth=run.truth.poses, odometry=odometry, ranges=ranges)
 @pytest.mark.parametrize("seed", [0, 1, 65])
 def test_a_drive_is_the_same_on_another_processor(tmp_path, seed):
     drives = []
-    for number, env in enumerate([None, other_processor(1), other_processor(2)]):
+    for number, env in enumerate([None, environment(1), environment(2)]):
         path = tmp_path / f"{number}.npz"
         subprocess.run([sys.executable, "-c", DRIVE, str(seed), path], env=env, check=True)
         drives.append(np.load(path))

@@ -4,11 +4,11 @@ import numpy as np
 
 from slamlab.films import FilmRecorder, page
 from slamlab.geometry import between, compose, transform
-from slamlab.landmarks.downsampling import FirstOfCells
 from slamlab.layers import Points, Poses, Segments
 from slamlab.project.drive_errors import aligned
 from slamlab.views.colours import COLOURS
 from slamlab.views.live.frame_packing import Scene
+from slamlab.views.live.thinning import FirstOfCells
 
 WIDTH, MARGIN = 640, 0.6  # of a map [pixels, m]
 CELL = 0.1  # of the film's points one a cell is kept [m]

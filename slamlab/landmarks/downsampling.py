@@ -2,8 +2,6 @@
 
 import numpy as np
 
-_ROW = np.int64(1) << 32  # one more than there are cells in a row of the plane
-
 
 class DownsampledPoints:
     """A downsampled point cloud: points keep a distance; a grid of cells (voxels) finds neighbours.
@@ -52,39 +50,6 @@ class DownsampledPoints:
                     if (u - x) ** 2 + (v - y) ** 2 <= least:
                         return True
         return False
-
-
-class FirstOfCells:
-    """A voxel filter that is asked again and again: of every cell the first point ever seen.
-
-    Parameters
-    ----------
-    side : float, side of a cell [m]
-    """
-
-    def __init__(self, side):
-        if not side > 0:
-            raise ValueError(f"the side of a cell is above zero, not {side}")
-        self.side = side
-        self._known: set[int] = set()
-
-    def add(self, points):
-        """Take more points, and give those that are the first of their cell.
-
-        Parameters
-        ----------
-        points : (n, 2) [m]; what is not finite has no cell
-
-        Returns
-        -------
-        (m, 2) [m], in the order they came
-        """
-        points = points[np.isfinite(points).all(axis=1)]
-        cells = np.floor(points / self.side).astype(np.int64)
-        keys, first = np.unique(cells[:, 0] * _ROW + cells[:, 1], return_index=True)
-        new = [at for key, at in zip(keys.tolist(), first, strict=True) if key not in self._known]
-        self._known.update(keys.tolist())
-        return points[np.sort(np.array(new, dtype=int))]
 
 
 Thinned = DownsampledPoints  # name in the first edition

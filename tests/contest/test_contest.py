@@ -37,7 +37,8 @@ NOBODY = SimpleNamespace(
 
 
 def pool():
-    return WorkerPool(workers().level, warm=False)
+    # imports are done before: on a busy machine they would take the time of the student's class
+    return WorkerPool(workers().level)
 
 
 @pytest.fixture(scope="module")

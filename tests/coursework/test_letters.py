@@ -17,8 +17,7 @@ GREEK = {
 }
 LETTER = r"(?<![\w.])([A-Za-zα-ω])(?![\w])"
 SOLVED = re.compile(r"### BEGIN SOLUTION.*?### END SOLUTION", re.S)
-# 06, 08, 11, 14 and 15 still say a few letters of the theses and of solutions
-EXERCISES = ("01", "02", "03", "04", "05", "07", "09", "10", "12", "13")
+EXERCISES = [f"{number:02}" for number in range(1, 16)]
 
 
 def letters(text):

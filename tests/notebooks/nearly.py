@@ -2,7 +2,7 @@
 
 A cell tagged ``nearly`` beside ``nbval-check-output`` must print the stored words, and numbers that
 differ from the stored ones by at most a third, or by two units of their last digit. All other cells
-must print what is stored. ``tests/other_processor`` shows which cells need it.
+must print what is stored. ``course/other_processor`` shows which cells need it.
 """
 
 import re

@@ -98,19 +98,19 @@ def merge(x, P, i, j):
     ),
     Slip(
         "sign",
-        "The state moves away from what was told: p_i − p_j was believed to be D x and is 0, so that the "
-        "innovation is 0 − D x.",
+        "The state moves away from what was told: the difference of the two places is 0, so that the "
+        "innovation is 0 minus the difference that was believed.",
         ("x - K @ D @ x", "x + K @ D @ x"),
     ),
     Slip(
         "sum-for-difference",
-        "It is the difference of the two places that is zero, not their sum: the two blocks of D have "
+        "It is the difference of the two places that is zero, not their sum: the two blocks of H have "
         "opposite signs.",
         ("= -np.eye(2)", "= np.eye(2)"),
     ),
     Slip(
         "one-landmark-in-D",
-        "D looks at one landmark only: that would say that it stands at the origin.",
+        "H looks at one landmark only: that would say that it stands at the origin.",
         ("D[:, 3 + 2 * j : 5 + 2 * j] = -np.eye(2)", "pass"),
         ("D[:, 3 + 2 * i : 5 + 2 * i] = np.eye(2)", "pass"),
     ),

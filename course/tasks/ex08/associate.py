@@ -92,7 +92,7 @@ def associate(z, expected, S, gate):
     ),
     Slip(
         "S-of-the-sighting",
-        "S[i] is counted by sightings; S belongs to the walls, which j counts.",
+        "The row of S is chosen by the sighting's number; S belongs to the walls.",
         ("S[j]", "S[i % len(S)]"),
     ),
     Slip(
@@ -201,7 +201,7 @@ def associate(z, expected, S, gate):
     ),
     Slip(
         "zero-is-false",
-        "Wall 0 is a wall, too: `if j` is False for it. Ask for `is None`.",
+        "Wall 0 is a wall, too, but an `if` takes the number 0 for False. Ask for `is None`.",
         (
             "return [pairs.get(i) for i in range(len(z))]",
             "return [pairs.get(i) or None for i in range(len(z))]",

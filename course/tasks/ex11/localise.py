@@ -119,7 +119,7 @@ SLIPS = (
     ),
     Slip(
         "motion-in-the-weight",
-        "p(x_t | x_{t−1}, u) is in the weight: an erratum of the thesis. Where the robot is likely to "
+        "How likely the motion was is in the weight, an erratum of the thesis. Where the robot is likely to "
         "go there are many samples already; the weight is the likelihood alone.",
         [(MOVE, MOTION), (LOGS, f"{LOGS} + motion")],
         [(MOVE, MOTION), (LOGS, f"{LOGS} + motion"), (WHEN, "True")],

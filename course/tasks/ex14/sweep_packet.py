@@ -187,7 +187,7 @@ def sweep(data):
     ),
     Slip(
         "front along +y",
-        "Your rays are a quarter turn off: the robot's front is at angle 0, not at π/2.",
+        "Your rays are a quarter turn off: the robot's front is at angle 0, not at 90°.",
         (ANGLE, "np.pi / 2 - np.radians((first + k * step) / 100)"),
     ),
     Slip(

@@ -52,7 +52,7 @@ SLIPS = (
     ),
     Slip(
         "arm-sign",
-        "A radio is put on the other side of its robot: its place is t + R a.",
+        "A radio is put on the other side of its robot: its turned place is added to the robot's.",
         _in((WAY, "d = (x_j[:2] - arm_j) - (x_i[:2] - arm_i)")),
         _in((WAY, "d = (x_j[:2] + arm_j) - (x_i[:2] - arm_i)")),
         _in((WAY, "d = (x_j[:2] - arm_j) - (x_i[:2] + arm_i)")),

@@ -8,12 +8,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from slamlab.landmarks.downsampling import FirstOfCells
 from slamlab.layers import Points
 
 CELL = 0.01  # side of the cells of which one point is drawn [m]
 MANY = 20_000  # points, up to which all are drawn
 PROBES = 64  # points by which a cloud is known again
+_ROW = np.int64(1) << 32  # one more than there are cells in a row of the plane
 
 
 class Thinning:
@@ -71,3 +71,36 @@ class ThinnedCloud:
     def _begin(self):
         self._cells, self._count, self._at = FirstOfCells(CELL), 0, np.empty(0, int)
         self._drawn = self._probes = np.empty((0, 2))
+
+
+class FirstOfCells:
+    """A voxel filter that is asked again and again: of every cell the first point ever seen.
+
+    Parameters
+    ----------
+    side : float, side of a cell [m]
+    """
+
+    def __init__(self, side):
+        if not side > 0:
+            raise ValueError(f"the side of a cell is above zero, not {side}")
+        self.side = side
+        self._known: set[int] = set()
+
+    def add(self, points):
+        """Take more points, and give those that are the first of their cell.
+
+        Parameters
+        ----------
+        points : (n, 2) [m]; what is not finite has no cell
+
+        Returns
+        -------
+        (m, 2) [m], in the order they came
+        """
+        points = points[np.isfinite(points).all(axis=1)]
+        cells = np.floor(points / self.side).astype(np.int64)
+        keys, first = np.unique(cells[:, 0] * _ROW + cells[:, 1], return_index=True)
+        new = [at for key, at in zip(keys.tolist(), first, strict=True) if key not in self._known]
+        self._known.update(keys.tolist())
+        return points[np.sort(np.array(new, dtype=int))]
