@@ -117,9 +117,9 @@ def _grade(arguments, scratch):
     _check(arguments, term)
     secret = arguments.secret or (term and term.course.secret)
     make = term is not None and arguments.secret is None
-    if term and arguments.worksheet:
-        term.keep_worksheet(arguments.exercise, arguments.worksheet)
     found, secret = batch.prepare_grading(arguments.folder, arguments.out, scratch, secret, make)
+    if term and arguments.worksheet:
+        term.keep_worksheet(arguments.exercise, arguments.worksheet, found)
     everything = found = term.join(found, arguments.exercise) if term else found
     found = batch.select_shard(found, arguments.shard) if arguments.shard else found
     policy = late_policy.load(arguments.policy) if arguments.policy else term and term.policy

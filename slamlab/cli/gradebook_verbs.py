@@ -1,6 +1,7 @@
 """``slamlab grade merge``, ``adjust``, ``export``: merge gradebooks, override points, export."""
 
 import sys
+from argparse import ArgumentTypeError
 from dataclasses import replace
 from pathlib import Path
 
@@ -21,7 +22,7 @@ def add_parser(subparsers):
     )
     adjust.add_argument("task", metavar="TASK", help="such as 04-h-robot")
     adjust.add_argument(
-        "points", metavar="POINTS", type=float, help="of the task, in place of the judge's"
+        "points", metavar="POINTS", type=number, help="of the task, in place of the judge's"
     )
     adjust.add_argument("--reason", metavar="TEXT", required=True, help="why; the student reads it")
     export = _parser(subparsers, "export", "Write marks where another program keeps them.")
@@ -31,6 +32,14 @@ def add_parser(subparsers):
         required=True,
         help="nbgrader's database, such as sqlite:///gradebook.db",
     )
+
+
+def number(text):
+    """A number of points as it is typed."""
+    try:
+        return float(text)
+    except ValueError:
+        raise ArgumentTypeError(f"{text!r} is no number such as 1.5") from None
 
 
 def _parser(subparsers, verb, says):
@@ -84,12 +93,15 @@ def _adjust(arguments, book, term, policy):
 
     task = catalogue.task(arguments.task)
     name = _submission(arguments, book, term)
-    known = {record.submission: record for record in book.latest_attempts()}
-    if name not in known:
-        raise KeyError(f"no submission {name!r} in the gradebook; see grades.csv")
-    exercise = known[name].exercise
-    if exercise not in (None, arguments.task[:2]):
-        raise KeyError(f"{name} is of exercise {exercise}, {arguments.task} is not")
+    made = {r.exercise for r in book.attempts().values() if r.submission == name}
+    if not made:
+        who = "give the student's id" if term else "see grades.csv"
+        raise KeyError(f"no submission {name!r} in the gradebook; {who}")
+    if made.isdisjoint({None, arguments.task[:2]}):
+        listed = " and ".join(sorted(made))
+        raise KeyError(f"{name} is of exercise {listed}, {arguments.task} is not")
+    if not arguments.reason.strip():
+        raise KeyError("--reason is empty: the student reads it")
     if not 0 <= arguments.points <= task.points:
         raise KeyError(
             f"{arguments.task} has 0 to {task.points:g} points, not {arguments.points:g}"

@@ -1,5 +1,6 @@
 """``slamlab grade rejudge``, ``verify``, ``forget``: what the ledger of a gradebook allows."""
 
+import re
 import sys
 from pathlib import Path
 
@@ -114,6 +115,9 @@ def _verify(arguments, book, term):
 
     secret = arguments.secret or (term and term.course.secret) or arguments.out / "secret"
     known = judge.load_secret(secret) if arguments.secret or secret.exists() else None
+    for head in arguments.head:
+        if not re.fullmatch("[0-9a-f]{64}", head):
+            raise UsageError(f"{head!r} is no head: a release tells one, of 64 letters and digits")
     rows = book.rows()
     wrong = chain_proof.altered(rows, arguments.head)
     with rejudging.LazyWorkers(_level(arguments, term)) as workers:
@@ -128,7 +132,7 @@ def _verify(arguments, book, term):
             count[said] = count.get(said, 0) + 1
         _list([f"{name}: {n} × {said}" for said, n in count.items() if said])
     for chain, (last, head) in chain_merging.heads(rows).items():
-        print(f"ledger {chain}: {last + 1} rows, head {head}")
+        print(f"ledger {chain}: rows 0 to {last}, head {head}")
     proved = sum(proof.proved for proof in proofs)
     print(f"{proved} of {len(proofs)} scores proved" + ("" if known else "; no secret was at hand"))
     return 1 if wrong else 0
@@ -146,6 +150,8 @@ def _forget(arguments, book, term):
             if page.stem in names:
                 page.unlink()
     (arguments.out / "rejudged.csv").unlink(missing_ok=True)
+    if term:
+        term.forget(arguments.student)
     write_tables(arguments.out, book, term)
     print(f"{len(gone)} attempts forgotten: content and name are deleted, hashes stay")
     for id in sorted({record.exercise for record in gone} - {None}) if term else ():

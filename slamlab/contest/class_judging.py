@@ -12,7 +12,7 @@ from slamlab.contest.drive_files import late_drive, read_drive, write_drive
 from slamlab.contest.ranking import by_families
 from slamlab.contest.sandbox_judging import drive_in_sandbox
 from slamlab.exercises.drives.student_estimator import GraderFault
-from slamlab.grading.submissions import SubmissionError, read_notebook
+from slamlab.grading.submissions import SubmissionError, by_name, read_notebook
 from slamlab.project.driving import Budget, Drive
 from slamlab.project.scores import Arena, Result
 from slamlab.project.streamed_drive import NAME
@@ -160,7 +160,7 @@ def entrants(found):
     list of Submission, sorted by name; who handed in nothing of the kind is one with a problem
     """
     last = {}
-    for submission in sorted(found, key=lambda s: (s.handed_in or "", s.name)):
+    for submission in sorted(found, key=lambda s: (s.handed_in or "", by_name(s.name))):
         problem = _problem(submission)
         if problem is None or submission.student not in last or last[submission.student].problem:
             last[submission.student] = replace(submission, problem=problem)

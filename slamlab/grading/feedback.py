@@ -66,10 +66,12 @@ def feedback_text(mark: Mark, student=None, zone=None) -> str:
         lines.append(f"{task} set by hand to {points(mark.points[task])}: {why}")
     lines += mark.remarks
     for verdict in record.verdicts:
-        earned = f"{number(verdict.points)} of {points(verdict.max_points)}"
+        earned = f"{number(mark.points[verdict.task])} of {points(verdict.max_points)}"
+        by_hand = verdict.task in mark.override_reasons
+        earned += f", set by hand; {number(verdict.points)} by the laws" * by_hand
         lines += ["", f"{record.titles.get(verdict.task, verdict.task)}: {earned}"]
         lines += [f"  {verdict.problem}"] if verdict.problem else []
-        lines += [f"  {mark} {law.says}{_why(law, mark)}" for law, mark in laws_of(verdict)]
+        lines += [f"  {sign} {law.says}{_why(law, sign)}" for law, sign in laws_of(verdict)]
         lines += [f"  Hint: {verdict.hint}"] if verdict.hint else []
     cells = [f"  cell {cell}: {problem}" for cell, problem in record.cells.items()]
     lines += ["", "Cells that did not run to their end", *cells] if cells else []

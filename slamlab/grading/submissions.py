@@ -80,10 +80,8 @@ def find_submissions(folder: Path, out: Path | None = None, zips=False) -> list[
     SubmissionError : when the folder is none
     """
     if not folder.is_dir():
-        is_there = (
-            "is no folder, and no zip" if folder.exists() else "is no folder: it is not there"
-        )
-        raise SubmissionError(f"{folder} {is_there}")
+        wrong = "is no folder, and no zip" if folder.exists() else "is not there"
+        raise SubmissionError(f"{folder} {wrong}")
     if (folder / "submitted").is_dir():
         folder = folder / "submitted"
     skipped = out.resolve() if out else None
@@ -105,7 +103,14 @@ def find_submissions(folder: Path, out: Path | None = None, zips=False) -> list[
     handed_in = {parent for submission in found for parent in submission.path.parents}
     reason = "a folder without a notebook in it"
     found += [_submission(folder, place, reason) for place in empty if place not in handed_in]
-    return sorted(found, key=lambda submission: submission.name)
+    return sorted(found, key=lambda submission: by_name(submission.name))
+
+
+def by_name(name):
+    """The order of names, a sort key: "a" before its copy "a (1)", 2 before 10."""
+    folder, _, file = name.rpartition("/")
+    parts = re.split(r"(\d+)", file.removesuffix(".ipynb"))
+    return folder, [int(part) if part.isdecimal() else part for part in parts], name
 
 
 def read_notebook(submission: Submission) -> Notebook:

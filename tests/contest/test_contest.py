@@ -251,7 +251,7 @@ def test_without_a_folder_the_command_only_commits(tmp_path, capsys):
         (["--again", "{tmp}/nothing"], "--again needs the FOLDER"),
         (["{tmp}", "--again", "{tmp}/nothing", "--open"], "--open for one that is not"),
         (["{tmp}", "--open", "--code"], "leave out --open"),
-        (["{tmp}/nothing"], "nothing is no folder"),
+        (["{tmp}/nothing"], "nothing is not there"),
         (["{tmp}", "--again", "{tmp}/nothing"], "cannot be read"),
     ],
 )

@@ -169,7 +169,7 @@ def test_results_within_the_folder_are_not_graded(class_folder, tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
-        (["nowhere", "--out", "out"], "nowhere is no folder"),
+        (["nowhere", "--out", "out"], "nowhere is not there"),
         (["full", "--out", "out", "--exercise", "77"], "no exercise '77'; there are "),
         (["full", "--out", "out", "--secret", "none"], "the secret none cannot be read"),
         (["full", "--out", "out", "--secret", "short"], "shorter than 16 bytes"),

@@ -74,7 +74,7 @@ def test_a_folder_without_a_notebook_is_listed_with_its_reason(tmp_path):
 
 
 def test_a_folder_that_is_none_is_refused(tmp_path):
-    with pytest.raises(SubmissionError, match="is no folder"):
+    with pytest.raises(SubmissionError, match="is not there"):
         submissions.find_submissions(tmp_path / "nowhere")
 
 

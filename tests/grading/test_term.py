@@ -154,7 +154,7 @@ def test_what_was_graded_as_another_exercise_before_does_not_count_twice(folder)
 
 def joined(folder, *names, sheet=True):
     made = term.load(folder / "course.toml")
-    made.keep_worksheet("99", folder / "sheet.csv")
+    made.keep_worksheet("99", folder / "sheet.csv", [])
     found = [submissions._submission(folder, folder / name) for name in names]
     return [s.student for s in made.join(found, "99" if sheet else None)]
 
@@ -190,7 +190,7 @@ def test_a_release_is_as_moodle_and_canvas_take_it_in(folder):
     made, found = stored(
         folder, attempt("s1", 8, LATER, name=moodle), attempt("s2", 5.5, name=canvas)
     )
-    made.keep_worksheet("99", folder / "sheet.csv")
+    made.keep_worksheet("99", folder / "sheet.csv", [])
     words = made.course, made.roster, "99", found["99"], made.worksheet("99")
     said = releases.release(*words)
     out = folder / "results/99/release"
@@ -224,7 +224,7 @@ def test_a_release_is_as_moodle_and_canvas_take_it_in(folder):
 
 def test_who_handed_in_by_another_way_is_in_moodles_tables(folder):
     made, found = stored(folder, attempt("s2", 8, "2026-12-01T10:00:00+00:00", name="s2/x.ipynb"))
-    made.keep_worksheet("99", folder / "sheet.csv")
+    made.keep_worksheet("99", folder / "sheet.csv", [])
     releases.release(made.course, made.roster, "99", found["99"], made.worksheet("99"))
     out = folder / "results/99/release"
     assert [row["Grade"] for row in table(out / "moodle.csv")] == ["", "8", ""]
@@ -279,9 +279,15 @@ def test_a_term_from_download_to_release_from_the_command_line(folder, capsys):
     assert "1 of 1 scores proved" in capsys.readouterr().out
     assert main(["grade", "verify", "--head", "0" * 64]) == 1
     assert "cut off, or written anew" in capsys.readouterr().out
+    assert main(["grade", "verify", "--head", "zzz"]) == 2
+    assert "no head" in capsys.readouterr().err
+    assert main(["grade", "adjust", "s1", "99-turn", "0.5", "--reason", " "]) == 2
+    assert "--reason is empty" in capsys.readouterr().err
     assert main(["grade", "forget", "s1"]) == 0
     assert "roster.csv still names the student" in capsys.readouterr().out
     assert not list((folder / "results").rglob("feedback/s1.*"))
+    sheet = (folder / "results/99/worksheet.csv").read_text("utf-8")
+    assert "Participant 502" in sheet and "Ana Kos" not in sheet and "ana@uni.hr" not in sheet
     assert scores(folder)["s1"] == ""
     assert main(["grade", "verify", "--head", head]) == 0
     assert main(["grade", "forget", "s1"]) == 2

@@ -8,6 +8,7 @@ from collections import defaultdict
 from dataclasses import replace
 
 from slamlab.grading.term.lms_names import MOODLE, lms_name
+from slamlab.grading.term.roster import RosterError
 
 STRANGER = "not in the roster: "
 """Before the name of somebody who is not; no id begins so."""
@@ -32,6 +33,27 @@ def joined(found, roster, worksheet=None):
         if submission.student in roster.students:
             numbers[submission.student] |= _participant(submission)
     return [_unless_claimed_twice(s, numbers[s.student], roster) for s in made]
+
+
+def check_worksheet(found, worksheet, file):
+    """Check that a worksheet is of the download that it is given with.
+
+    Parameters
+    ----------
+    found : list of Submission
+    worksheet : Worksheet
+    file : Path, its own
+
+    Raises
+    ------
+    RosterError : none of the download's participants stands in it
+    """
+    numbers = set().union(*map(_participant, found))
+    if numbers and numbers.isdisjoint(worksheet.rows):
+        raise RosterError(
+            f"{file}: none of the download's participants stands in it, such as {min(numbers)}: "
+            "it is of another assignment"
+        )
 
 
 def _participant(submission):

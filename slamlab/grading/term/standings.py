@@ -97,10 +97,17 @@ def _when(pair):
 
 
 def _newest_of_each_content(marks):
-    """Of the same content handed in under the same name only what was made of it last."""
-    newest = {}
+    """Of the same content under the same name, in an exercise, only what was made of it last.
+
+    What could not be graded gives way to all that is made of it later; what was graded as one
+    exercise stays, whatever other exercise the same file is taken for.
+    """
+    newest, last = {}, {}
     for made in marks:
-        key = made.record.submission, made.record.sha256
+        content = made.record.submission, made.record.sha256
+        key, before = (*content, made.record.exercise), last.get(content)
+        if before in newest and newest[before].record.reason:
+            newest.pop(before)
         newest.pop(key, None)
-        newest[key] = made
+        newest[key], last[content] = made, key
     return newest.values()

@@ -1,6 +1,9 @@
 """A term: course file, roster and gradebook together, and what is written of them."""
 
+import csv
+import io
 import shutil
+from collections import Counter
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -33,15 +36,41 @@ class Term:
         file = self._worksheet_file(exercise)
         return Worksheet(file, self.course.zone) if file.is_file() else None
 
-    def keep_worksheet(self, exercise, file):
-        """Check a worksheet and keep it, so that no later command needs it again."""
-        Worksheet(file, self.course.zone)
+    def keep_worksheet(self, exercise, file, found):
+        """Check a worksheet and keep it, so that no later command needs it again.
+
+        Parameters
+        ----------
+        exercise : str
+        file : Path
+        found : list of Submission, of which some have to stand in it
+
+        Raises
+        ------
+        RosterError : it is no worksheet, or one of another assignment
+        """
+        enrolment.check_worksheet(found, Worksheet(file, self.course.zone), file)
         kept = self._worksheet_file(exercise)
         private_folder(self.course.results)
         private_folder(kept.parent)
         if not (kept.exists() and kept.samefile(file)):
             shutil.copyfile(file, kept)
             kept.chmod(0o600)
+
+    def forget(self, student):
+        """Take a student out of all worksheets that are kept.
+
+        Parameters
+        ----------
+        student : str, an id that is still in the roster
+        """
+        for exercise in self.course.exercises:
+            sheet = self.worksheet(exercise)
+            rows = sheet and sheet.without(student, self.roster)
+            if rows:
+                text = io.StringIO(newline="")
+                csv.writer(text).writerows(rows)
+                write_atomically(self._worksheet_file(exercise), text.getvalue())
 
     def _worksheet_file(self, exercise):
         return self.course.results / exercise / "worksheet.csv"
@@ -126,6 +155,7 @@ class Term:
         names = "; ".join(sorted({r.student.removeprefix(enrolment.STRANGER) for r in unknown}))
         file = self.course.roster.name
         said = [f"not in {file}, in submissions.csv only: {names}"] if unknown else []
+        said += self._taken_for_others(book, records)
         ids = {r.exercise for r in records} - {None}
         other = sorted(ids - {*self.course.exercises})
         if other:
@@ -133,6 +163,18 @@ class Term:
         said += self.gone(book)
         release = [f"slamlab grade release {id}" for id in sorted(ids - {*other})]
         return [*said, f"when it is as it should be: {' or '.join(release)}"] if release else said
+
+    def _taken_for_others(self, book, records):
+        """A line on files that could not be graded, and were graded as another exercise before."""
+        graded = {(r.submission, r.sha256): r.exercise for r in book.attempts().values()
+                  if not r.reason}  # fmt: skip
+        now = [graded.get((r.submission, r.sha256)) for r in records if r.reason]
+        found = sorted(Counter(filter(None, now)).items())
+        return [
+            f"{count} of {len(records)} could not be graded, but were as exercise {id} before: "
+            f"was --exercise {id} meant? What they earned there stays"
+            for id, count in found
+        ]
 
     def gone(self, book):
         """A line on those who handed something in under an id that the roster has no more."""

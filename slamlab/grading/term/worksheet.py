@@ -92,6 +92,21 @@ class Worksheet:
                 continue
         return None
 
+    def without(self, student, roster):
+        """The worksheet without a student: rows as of :meth:`filled`; None where he is not in it.
+
+        Parameters
+        ----------
+        student : str, an id
+        roster : Roster, which still has him
+        """
+        found = {number: self.student(number, roster) for number in self.rows}
+        kept = [row for number, row in self.rows.items()
+                if found[number] is None or found[number].id != student]  # fmt: skip
+        if len(kept) == len(self.rows):
+            return None
+        return [self.titles, *([row.get(title, "") for title in self.titles] for row in kept)]
+
     def filled(self, grades):
         """The worksheet with grades and comments filled in.
 
