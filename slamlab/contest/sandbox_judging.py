@@ -74,8 +74,12 @@ class RemoteEstimator:
     def _ask(self, request, inputs, *names):
         try:
             answers = self._client.run(_Request(request, DRIVES[request]), {"": inputs})[""]
+        except (StudentError, GraderFault):
+            raise
         except WorkerStartError as error:
             raise GraderFault(str(error)) from error
+        except Exception as error:  # here, not in the worker: no fault of the student's
+            raise GraderFault(f"{type(error).__name__}: {error}") from error
         if any(name not in answers for name in names):
             raise StudentError("malformed", f"{request}: no answer came back that can be judged")
         found = [answers[name] for name in names]

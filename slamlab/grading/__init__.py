@@ -8,8 +8,8 @@ Read in this order:
   ``storing``, ``records``
 - ``worker_pool``, ``zygote``, ``forked_workers``, ``fresh_workers``, ``worker_client``, ``worker``,
   ``wire_protocol``: fork server (zygote) and sandboxed processes, serialisation between them
-- ``staging``, ``import_closure``, ``hidden_packages``, ``checks_stub``: what a worker holds;
-  ``sandbox`` (``bubblewrap``, ``landlock``, ``seccomp``), ``quotas``, ``tree_removal``,
+- ``staging``, ``import_closure``, ``syntax``, ``hidden_packages``, ``checks_stub``: what a worker
+  holds; ``sandbox`` (``bubblewrap``, ``landlock``, ``seccomp``), ``quotas``, ``tree_removal``,
   ``isolation``; ``probe`` and ``probe_drives``: the self-test
 - ``gradebook``, ``gradebook_rows``, ``database``, ``ledger``, ``older_gradebooks``, ``marks``,
   ``remarks``, ``late_policy``, ``toml_files``: attempts, overrides, late policy

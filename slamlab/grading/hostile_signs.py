@@ -9,6 +9,8 @@ import functools
 import math
 import re
 
+from slamlab.grading import syntax
+
 MOST = 20  # signs told of one submission
 MAX_CHARACTERS = 100_000  # letters; nobody writes more by hand
 KEPT = 256  # cells whose signs are kept: most are as they were handed out, in every submission
@@ -98,7 +100,7 @@ def _told(source, own):
     if shell := _SHELL.search(source):
         yield f"a line for a shell or a page, {shell[1]}"
     try:
-        by_kind = _by_kind(ast.parse(source))
+        by_kind = _by_kind(syntax.parse(source))
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         for word in sorted(set(re.findall(r"\w+", source[:MAX_CHARACTERS])) & (MODULES | INNER)):
             yield f"names {word}"

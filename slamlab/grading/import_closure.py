@@ -8,6 +8,8 @@ imports each name from the module that defines it.
 import ast
 from pathlib import Path
 
+from slamlab.grading import syntax
+
 ROOT = Path(__file__).resolve().parents[2]
 STUBBED = "slamlab.checks"
 """In a worker this package's own code is :mod:`slamlab.grading.checks_stub`."""
@@ -62,7 +64,7 @@ def _file(root, name):
 
 def imported(file, name):
     package = name if file.name == "__init__.py" else name.rpartition(".")[0]
-    for node in ast.walk(ast.parse(file.read_text("utf-8"))):
+    for node in ast.walk(syntax.parse(file.read_text("utf-8"))):
         if isinstance(node, ast.Import):
             yield from (alias.name for alias in node.names)
         elif isinstance(node, ast.ImportFrom):

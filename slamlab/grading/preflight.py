@@ -3,6 +3,8 @@
 import ast
 import re
 
+from slamlab.grading import syntax
+
 SLOW = 60.0  # warning for a whole notebook; its timeout at grading is five times as long [s]
 _UNDEFINED = re.compile(r"NameError: name '(\w+)' is not defined")
 _FORBIDDEN = re.compile(r"ModuleNotFoundError: No module named '([\w.]+)'")
@@ -55,7 +57,7 @@ def _remedy(number, problem, cells, exercise):
 def _defined(source):
     """The names a cell defines at its top."""
     try:
-        tree = ast.parse(source)
+        tree = syntax.parse(source)
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         return set()
     found = set()

@@ -11,6 +11,8 @@ import functools
 import importlib.util
 import re
 
+from slamlab.grading import syntax
+
 # kinds of problem that a worker may report
 PROBLEM_KINDS = {"missing", "not attempted", "raised", "malformed"}
 # what the judge itself measured, without the numbers that the student's function chose
@@ -97,7 +99,7 @@ def sentence_templates(drives):
     found = [re.compile(r"not attempted yet"), re.compile(rf"{_GAP} is not attempted yet")]
     for name in (drives, "slamlab.exercises.drives"):
         with open(importlib.util.find_spec(name).origin, encoding="utf-8") as file:
-            tree = ast.parse(file.read())
+            tree = syntax.parse(file.read())
         for call in ast.walk(tree):
             if isinstance(call, ast.Call) and getattr(call.func, "id", "") == "StudentError":
                 found.append(_template(call.args[1]))
