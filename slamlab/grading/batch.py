@@ -9,7 +9,7 @@ from pathlib import Path
 from slamlab.grading import forked_workers, judge
 from slamlab.grading.joining import Joining
 from slamlab.grading.records import private_folder
-from slamlab.grading.submissions import SubmissionError, by_name, read_bytes
+from slamlab.grading.submissions import SubmissionError, in_order, read_bytes
 from slamlab.grading.term.hand_ins import find_hand_ins
 
 
@@ -68,7 +68,7 @@ def select_shard(found, part):
     if not 1 <= i <= n:
         raise SubmissionError(f"--shard is I/N such as 2/8, with I from 1 to N, not {part}")
     dealt = sorted(found, key=lambda s: (sha256(s.name.encode()).digest(), s.name))
-    return sorted(dealt[i - 1 :: n], key=lambda s: by_name(s.name))
+    return in_order(dealt[i - 1 :: n])
 
 
 def grade_locally(found, secret, workers, default=None, known=None, jobs=1):
@@ -118,7 +118,7 @@ def content_hashes(found):
     list of (name, hash of the file; empty where there is none that can be read)
     """
     listed = []
-    for submission in sorted(found, key=lambda submission: by_name(submission.name)):
+    for submission in in_order(found):
         data = _content(submission)
         listed.append((submission.name, sha256(data).hexdigest() if data else ""))
     return listed

@@ -2,8 +2,6 @@
 
 import threading
 import time
-from itertools import pairwise
-from statistics import mean
 
 PATIENCE = 10.0  # after which the others join in whatever is done: the first may hang [s]
 
@@ -21,8 +19,8 @@ class Joining:
     """
 
     def __init__(self, count, clock=time.monotonic, patience=PATIENCE):
-        self._left, self._clock, self._patience = count, clock, patience
-        self._at = [clock()]
+        self._count, self._clock, self._patience = count, clock, patience
+        self._begun, self._start, self._done = clock(), 0.0, 0
         self._lock, self._first, self._pays = threading.Lock(), True, threading.Event()
 
     def __call__(self):
@@ -35,10 +33,12 @@ class Joining:
     def done(self, _=None):
         """Note that one more submission is done."""
         with self._lock:
-            self._left -= 1
-            self._at.append(self._clock())
-            start, *others = (after - before for before, after in pairwise(self._at))
-        if self._left <= 0 or (others and self._left * mean(others) > start):
+            self._done, took = self._done + 1, self._clock() - self._begun
+            if self._done == 1:
+                self._start = took
+            left, others = self._count - self._done, self._done - 1
+            pays = left * (took - self._start) > others * self._start
+        if left <= 0 or pays:
             self.release()
 
     def release(self):

@@ -103,6 +103,11 @@ def find_submissions(folder: Path, out: Path | None = None, zips=False) -> list[
     handed_in = {parent for submission in found for parent in submission.path.parents}
     reason = "a folder without a notebook in it"
     found += [_submission(folder, place, reason) for place in empty if place not in handed_in]
+    return in_order(found)
+
+
+def in_order(found):
+    """Submissions in the order of their names, see :func:`by_name`."""
     return sorted(found, key=lambda submission: by_name(submission.name))
 
 

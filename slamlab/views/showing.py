@@ -3,6 +3,7 @@
 import base64
 import html
 import io
+from contextlib import contextmanager
 
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -32,17 +33,24 @@ def png(fig):
     -------
     bytes
     """
-    page = fig.dpi
-    fig.dpi = SHARPNESS * page  # letters are as wide in the layout as they will be drawn
-    try:
+    with _sharp(fig):
         arrange(fig)
         picture = _drawn(fig)
-    finally:
-        fig.dpi = page
     small = io.BytesIO()
     few = picture.quantize(PALETTE, method=Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE)
     few.save(small, "PNG", compress_level=PACKING)
     return small.getvalue()
+
+
+@contextmanager
+def _sharp(fig):
+    """Pixels as fine as in the picture: letters are as wide in the layout as they will be drawn."""
+    page = fig.dpi
+    fig.dpi = SHARPNESS * page
+    try:
+        yield
+    finally:
+        fig.dpi = page
 
 
 def _drawn(fig):
@@ -78,7 +86,8 @@ def bundle(fig, alt, data=None):
     if not isinstance(alt, str) or not alt.strip():
         raise ValueError("a figure needs alt text: say in a sentence what it shows")
     picture = base64.b64encode(png(fig)).decode()
-    report(fig, alt)
+    with _sharp(fig):
+        report(fig, alt)
     alt = f"{words(fig)} {alt.strip()}"
     wide = round(fig.get_figwidth() * fig.dpi)
     shown = (

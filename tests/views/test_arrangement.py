@@ -5,6 +5,7 @@ import pytest
 
 from slamlab import views
 from slamlab.layers import Points, Segments
+from slamlab.views import showing
 from slamlab.views.arrangement import arrange
 from slamlab.views.figure_faults import faults
 
@@ -86,3 +87,12 @@ def test_arranging_again_changes_nothing():
     arrange(fig)
     again = [each.get_position().bounds for each in fig.axes]
     assert np.allclose(places, again, atol=2e-3)
+
+
+def test_a_shown_figure_is_judged_as_it_was_drawn(monkeypatch):
+    judged = []
+    monkeypatch.setattr(showing, "report", lambda fig, alt: judged.append(fig.dpi))
+    fig, _ = views.chart("x", "y")
+    showing.bundle(fig, "Empty axes.")
+    # letters of another size in pixels are a little wider or higher: they would cover other data
+    assert judged == [showing.SHARPNESS * fig.dpi]

@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 from slamlab.grading.notebooks import SubmissionError
-from slamlab.grading.submissions import Submission, by_name, find_submissions
+from slamlab.grading.submissions import Submission, find_submissions, in_order
 from slamlab.grading.term import archives
 
 
@@ -39,7 +39,7 @@ def _with_zips_opened(listed, scratch):
     for number, submission in enumerate(listed):
         opens = archives.is_archive(submission.path)
         found += _opened(submission, scratch / str(number)) if opens else [submission]
-    return sorted(found, key=lambda submission: by_name(submission.name))
+    return in_order(found)
 
 
 def _opened(zipped, folder):

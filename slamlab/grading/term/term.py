@@ -68,7 +68,7 @@ class Term:
             sheet = self.worksheet(exercise)
             rows = sheet and sheet.without(student, self.roster)
             if rows:
-                text = io.StringIO(newline="")
+                text = io.StringIO(newline="")  # nothing is escaped: it is read again
                 csv.writer(text).writerows(rows)
                 write_atomically(self._worksheet_file(exercise), text.getvalue())
 
