@@ -143,7 +143,9 @@ def _forget(arguments, book, term):
 
     gone = book.forget(arguments.student)
     if not gone:
-        raise UsageError(f"no attempt of {arguments.student!r} in the gradebook; see grades.csv")
+        meant = term and term.roster.find(name=arguments.student)
+        rest = f"did you mean the id {meant.id!r}?" if meant else "see grades.csv"
+        raise UsageError(f"no attempt of {arguments.student!r} in the gradebook; {rest}")
     names = {record.stem for record in gone} | {releases.file_name(arguments.student)}
     for folder in (arguments.out, *arguments.out.glob("*/"), *arguments.out.glob("*/release/")):
         for page in folder.glob("feedback/*"):

@@ -43,7 +43,7 @@ def requests_in_file(file):
         missing = [title for title in TITLES if titles.count(title) != 1]
         if missing:
             raise RequestsError(f"{file}: its first line must have once each the titles "
-                                f"{', '.join(TITLES)}; {', '.join(missing)} has not")  # fmt: skip
+                                f"{', '.join(TITLES)}; not so: {', '.join(missing)}")  # fmt: skip
         empty = dict.fromkeys(TITLES, "")
         rows = [(lines.line_num, empty | dict(zip(titles, line, strict=False)))
                 for line in lines if any(map(str.strip, line))]  # fmt: skip

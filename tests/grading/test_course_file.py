@@ -114,8 +114,8 @@ def test_a_roster_of_ones_own_has_extensions_in_columns(tmp_path):
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        ("id,name,sektion\ns1,Ana,A", "no column 'sektion'; there are id, name, email"),
-        ("id,name,98\ns1,Ana,", "no column '98'"),
+        ("id,name,sektion\ns1,Ana,A", "take out the column 'sektion': there are id, name, email"),
+        ("id,name,98\ns1,Ana,", "take out the column '98'"),
         ("id,name,99\ns1,Ana,soon", "line 2: 99 is a time such as"),
         ("id,name\ns1,Ana\ns1,Ben", "line 3: the id s1 stands there twice"),
         ("id,name\n,Ana", "line 2: Ana has no id"),

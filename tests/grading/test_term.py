@@ -283,6 +283,9 @@ def test_a_term_from_download_to_release_from_the_command_line(folder, capsys):
     assert "no head" in capsys.readouterr().err
     assert main(["grade", "adjust", "s1", "99-turn", "0.5", "--reason", " "]) == 2
     assert "--reason is empty" in capsys.readouterr().err
+    capsys.readouterr()
+    assert main(["grade", "forget", "ana kos"]) == 2
+    assert "did you mean the id 's1'?" in capsys.readouterr().err
     assert main(["grade", "forget", "s1"]) == 0
     assert "roster.csv still names the student" in capsys.readouterr().out
     assert not list((folder / "results").rglob("feedback/s1.*"))
@@ -316,6 +319,13 @@ def test_wrong_use_in_a_term_is_told_in_one_line(folder, words, said, capsys):
     error = capsys.readouterr().err
     assert said in error
     assert error.count("\n") == 1
+
+
+def test_a_roster_that_is_not_there_yet_is_told_with_what_to_do(folder, capsys):
+    (folder / "x").mkdir()
+    (folder / "roster.csv").unlink()
+    assert main(["grade", "x"]) == 2
+    assert "roster.csv is not there: put your own table" in capsys.readouterr().err
 
 
 def test_without_a_course_file_a_folder_for_the_results_is_asked_for(tmp_path, monkeypatch, capsys):

@@ -101,12 +101,15 @@ def load(file, exercises, zone):
     ------
     RosterError
     """
+    if not file.exists():
+        raise RosterError(f"{file} is not there: put your own table (id,name,email,section) in its "
+                          "place, or Moodle's or Canvas' own export")  # fmt: skip
     titles, rows = read_table(file)
     if "id" in titles:
         for title in titles:
             if title not in (*OWN, *exercises):
                 known = ", ".join(OWN)
-                raise RosterError(f"{file}: there is no column {title!r}; there are {known}, and "
+                raise RosterError(f"{file}: take out the column {title!r}: there are {known}, and "
                                   f"for extensions {', '.join(exercises)}")  # fmt: skip
     students, extensions = {}, {}
     for number, row in rows:
