@@ -23,7 +23,7 @@ from slamlab.checks import setup_check
 setup_check.report()
 
 # %% [markdown]
-# If there is a tick on every line, go on. If you see `No module named 'slamlab'`, this notebook runs
+# If everything has its tick, go on. If you see `No module named 'slamlab'`, this notebook runs
 # on another Python than that of the course. Close it, run `make lab` in the folder of the project
 # (on Windows `python lab.py`), and open it in the JupyterLab that comes up.
 

@@ -8,6 +8,7 @@ from packaging.requirements import Requirement
 from packaging.specifiers import SpecifierSet
 
 INSTALL = "run `make lab` in the project's folder (Windows: `python lab.py`) and use its JupyterLab"
+COLUMNS, WIDTH = 2, 25  # of what is right [letters]
 
 
 @dataclass(frozen=True)
@@ -90,9 +91,10 @@ def package_finding(requirement):
 def report():
     """Print the setup check, each problem with its remedy; never raises for one."""
     found = findings()
-    for finding in found:
-        print(f"{'✗' if finding.remedy else '✓'} {finding.what:12} {finding.found}")
-        if finding.remedy:
-            print(f"    {finding.remedy}")
-    wrong = sum(finding.remedy is not None for finding in found)
-    print(f"\n{wrong} to mend: see above" if wrong else "\nAll is well. Go on.")
+    right = [f"✓ {finding.what:12} {finding.found}" for finding in found if not finding.remedy]
+    wrong = [finding for finding in found if finding.remedy]
+    for i in range(0, len(right), COLUMNS):  # side by side: a slide has room for some twenty lines
+        print("".join(f"{text:{WIDTH}} " for text in right[i : i + COLUMNS]).rstrip())
+    for finding in wrong:
+        print(f"✗ {finding.what:12} {finding.found}\n    {finding.remedy}")
+    print(f"\n{len(wrong)} to mend: see above" if wrong else "\nAll is well. Go on.")

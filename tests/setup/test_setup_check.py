@@ -6,9 +6,13 @@ from packaging.requirements import Requirement
 from slamlab.checks import setup_check
 
 
-def test_this_machine_is_fit_for_the_course(capsys):
+def test_this_machine_is_fit_for_the_course_and_every_package_is_told_on_one_slide(capsys):
     setup_check.report()
-    assert "All is well" in capsys.readouterr().out
+    told = capsys.readouterr().out
+    assert "All is well" in told
+    for finding in setup_check.findings():
+        assert f"✓ {finding.what:12} {finding.found}" in told
+    assert len(told.splitlines()) <= 20
 
 
 @pytest.mark.parametrize("version", ["3.10.14", "3.14.0"])
@@ -30,4 +34,6 @@ def test_what_is_wrong_is_counted_at_the_end(monkeypatch, capsys):
     wrong = setup_check.Finding("numpy", "missing", "install it")
     monkeypatch.setattr(setup_check, "findings", lambda: [wrong])
     setup_check.report()
-    assert capsys.readouterr().out.splitlines()[-1].startswith("1 to mend")
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[:2] == ["✗ numpy        missing", "    install it"]
+    assert lines[-1].startswith("1 to mend")
