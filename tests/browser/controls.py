@@ -30,6 +30,14 @@ KINDS = {
     "button": ".jupyter-button",
 }
 
+# whether a handle stands at a share of its track, both measured at once; one of few steps goes to
+# the next
+STANDS = """([handle, share]) => {
+    const track = handle.closest(".noUi-target").getBoundingClientRect();
+    const at = handle.getBoundingClientRect();
+    return Math.abs((at.x + at.width / 2 - track.x) / track.width - share) <= 0.26;
+}"""
+
 # the controls that can be seen now and had no number yet: marked with one each
 FIND = """(kinds) => {
     const found = [];
@@ -128,11 +136,16 @@ class Controls:
                 self._drag(handle, *at)
                 self.page.mouse.up()
 
-            heard = self._heard("value", drag)
-            box = track.bounding_box()  # the slide may be laid out anew
-            stands = (self._middle(handle)[0] - box["x"]) / box["width"]
-            if not heard or abs(stands - share) > 0.26:  # one of few steps goes to the next
+            if not self._heard("value", drag) or not self._stands(handle, share):
                 return False
+        return True
+
+    def _stands(self, handle, share):
+        """Whether a slider's handle comes to stand at a share of its track."""
+        try:  # the slide may be laid out anew meanwhile
+            self.page.wait_for_function(STANDS, arg=[handle.element_handle(), share])
+        except TimeoutError:
+            return False
         return True
 
     def _key_slider(self, handle):
