@@ -69,6 +69,7 @@ def test_the_follower_never_touches_a_wall(monkeypatch, seeds):
         assert not any(touched(pose, source.world.walls) for pose in Watched.way)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(4))
 def test_three_laps_are_closed_with_about_a_hundred_scans_each(seed):
     source = ArenaRun(RNG(seed))

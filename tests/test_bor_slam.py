@@ -117,6 +117,7 @@ def test_a_known_map_has_its_own_names():
         BorSlam(RobotModel(), Loop().sensor, boxes={0: (0, 0, 1, 1)}, names="mak")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(4000, 4006))
 def test_in_the_arena_the_honest_box_holds_the_truth_and_is_never_wider_than_odometrys(seed):
     source = ArenaRun(np.random.default_rng(seed), laps=1)

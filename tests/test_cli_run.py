@@ -145,6 +145,7 @@ def test_help_names_every_command_and_imports_nothing_heavy():
         assert f"    {command} " in done.stdout
 
 
+@pytest.mark.slow
 def test_intel_without_loop_closure_comes_out_ten_times_better_than_odometry(tmp_path):
     try:
         log, relations = sources.recording("intel"), sources.recording("intel-relations")

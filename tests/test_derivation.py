@@ -356,6 +356,7 @@ def test_every_line_after_the_first_can_be_revealed_by_itself():
     assert html.count("✓") == 2 and html.count("✗") == 1
 
 
+@pytest.mark.slow
 def test_what_is_shown_is_the_same_in_every_process():
     code = "from tests.test_derivation import shown; print(shown()._repr_mimebundle_())"
     told = {

@@ -46,6 +46,7 @@ def loops_nees(slam, truth):
     return found
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("change", [list, blurred])
 def test_loops_err_as_much_as_their_covariance_says_also_where_scans_are_blurred(change):
     # 0.02 with the errors in common taken for a share of the noise, hundreds without any

@@ -60,6 +60,7 @@ def test_the_corridor_closes():
     assert loops > 0
 
 
+@pytest.mark.slow
 def test_without_loops_it_drifts_more():
     with_loops, truth = toured("corridor", 3)
     alone = GraphSlam(with_loops.robot, loops=False)
@@ -77,6 +78,7 @@ def test_of_two_rooms_alike_none_is_taken_for_the_other():
     assert errors(slam, truth).max() < 0.05
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["room", "situation-1", "situation-2"])
 def test_a_tour_comes_out_near_the_truth_by_the_same_parameters(name):
     slam, truth = toured(name, 1)
@@ -139,6 +141,7 @@ def damaged(kind):
     return change
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("kind", "counted"),
     [
@@ -185,6 +188,7 @@ def kidnapped(readings, truth):
     return moved, truth[order]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["room", "situation-1"])
 def test_a_kidnapped_robot_is_relocalised(name):
     slam, truth = toured(name, 0, kidnapped)

@@ -135,6 +135,7 @@ def test_moved_furniture_vanishes_and_comes_back():
     assert (at(grid, side) == 1).all()
 
 
+@pytest.mark.slow
 @settings(max_examples=20)
 @given(st.permutations(range(6)), st.integers(-40, 40), st.integers(-40, 40))
 def test_order_and_growth_change_nothing_and_a_revised_past_moves_the_map(order, i, j):

@@ -146,6 +146,7 @@ def test_a_match_that_fails_leaves_the_odometry_and_is_counted():
     assert np.allclose(slam.pose, PATH[1])
 
 
+@pytest.mark.slow
 def test_the_polygon_with_the_thesis_wrong_odometry_comes_out_right_in_100_of_100_seeds():
     for seed in range(100):
         source = sources.open("sim:polygon-wrong", np.random.default_rng(seed))

@@ -73,6 +73,7 @@ def found_corners():
     return np.array(errors), np.array(R), false, found, ought
 
 
+@pytest.mark.slow
 def test_what_is_found_is_a_corner_and_half_of_those_in_sight_are_found(found_corners):
     errors, _, false, found, ought = found_corners
     assert len(errors) > 100

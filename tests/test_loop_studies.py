@@ -57,6 +57,7 @@ def test_the_information_of_all_poses_is_a_sum_over_edges_in_the_order_of_the_po
     assert np.count_nonzero(np.linalg.eigvalsh(found) < 1e-9 * found.max()) == 3
 
 
+@pytest.mark.slow
 def test_no_gate_alone_lets_in_what_is_right_and_nothing_else(corridor):
     slam = run(corridor, GraphSlam(corridor.robot, loops=False)).estimator
     wrong, gates = false_loops.judged(slam, false_loops.true_poses(slam, corridor))
@@ -71,6 +72,7 @@ def test_no_gate_alone_lets_in_what_is_right_and_nothing_else(corridor):
     assert 0 < (everything & ~wrong).sum() < (~wrong).sum(), "every gate costs right loops"
 
 
+@pytest.mark.slow
 def test_a_gate_keeps_false_loops_out_and_without_it_they_ruin_the_map(twins):
     assert twins.false_in(twins.with_gate) == 0
     assert twins.false_in(twins.without) >= twins.false.sum() > 20

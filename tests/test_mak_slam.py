@@ -49,6 +49,7 @@ def test_it_beats_dead_reckoning_on_a_loop_and_finds_every_landmark_it_saw(name)
     assert np.hypot(*off.T).max() < 0.5
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["mak", "mak-first-estimates"])
 def test_over_a_short_drive_it_is_consistent_its_nees_lies_in_its_band(name):
     runs = 50
@@ -135,6 +136,7 @@ def steps_apart(smoothing, seed):
     return jumps.std(), np.sqrt(np.mean((shown - source.truth.poses)[:, :2] ** 2)), slam
 
 
+@pytest.mark.slow
 def test_smoothing_makes_the_shown_pose_calmer_and_wrong_and_leaves_the_filter_alone():
     calm, plain = (
         np.array([steps_apart(smoothing, seed)[:2] for seed in range(8)]).mean(axis=0)
@@ -194,6 +196,7 @@ def test_a_source_with_neither_landmarks_nor_scans_is_refused_in_one_line():
         estimators.make("mak", Blind())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(4000, 4004))
 def test_in_the_arena_no_corner_is_taken_for_another_and_none_is_in_the_map_twice(seed):
     source = ArenaRun(np.random.default_rng(seed), laps=2)

@@ -40,6 +40,7 @@ def ratio(name, source, **options):
     return naive.translation / found.translation, result.estimator
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", NAMES)
 def test_it_beats_dead_reckoning_on_a_loop_and_finds_every_landmark_it_saw(name):
     source = simulation("landmarks", np.random.default_rng(2))
@@ -66,6 +67,7 @@ def test_named_by_an_ekf_slam_beside_there_are_as_many_landmarks_as_there_are(na
     assert better > 1.5 and len(slam.filter.ids) == 8 and slam.association.ambiguous == 0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", NAMES)
 def test_it_takes_the_corners_of_scans(name):
     better, slam = ratio(name, simulation("situation-2", np.random.default_rng(1)))

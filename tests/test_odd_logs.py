@@ -49,6 +49,7 @@ def with_times(stamp):
     return change
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize(
     ("scan", "rows"), [(EMPTY, slice(40, 44)), (EMPTY, slice(0, 2)), (POINT, slice(3, None, 7))]
@@ -62,6 +63,7 @@ def test_scans_with_next_to_nothing_in_them_cost_no_more_than_themselves(kind, s
     assert slam.counts.total() == 0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize(
     ("stamp", "counted"),
@@ -80,6 +82,7 @@ def test_timestamp_anomalies_change_no_pose_and_are_counted_in_the_status(kind, 
     assert slam.status.endswith(f"{n} {what}")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("kind", "event"), [("icp", "matches with few inliers"), ("walls", "scans of only new walls")]
 )

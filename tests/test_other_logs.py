@@ -113,6 +113,7 @@ def test_every_recording_opens_by_its_name(name):
     assert len(source) > 5 and first.scan.valid.sum() > 100
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["icp", "graph"])
 def test_a_matched_breezyslam_log_sees_its_walls_more_sharply_than_odometry_does(kind):
     try:

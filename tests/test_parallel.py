@@ -60,6 +60,7 @@ def cluster():
         yield cluster.scheduler_address
 
 
+@pytest.mark.slow
 def test_a_cluster_gives_what_processes_give_and_names_failures_too(cluster):
     np.testing.assert_array_equal(map_runs(draw, SEEDS, scheduler=cluster), map_runs(draw, SEEDS))
     with pytest.raises(RunError, match="seed 3: ZeroDivisionError: no such luck"):

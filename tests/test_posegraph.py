@@ -80,6 +80,7 @@ def largest_deviation(graph, a, b):
     return np.abs(difference[1:] / deviations[1:]).max()
 
 
+@pytest.mark.slow
 @given(poses, poses, poses)
 def test_error_and_jacobians_equal_their_derivation(x_i, x_j, z):
     arguments = edge_symbolic.x_i, edge_symbolic.x_j, edge_symbolic.z
@@ -173,6 +174,7 @@ def test_exact_measurements_bring_back_the_truth_and_cost_nothing(seed):
     assert_same_pose(graph.poses, true, 1e-6)
 
 
+@pytest.mark.slow
 @given(st.integers(0, 10**6))
 def test_at_the_optimum_the_gradient_is_zero(seed):
     graph, _ = square_tour(np.random.default_rng(seed))
@@ -304,6 +306,7 @@ def test_a_trusted_false_edge_bends_the_graph():
     assert largest_deviation(without, graph.poses, without.poses) > 5
 
 
+@pytest.mark.slow
 def test_the_covariances_are_those_of_many_runs():
     exact, true = square_tour(np.random.default_rng(0), noise=0, drift=0)
     inverse = np.linalg.inv(exact.covariances()[1:])

@@ -384,6 +384,7 @@ def test_a_bag_cut_short_is_refused_in_one_line_or_read_in_part(
     assert source.damage or len(source) == 12
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("ending", [".bag", ".db3", ".mcap"])
 @settings(max_examples=40)
 @given(data=st.data())

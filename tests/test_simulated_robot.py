@@ -37,6 +37,7 @@ def naive(source):
     return np.array(poses[1:])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SCANNED)
 def test_iterating_twice_gives_the_same_readings(name):
     source = simulation(name, rng(1))
@@ -48,6 +49,7 @@ def test_iterating_twice_gives_the_same_readings(name):
         np.testing.assert_array_equal(a.scan.ranges, b.scan.ranges)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SCANNED)
 def test_the_same_seed_gives_the_same_run_and_another_seed_another(name):
     ranges = [next(iter(simulation(name, rng(s)))).scan.ranges for s in (1, 1, 2)]

@@ -67,6 +67,7 @@ def test_a_beam_without_width_meets_the_wall_where_it_points(beta, alpha):
     assert slant(alpha + 0.2, alpha, 0.3) == 0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("scanner", [ULTRASONIC, SMOOTH])
 @pytest.mark.parametrize("direction", [0.0, 0.5, -1.4])
 def test_over_many_scans_of_a_wall_the_line_errs_as_it_says(scanner, direction):
@@ -154,6 +155,7 @@ def room_by_sound(seed, robot=None, scanner=ULTRASONIC):
     return result, errors, np.array(P)
 
 
+@pytest.mark.slow
 @RUNS
 def test_through_the_room_it_nearly_halves_odometrys_error(runs):
     off, naive = [], []
@@ -166,6 +168,7 @@ def test_through_the_room_it_nearly_halves_odometrys_error(runs):
     assert np.mean(np.array(off) < naive) > 0.85
 
 
+@pytest.mark.slow
 @RUNS
 @pytest.mark.parametrize("scanner", [ULTRASONIC, SMOOTH])
 def test_with_wheels_that_err_as_they_say_the_poses_nees_stays_in_its_band(scanner, runs):

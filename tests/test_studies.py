@@ -91,6 +91,7 @@ def test_the_table_is_stored():
     assert TABLE in STORED
 
 
+@pytest.mark.slow
 def test_the_wall_study_drives_every_variant_through_both_situations(monkeypatch):
     monkeypatch.setattr(walls, "simulation", _brief)
     table = walls.study(3, jobs=1)

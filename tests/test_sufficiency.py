@@ -26,6 +26,7 @@ def told(name, source, steps=None, **options):
     return " / ".join(slam.warnings)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "says"),
     [
@@ -41,10 +42,12 @@ def test_ultrasound_is_too_little_and_each_says_so(name, says, seed):
     assert says in told(name, simulation("room", rng, lidar=ULTRASONIC))
 
 
+@pytest.mark.slow
 def test_among_the_arenas_boxes_scan_matching_says_so():
     assert "under 60 points" in told("icp", simulation("arena", np.random.default_rng(1)))
 
 
+@pytest.mark.slow
 def test_a_box_no_better_than_odometry_says_so_and_so_does_one_that_can_tell_no_corners_apart():
     source = simulation("arena", np.random.default_rng(1))
     wide = "by it the place is no surer than by odometry alone"
@@ -69,23 +72,27 @@ def test_samples_that_see_nothing_again_are_no_surer_than_odometry_and_say_so(na
     ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("world", ["room", "landmarks"])
 @pytest.mark.parametrize("name", ["bor", "montecarlo", "fastslam"])
 def test_boxes_and_samples_among_plenty_of_landmarks_say_nothing(name, world):
     assert told(name, simulation(world, np.random.default_rng(1))) == ""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["montecarlo", "fastslam"])
 def test_samples_in_the_arena_say_nothing(name):
     assert told(name, simulation("arena", np.random.default_rng(1))) == ""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("world", ["room", "situation-2"])
 @pytest.mark.parametrize("name", ["icp", "graph", "walls", "mak"])
 def test_where_a_lidar_sees_a_room_nobody_says_anything(name, world):
     assert told(name, simulation(world, np.random.default_rng(1))) == ""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "world"), [("mak", "arena"), ("walls", "arena"), ("mak", "landmarks")]
 )
@@ -106,6 +113,7 @@ def test_on_the_intel_log_nobody_says_anything(name):
         assert told(name, log, 450) == ""
 
 
+@pytest.mark.slow
 def test_a_run_says_it_on_the_terminal_and_in_its_summary(tmp_path, capsys):
     assert main(["run", "sim:arena", "--estimator", "icp", "--out", str(tmp_path)]) == 0
     (sentence,) = json.loads((tmp_path / "summary.json").read_text())["warnings"]

@@ -106,6 +106,7 @@ def brief(monkeypatch):
     monkeypatch.setattr(three, "scan_costs", few)
 
 
+@pytest.mark.slow
 def test_the_command_writes_a_line_for_every_filter_and_kind(tmp_path, capsys, brief):
     out = tmp_path / "three.json"
     assert three.main(["--runs", "3", "--jobs", "1", "--out", str(out)]) == 0

@@ -80,6 +80,7 @@ def test_what_stands_ten_centimetres_out_of_line_is_never_taken_for_the_same_wal
         assert those_of(slam, FAR)
 
 
+@pytest.mark.slow
 def test_no_landmark_of_situation_1_repeats_another():
     source = simulation("situation-1", np.random.default_rng(1))
     slam = estimators.run(source, estimators.make("walls", source)).estimator

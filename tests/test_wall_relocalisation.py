@@ -70,6 +70,7 @@ def dead_reckoned(source):
     return pose
 
 
+@pytest.mark.slow
 def test_after_three_laps_of_the_arena_it_is_off_by_millimetres_and_odometry_by_centimetres(free):
     for seed, (_, _, errors, _) in zip(SEEDS, free, strict=True):
         source = ArenaRun(np.random.default_rng(seed))
@@ -84,6 +85,7 @@ def test_a_robot_that_did_not_slip_is_never_relocalised_and_goes_as_without(free
     np.testing.assert_array_equal(without.trajectory().poses, free[0][0].trajectory().poses)
 
 
+@pytest.mark.slow
 def test_a_robot_that_slipped_is_found_again_where_it_is_lost_without(snagged):
     source, (slam, _, errors, _) = snagged
     without, _, lost, _ = driven(source, relocalise=False)

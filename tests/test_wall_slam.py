@@ -35,6 +35,7 @@ def driven(request):
     return source, result, np.array(P)
 
 
+@pytest.mark.slow
 def test_it_ends_much_nearer_to_the_truth_than_odometry(driven):
     source, result, _ = driven
     off, naive = (
@@ -147,6 +148,7 @@ def test_a_tentative_wall_is_confirmed_at_its_third_sighting_and_forgotten_when_
     assert len(trial.tentative) == 2  # collinear, but far apart: two walls
 
 
+@pytest.mark.slow
 def test_through_a_door_no_wall_is_drawn():
     source = simulation("situation-1", np.random.default_rng(1))
     slam = run(source, estimators.make("walls", source)).estimator
@@ -179,6 +181,7 @@ def test_an_extent_lies_along_its_line_and_extents_that_nearly_touch_overlap():
     assert overlap((0, 1), (1.4, 2)) and not overlap((0, 1), (1.6, 2))
 
 
+@pytest.mark.slow
 @given(st.lists(st.tuples(st.floats(-1, 1), st.floats(-1, 1)), max_size=60))
 def test_kept_points_keep_their_distance_and_every_other_one_is_near_a_kept_one(points):
     points = np.array(points).reshape(-1, 2)

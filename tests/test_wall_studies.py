@@ -21,6 +21,7 @@ def found(room):
     return spoilt_walls.found_by(room)
 
 
+@pytest.mark.slow
 def test_the_small_loop_believes_what_the_packages_does(room, found):
     loop = VARIANTS[RIGHT](room)
     poses, P, maps = spoilt_walls.driven(room, loop, found)
@@ -32,6 +33,7 @@ def test_the_small_loop_believes_what_the_packages_does(room, found):
     assert len(maps[-1]) == len(loop.mak.ids)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", [RIGHT, "degrees in the Jacobians", "paired before predict"])
 def test_a_drive_gives_its_numbers_of_the_stored_table_again(room, name):
     rows = spoilt_walls.rows_of("situation-2", room, {name: VARIANTS[name]})
@@ -80,6 +82,7 @@ def test_a_wall_at_the_end_helps_both_and_feet_stay_overconfident():
     assert feet.nees > 5 * measured.nees
 
 
+@pytest.mark.slow
 def test_a_drive_by_sound_gives_its_numbers_of_the_stored_table_again():
     found = heard_walls.errors_of(0)
     for name, was in stored("heard_walls")["seed_0"].items():
@@ -101,6 +104,7 @@ def test_lines_found_at_true_poses_are_as_good_as_their_R_says(room, found):
     assert 1.8 < line_truth.squared_errors(room, found).mean() < 2.4
 
 
+@pytest.mark.slow
 def test_of_two_feet_the_nearest_is_right_and_the_first_often_not():
     rooms = simulation("situation-1", np.random.default_rng(1))
     counts = line_truth.choices(rooms, spoilt_walls.found_by(rooms), 0.5)

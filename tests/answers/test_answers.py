@@ -12,6 +12,7 @@ PASSED = 0.08
 """Share of an exercise's wrong answers that may keep full marks; the aim is 0.01."""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("id", IDS)
 def test_a_right_answer_keeps_its_points(id):
     of = {one.task.id: one for one in programs(id)}

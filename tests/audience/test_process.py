@@ -84,6 +84,7 @@ def test_a_process_that_died_is_not_taken_for_one_that_runs(home):
     assert second["code"] != first["code"]
 
 
+@pytest.mark.slow
 def test_another_page_ends_the_lecture_that_runs_and_begins_one_of_its_own(home):
     first = starting.start(PAGE, port=0)
     second = starting.start("http://localhost:9999", port=0)
@@ -107,6 +108,7 @@ def test_it_knows_nothing_of_jupyter_and_stands_in_an_empty_folder(home, monkeyp
     assert listens == {"127.0.0.1"}
 
 
+@pytest.mark.slow
 def test_it_ends_when_told_tells_the_phones_and_leaves_nothing(home):
     async def attend(told):
         here = phone(told)
@@ -124,6 +126,7 @@ def test_it_ends_when_told_tells_the_phones_and_leaves_nothing(home):
     assert list((home / "temporary").iterdir()) == []
 
 
+@pytest.mark.slow
 def test_it_ends_by_itself_when_the_lecturer_s_page_is_silent(home):
     command = [sys.executable, "-m", "slamlab.audience", PAGE, "--port", "0", "--patience", "0.5"]
     command += ["--state", str(home / "state.json")]
@@ -133,6 +136,7 @@ def test_it_ends_by_itself_when_the_lecturer_s_page_is_silent(home):
     assert left(home) == []
 
 
+@pytest.mark.slow
 def test_a_vote_stands_in_no_file_while_it_lasts_or_after(home):
     async def attend(told):
         here = phone(told)

@@ -19,6 +19,7 @@ def test_the_deviation_between_seeds_is_that_of_fresh_seeds(sigma):
     np.testing.assert_allclose(np.mean(found), fresh, rtol=0.1)
 
 
+@pytest.mark.slow
 def test_its_quick_run_tells_score_and_deviation_of_each(monkeypatch):
     monkeypatch.setattr(project, "FAMILIES", SMALL)
     monkeypatch.setattr(project, "WORLDS_PER_FAMILY", 1)

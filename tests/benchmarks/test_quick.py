@@ -103,6 +103,7 @@ def test_every_benchmark_of_the_folder_is_tried_here_or_elsewhere_and_can_be_imp
         assert callable(module.run)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SMALL)
 def test_its_quickest_run_gives_the_ratios_it_promises(name, monkeypatch):
     module = importlib.import_module(f"benchmarks.{name}")

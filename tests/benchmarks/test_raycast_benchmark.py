@@ -17,6 +17,7 @@ ROOT = Path(__file__).parents[2]
 KEYS = {"name", "value", "unit", "reference", "ratio"}
 
 
+@pytest.mark.slow
 def test_its_quick_run_prints_a_table_and_writes_its_rows(tmp_path):
     file = tmp_path / "rows.json"
     command = [sys.executable, "-m", "benchmarks.raycast", "--quick", "--json", str(file)]

@@ -15,6 +15,8 @@ from slamlab.audience import starting
 from tests.browser.jupyter import EXTENSION
 from tests.patience import PATIENCE
 
+pytestmark = pytest.mark.slow
+
 LECTURE = EXTENSION / "labextensions" / "slamlab" / "static"
 
 

@@ -5,6 +5,8 @@ import pytest
 from tests.browser.lecture import Lecture
 from tests.patience import PATIENCE
 
+pytestmark = pytest.mark.slow
+
 QUESTION, OUTCOME, SECOND = "6", "7", "9"  # cells of lesson 00
 
 

@@ -4,6 +4,8 @@ import pytest
 
 from tests.browser.editing import NAME, Editor
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture
 def editor(visit):

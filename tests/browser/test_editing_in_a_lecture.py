@@ -6,6 +6,8 @@ from nbformat import v4
 
 from tests.browser.lecture import Lecture
 
+pytestmark = pytest.mark.slow
+
 UNLOCKED = ".slamlab-unlocked"
 NOTICE = "() => document.querySelector('.slamlab-notice').textContent"
 

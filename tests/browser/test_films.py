@@ -13,6 +13,8 @@ from slamlab.views.colours import COLOURS, contrast
 from tests.films.scenes import damaged, record, scenes
 from tests.patience import PATIENCE, until
 
+pytestmark = pytest.mark.slow
+
 # presses play; frames that are drawn from then on, until the film no longer plays
 PLAYED = """(root) => new Promise((done) => {
     const seen = [], button = root.querySelector("button");
@@ -308,6 +310,7 @@ def test_a_finger_scrolls_the_page_until_the_picture_was_tapped(opened, made):
         return page.page.evaluate("document.activeElement.tagName") == "CANVAS"
 
     until(tapped)
+    page.page.evaluate("scrollTo(0, 0)")  # the tap came while the page still moved
     swipe()
     page.page.wait_for_function(
         "([canvas, whole]) => canvas.toDataURL() !== whole",

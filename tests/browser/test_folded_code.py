@@ -6,6 +6,8 @@ from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_outp
 
 from tests.browser.lecture import Lecture
 
+pytestmark = pytest.mark.slow
+
 LESSON, HELPED = "folded.ipynb", "helped.ipynb"
 LINES = "\n".join(f"line_{k} = {k}" for k in range(9))
 SHOWN = new_output("stream", text="what it shows\n")

@@ -8,6 +8,8 @@ import pytest
 from course.source import ROOT
 from tests.browser.lecture import Lecture
 
+pytestmark = pytest.mark.slow
+
 OFTEN = ("04_models_and_jacobians.ipynb", "07_correlations.ipynb")
 SCREENS = ((1280, 720), (1920, 1080))
 LESSONS = sorted(path.name for path in (ROOT / "notebooks").glob("*.ipynb"))
@@ -111,7 +113,6 @@ def test_pages_and_folded_answers_of_long_slides_are_all_shown(lecture):
     assert cells_of(lecture.walk()) == on_slides(lesson)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(("lesson", "seed"), MONKEYS)
 def test_no_key_and_no_click_changes_the_file(lecture, lab_folder, lesson, seed):
     before = stored(lab_folder, lesson)
@@ -232,7 +233,6 @@ def test_remotes_and_the_keys_of_the_deck(lecture):
     assert not lecture.runs
 
 
-@pytest.mark.slow
 def test_a_slider_is_hit_where_it_is_seen(lecture):
     lecture.visit.open("01_why_slam.ipynb")
     lecture.visit.run_all_and_wait()

@@ -5,6 +5,8 @@ import pytest
 from benchmarks.live import rows
 from tests.browser.live import NAME, View
 
+pytestmark = pytest.mark.slow
+
 PLAIN_PICTURE = ".widget-html img"
 
 
@@ -130,7 +132,6 @@ def test_a_cell_that_is_run_again_ends_its_loop_and_shows_a_new_one(views, visit
     view.wait(2)
 
 
-@pytest.mark.slow
 def test_the_benchmark_measures_clicks_and_pictures_and_no_frame_waits_for_another(visit):
     found = rows(visit, quick=True)
     assert {row["unit"] for row in found} == {"ms", "1/s", "1"}

@@ -19,6 +19,8 @@ from tests.browser.live_page import LivePage, started
 from tests.devices.test_emulator_ports import needs_pty, running
 from tests.patience import PATIENCE, until
 
+pytestmark = pytest.mark.slow
+
 # places in Tuček's polygon [m], there and back
 POLYGON = [(0.3, -0.2), (0.2, -0.6), (-0.2, -0.3), (0.2, 0.2), (0.0, 0.0)]
 
@@ -105,7 +107,6 @@ def test_typed_through_situation_2_the_walls_know_where_it_is(live, seed, tmp_pa
     assert picture.read_bytes().startswith(b"\x89PNG")
 
 
-@pytest.mark.slow
 def test_typed_through_the_polygon_icp_knows_where_the_emulated_robot_is(served):
     """Emulators, the real drivers between, in simulated time: as many turns on any machine."""
 

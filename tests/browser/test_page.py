@@ -6,6 +6,8 @@ import pytest
 
 from tests.browser.jupyter import Visit, jupyterlab
 
+pytestmark = pytest.mark.slow
+
 LESSON, EXERCISE = "notebooks/00_start_here.ipynb", "exercises/ex01_why_slam.ipynb"
 FIGURES = ".jp-OutputArea-output img"
 
@@ -43,7 +45,6 @@ def test_a_change_by_the_reader_is_unsaved(visit):
     visit.page.wait_for_selector(".lm-TabBar-tab.jp-mod-dirty")
 
 
-@pytest.mark.slow
 def test_figures_are_there_when_a_saved_notebook_is_opened_again(browser, tmp_path, lab_folder):
     (tmp_path / "course" / "notebooks").mkdir(parents=True)
     name = LESSON.split("/")[1]

@@ -17,6 +17,8 @@ from slamlab.reviewing.class_state import ClassState
 from slamlab.reviewing.review_routes import serve
 from tests.patience import PATIENCE
 
+pytestmark = pytest.mark.slow
+
 ALONE = "def f(a, b):\n    c = a + b * 2\n    d = c - a / (b + 1)\n    return d * c + a - b"
 EVIL = (
     "<img src=http://example.org/x onerror=\"document.title='run'\"><script>document.title='run'"

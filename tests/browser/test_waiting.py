@@ -4,6 +4,8 @@ import pytest
 
 from tests.browser.waiting import GO, NAME, Waiting
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture
 def waiting(visit, lab_folder):

@@ -129,6 +129,7 @@ def test_a_process_that_is_killed_is_a_lost_connection(tcp):
 posix = pytest.mark.skipif(os.name != "posix", reason="signals cannot be sent to one there")
 
 
+@pytest.mark.slow
 @posix
 @pytest.mark.parametrize("number", ["SIGKILL", "SIGSTOP", "SIGTERM", "SIGINT", "SIGHUP"])
 def test_a_program_that_is_killed_or_frozen_leaves_its_robot_standing(number):

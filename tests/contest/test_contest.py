@@ -68,6 +68,7 @@ def rows(folder, name="board.csv"):
         return list(csv.DictReader(file))
 
 
+@pytest.mark.slow
 def test_the_better_is_ahead_and_who_fails_in_every_world_is_last(held):
     given = json.loads((held.out / holding.PSEUDONYMS).read_text())
     found = {row["name"]: row for row in rows(held.board)}
@@ -151,6 +152,7 @@ def test_names_are_shown_where_they_are_asked_for_and_escaped_and_no_old_page_st
     }
 
 
+@pytest.mark.slow
 def test_anyone_can_judge_again_and_what_was_late_is_carried_over(held, tmp_path):
     told = tmp_path / "told"
     shutil.copytree(held.board, told)
@@ -221,6 +223,7 @@ def test_a_drive_is_kept_as_it_is_and_half_a_file_is_none(tmp_path, cut):
     assert read_drive(file) is None
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("held")
 def test_the_command_judges_a_folder_and_tells_who_is_driven(tmp_path, capsys, monkeypatch):
     draw = commitment.draw_contest

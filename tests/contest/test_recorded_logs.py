@@ -158,6 +158,7 @@ def test_where_a_recording_is_absent_it_is_told_what_it_is_and_what_to_do(
     assert "Set SLAMLAB_DATA to the folder that holds it" in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_the_command_drives_a_log_beside_the_worlds(tmp_path, capsys, monkeypatch):
     draw = commitment.draw_contest
     monkeypatch.setattr(

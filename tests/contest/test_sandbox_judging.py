@@ -35,6 +35,7 @@ def driven(cells, readings=None, budget=None, **more):
     return drive_in_sandbox(cells, readings, workers().start, budget or Budget(), **more)
 
 
+@pytest.mark.slow
 def test_the_solution_drives_in_the_sandbox_as_it_does_outside():
     inside = driven([(1, cheaters.SOLUTION)], arena().readings)
     outside = drive(Solution, arena().readings, Budget(*[np.inf] * 4))
@@ -81,6 +82,7 @@ def test_nothing_is_carried_from_one_world_to_the_next():
         assert not driven(cheaters.REMEMBERS, budget=budget).mistakes
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", cheaters.HARM)
 def test_harm_ends_that_world_and_leaves_the_next_alone(name):
     budget = Budget()

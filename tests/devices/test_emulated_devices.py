@@ -30,6 +30,7 @@ def rehearsed(path, seed=0):
     return record_synthetic_drive(path, worlds.polygon(), np.random.default_rng(seed), COURSE)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("tcp", [False, True])
 @pytest.mark.usefixtures("busy_machine")
 def test_readings_come_through_ports_and_the_truth_is_known_of_each(tcp, monkeypatch):

@@ -88,6 +88,7 @@ def test_a_pulled_plug_is_noticed_and_put_in_again_it_has_its_old_name(tcp):
             assert again.turn(timeout=PATIENCE)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("tcp", ENDS)
 def test_a_client_that_does_not_read_loses_bytes_and_holds_nothing_up(tcp):
     with running(tcp) as it:
@@ -204,6 +205,7 @@ class Sdk:
         time.sleep(0.01)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("tcp", ENDS)
 @pytest.mark.parametrize("typical", [0, 1, 2])
 def test_the_sdk_s_requests_are_answered_in_every_step(tcp, typical):
@@ -294,6 +296,7 @@ lidar.disconnect()
 )
 
 
+@pytest.mark.slow
 @needs_pty
 @pytest.mark.parametrize(
     ("module", "script"),

@@ -52,6 +52,7 @@ def assert_at_rest(it):
     assert (commands.STOP, 0, 0) in it["emir"].commands[-3:]
 
 
+@pytest.mark.slow
 @signals
 @pytest.mark.parametrize("tcp", ENDS)
 def test_ctrl_c_ends_a_live_run_and_what_it_came_to_is_written(tcp, tmp_path):
@@ -65,6 +66,7 @@ def test_ctrl_c_ends_a_live_run_and_what_it_came_to_is_written(tcp, tmp_path):
     assert (tmp_path / "map.png").exists() and (tmp_path / "trajectory.csv").exists()
 
 
+@pytest.mark.slow
 @signals
 def test_ctrl_c_ends_a_live_conversion_with_a_whole_log(tmp_path):
     with running(LOCAL) as it:
@@ -77,6 +79,7 @@ def test_ctrl_c_ends_a_live_conversion_with_a_whole_log(tmp_path):
     assert f"{len(log)} readings written" in said
 
 
+@pytest.mark.slow
 @signals
 @pytest.mark.parametrize("word", ["run", "record"])
 @pytest.mark.parametrize("number", TERMINATION_SIGNALS)
@@ -92,6 +95,7 @@ def test_told_to_end_the_program_leaves_motor_and_robot_at_rest(word, number, tm
         assert not recording.truncated and len(list(turns(recording))) > 10
 
 
+@pytest.mark.slow
 @needs_pty
 def test_a_recording_that_loses_its_lidar_keeps_what_came_and_one_of_nothing_is_no_file(tmp_path):
     path = tmp_path / "a.raw.gz"
@@ -108,6 +112,7 @@ def test_a_recording_that_loses_its_lidar_keeps_what_came_and_one_of_nothing_is_
     assert not list(tmp_path.iterdir())
 
 
+@pytest.mark.slow
 @needs_pty
 def test_a_lidar_that_is_lost_ends_a_run_with_what_it_came_to(tmp_path):
     with running() as it:

@@ -85,6 +85,7 @@ def of(graded, kind):
     return {name: r for name, r in graded["records"].items() if name.startswith(kind + " ")}
 
 
+@pytest.mark.slow
 def test_the_class_is_graded_to_its_end_and_everybody_is_listed(graded):
     assert graded["code"] == 0
     assert len(graded["records"]) == len(submissions()) > 40

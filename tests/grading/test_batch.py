@@ -126,6 +126,7 @@ def test_a_record_holds_what_defends_a_grade(class_folder, tmp_path):
     assert not (out / "secret").exists()
 
 
+@pytest.mark.slow
 def test_grading_again_gives_the_same_and_a_new_secret_other_inputs(class_folder, tmp_path):
     def graded(out, *more):
         command("grade", class_folder, "--out", out, *more)
@@ -347,6 +348,7 @@ def comes_true(claim, seconds=60):
     return True
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform != "linux", reason="looks into /proc")
 @pytest.mark.parametrize("level", [sandbox.NONE, sandbox.STRICT])
 @pytest.mark.parametrize("name", ["SIGTERM", "SIGHUP", "SIGKILL"])

@@ -75,6 +75,7 @@ def test_what_cannot_be_judged_is_explained_in_a_line(code, said):
     assert "Traceback" not in printed
 
 
+@pytest.mark.slow
 def test_a_loop_without_end_is_stopped_even_where_it_swallows_exceptions():
     swallow = (
         "\ndef double(a):\n    while True:\n        try:\n            sum(range(1000))\n        "

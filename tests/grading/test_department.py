@@ -91,6 +91,7 @@ def regraded(rng, attempts, exercise):
     }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("students", "exercises"),
     [(30, SMALL), pytest.param(300, WHOLE, marks=pytest.mark.walk)],

@@ -118,6 +118,7 @@ def test_deep_trees_are_removed_and_links_out_of_them_are_not_followed(tmp_path)
     assert (kept / "file").read_text() == "x"
 
 
+@pytest.mark.slow
 @posix
 @pytest.mark.parametrize("level", [sandbox.NONE, sandbox.BASIC])
 def test_a_notebook_that_nests_folders_beyond_reason_ends_nothing(monkeypatch, tmp_path, level):

@@ -72,6 +72,7 @@ def test_cells_run_in_their_order_however_many_are_sent_at_once(monkeypatch):
         assert str(x) in found["cells"][40]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("body", "kind", "said"),
     [
@@ -203,6 +204,7 @@ def test_a_function_under_a_timing_magic_counts():
     assert scores("%%time\n" + fake.SOLUTION) == FULL
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "attack",
     [
@@ -272,6 +274,7 @@ raise ValueError(f"{found == [here] == sys.path[:1]} {sorted(os.environ)}")
     assert "PYTHONPATH" not in said
 
 
+@pytest.mark.slow
 def test_nothing_a_submission_started_outlives_it(tmp_path):
     mark = tmp_path / "alive"
     cell = (

@@ -30,6 +30,7 @@ def statement(opened, text, **values):
         connection.execute(sa.text(text), values)
 
 
+@pytest.mark.slow
 def test_every_mark_and_change_is_a_row_that_stays(book):  # noqa: F811
     filled(book)
     before = book.rows()

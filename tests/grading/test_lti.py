@@ -157,6 +157,7 @@ def test_a_token_goes_to_no_other_place(lms, tmp_path, capsys):
         assert other.asked == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("status", "headers", "data"),
     [(200, {}, b"{"), (200, {}, b"[]"), (200, {}, b'{"members": {}}'), (200, {}, b""),

@@ -160,6 +160,7 @@ def score(out):
     return row[header.index("score")]
 
 
+@pytest.mark.slow
 def test_points_are_set_by_hand_from_the_command_line_and_outlive_grading_again(
     results, tmp_path, capsys
 ):
@@ -196,6 +197,7 @@ def test_gradebooks_of_shards_are_merged_without_doubling(results, tmp_path, cap
     assert score(merged) == "6.5"
 
 
+@pytest.mark.slow
 def test_nbgraders_gradebook_is_filled(results, tmp_path, capsys):
     from nbgrader.api import Gradebook as Theirs
 

@@ -57,6 +57,7 @@ def course(tmp_path_factory):
     return course
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("student", ["solved", "untouched", "forgot"])
 def test_nbgrader_scores_each_task_as_the_judge_does(course, student):
     from nbgrader.api import Gradebook
@@ -76,6 +77,7 @@ def test_nbgrader_scores_each_task_as_the_judge_does(course, student):
     assert sum(ours.values()) == {"solved": 22, "untouched": 0, "forgot": 17}[student]
 
 
+@pytest.mark.slow
 def test_released_from_the_solution_the_functions_keep_their_heads(tmp_path):
     (tmp_path / "nbgrader_config.py").write_text(CONFIG)
     place(tmp_path, "source", derived("solutions"))

@@ -15,6 +15,7 @@ def checked(tmp_path, capsys, *cells):
     return code, " ".join(capsys.readouterr().out.split())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("cells", "said"),
     [

@@ -30,6 +30,7 @@ def test_all_that_is_drawn_keeps_the_promise(id):
             assert task.are_inputs(inputs), (seed, name)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("id", ROUNDED)
 def test_right_ways_obey_the_laws_on_all_that_rounding_makes(id):
     one, task, rng = ROUNDED[id], ROUNDED[id].task, np.random.default_rng(15)

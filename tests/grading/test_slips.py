@@ -18,6 +18,9 @@ from slamlab.exercises.task import OPEN_SEED
 SEEDS = int(os.environ.get("SLAMLAB_SLIP_SEEDS", "1"))  # beside the open one; make soak: many more
 SAMPLE = 12 if SEEDS > 1 else 4  # mutants of each solution; python -m course.mutants tries all
 PROGRAMS = {one.task.id: one for id in catalogue.EXERCISES for one in programs(id)}
+# a mutant is tried in seconds: many runs, or searches
+COSTLY = {"04-unsure-drive", "05-lost", "08-pillar", "08-segments", "09-ghosts", "10-narrow",
+          "11-kidnapped", "13-overlap", "15-liars"}  # fmt: skip
 WAYS = [(id, name) for id, one in PROGRAMS.items() for name in one.ways]
 SLIPS = [
     pytest.param(id, slip, k, id=f"{id}-{slip.name}-{k}")
@@ -92,6 +95,7 @@ def test_a_slip_loses_points_and_is_named(id, slip, k):
     assert told(id, source).diagnosis in {slip.name} | others
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("id", "kind", "program"), STUMBLES)
 def test_a_stumble_is_told_as_what_it_is(id, kind, program):
     one = PROGRAMS[id]
@@ -129,7 +133,9 @@ def test_no_hint_is_a_solution_and_no_name_stands_twice(id):
         assert "\n" not in slip.hint and "return " not in slip.hint
 
 
-@pytest.mark.parametrize("id", PROGRAMS)
+@pytest.mark.parametrize(
+    "id", [pytest.param(id, marks=[pytest.mark.slow] * (id in COSTLY)) for id in PROGRAMS]
+)
 def test_a_sample_of_mutants_dies_or_is_right_as_well(id):
     found, tried = mutants.survivors(PROGRAMS[id], 3, SAMPLE, np.random.default_rng(6))
     assert tried
@@ -146,6 +152,7 @@ def test_the_fingerprints_are_those_of_these_sources(exercise_id):
         assert set(table.parts), id
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("id", PROGRAMS)
 def test_what_cannot_be_run_on_a_probe_costs_that_probe_only(id):
     one = PROGRAMS[id]

@@ -255,6 +255,7 @@ def test_a_students_id_names_his_page_whatever_it_holds():
     assert all("/" not in name and not name.startswith(".") for name in names)
 
 
+@pytest.mark.slow
 def test_a_term_from_download_to_release_from_the_command_line(folder, capsys):
     with zipfile.ZipFile(folder / "download.zip", "w") as archive:
         archive.writestr("Ana Kos_501_assignsubmission_file/hw.ipynb", notebook(fake.SOLUTION))

@@ -77,6 +77,7 @@ def test_an_exercise_that_does_not_exist_is_not_replaced_by_a_guess():
 # (7) adjust without --policy undid lateness
 
 
+@pytest.mark.slow
 def test_the_late_policy_is_kept_with_each_mark(tmp_path, capsys):
     folder, out = tmp_path / "class", tmp_path / "out"
     folder.mkdir()

@@ -35,6 +35,7 @@ def pages(file):
     return len(re.findall(rb"/Type\s*/Page\b", data)), {tuple(map(float, s)) for s in sizes}, data
 
 
+@pytest.mark.slow
 def test_a_lesson_that_is_sound_passes_and_its_file_stays_as_it_is(write, capsys):
     notebook = write()
     before = notebook.read_bytes()
@@ -44,6 +45,7 @@ def test_a_lesson_that_is_sound_passes_and_its_file_stays_as_it_is(write, capsys
     assert notebook.read_bytes() == before
 
 
+@pytest.mark.slow
 def test_a_failing_cell_and_a_slide_too_full_are_found(write, capsys):
     text = "\n\n".join(f"line {k}" for k in range(70))
     assert main(["rehearse", str(write("1 / 0", text))]) == 1
@@ -57,6 +59,7 @@ def test_cells_that_never_end_are_not_waited_for(write, capsys):
     assert "as far as Second: slide 2, cell the-cell" in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_a_handout_has_a_page_for_each_slide_and_its_text(write, tmp_path):
     notebook, out = write(), tmp_path / "out.pdf"
     assert main(["handout", str(notebook), "--out", str(out)]) == 0

@@ -4,6 +4,8 @@ import re
 import subprocess
 import sys
 
+import pytest
+
 from course.source import ROOT
 
 ARGUMENTS = ["-p", "tests.notebooks.nearly", "@tests/notebooks/nbval.args"]
@@ -32,6 +34,7 @@ def test_a_wrong_stored_output_fails():
     assert "2 failed, 2 passed" in done.stdout
 
 
+@pytest.mark.slow
 def test_the_right_stored_outputs_pass():
     done = nbval(HERE / "canary_twin.ipynb")
     assert done.returncode == 0, done.stdout

@@ -36,6 +36,7 @@ each_exercise = pytest.mark.parametrize("path", EXERCISES, ids=name)
 each_notebook = pytest.mark.parametrize("path", NOTEBOOKS, ids=name)
 
 
+@pytest.mark.slow
 @each_source
 def test_a_stored_notebook_is_what_its_source_derives(path):
     assert differences(path) == []
@@ -56,6 +57,7 @@ def test_every_exercise_of_the_catalogue_has_a_source():
     assert {path.stem for path in EXERCISES} == {e.notebook for e in catalogue.EXERCISES.values()}
 
 
+@pytest.mark.slow
 @each_source
 def test_the_same_source_derives_the_same_bytes(path):
     first, second = (

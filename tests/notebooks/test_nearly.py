@@ -28,6 +28,7 @@ def test_only_near_numbers_are_taken_for_the_stored_ones(found, same):
     assert (settled(found, STORED) == STORED) is same
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("tags", "printed", "passes"),
     [([TAG], 1.1, True), ([TAG], 2.2, False), ([], 1.1, False)],

@@ -50,6 +50,7 @@ def test_an_estimator_of_the_bank_imports_what_a_student_may(source):
             assert {alias.name for alias in node.names} <= ALLOWED
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("make", GOOD)
 def test_a_good_estimator_is_far_better_than_odometry(make):
     found = result(make)

@@ -72,6 +72,7 @@ def crowded(monkeypatch):
     monkeypatch.setattr(furniture, "TRIES", 40)
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("crowded")
 @pytest.mark.parametrize("family", [RING, CROWDED], ids=lambda family: family.name)
 def test_where_nobody_has_looked_before_points_follow_errors_and_the_marks_hold(family):

@@ -84,6 +84,7 @@ def test_odometry_alone_is_lost():
     assert np.hypot(*(pose - world.truth.poses[-1])[:2]) > 0.5
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["plain", "people", "dropouts"])
 def test_a_seed_is_a_world_and_every_iteration_yields_the_same(name):
     one, two = (next(draw_family(FAMILIES[name], seed=2**255 + 3, count=1)) for _ in range(2))

@@ -42,6 +42,7 @@ def review(*words):
     )  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(os.name == "nt", reason="a process is asked to end by SIGINT")
 @pytest.mark.parametrize("end", ["SIGINT", "SIGTERM"])
 def test_what_is_changed_stands_in_the_tables_at_the_end(folder, end):

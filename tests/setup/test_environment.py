@@ -130,6 +130,7 @@ def test_lectures_need_nothing_that_lab_does_not_install_for_lecturers():
         assert {canonicalize_name(r.name) for r in always} <= known | set(LECTURE)
 
 
+@pytest.mark.slow
 def test_the_package_imports_only_what_it_declares():
     distributions = packages_distributions()
     # what an extra holds is imported when it is asked for

@@ -272,6 +272,7 @@ def test_a_python_that_will_not_do_is_refused_in_one_line(tmp_path, before, says
     assert not (tmp_path / ".venv").exists()
 
 
+@pytest.mark.slow
 def test_without_a_network_the_first_installation_says_so(tmp_path):
     for name in FILES:
         shutil.copy(ROOT / name, tmp_path)

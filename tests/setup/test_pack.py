@@ -195,6 +195,7 @@ def test_a_solution_that_went_out_would_be_found():
     assert len(told(out)) >= 4
 
 
+@pytest.mark.slow
 def test_fingerprints_that_go_out_hold_numbers_and_hints_and_no_line_of_a_program(shipped):
     lines = {line for source in all_programs() for line in source.splitlines() if telling(line)}
     told = {"".join(tokens(line)) for line in lines}

@@ -111,6 +111,7 @@ def test_a_second_press_pauses_and_a_third_goes_on_from_there(buttons):
     assert film.steps == list(range(10))
 
 
+@pytest.mark.slow
 def test_a_cell_that_is_run_again_stops_what_it_played_before(buttons):
     old, new = Film(), Film()
 

@@ -303,6 +303,7 @@ def test_a_control_that_starts_outside_its_range_is_refused_by_name():
         views.explore(Recorder(), alt=ALT, error=(0, 10, 12))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("room", ["geometry", "models", "scanmatching"])
 def test_views_bring_no_answer_of_an_exercise_along(room):
     code = f"import slamlab.views, sys; sys.exit('slamlab.{room}' in sys.modules)"

@@ -180,6 +180,7 @@ def test_a_scan_that_fails_is_told_in_one_line(shown):
     assert "IndexError" in told.value
 
 
+@pytest.mark.slow
 def test_without_anywidget_the_numbers_stay(shown, monkeypatch):
     monkeypatch.setitem(sys.modules, "slamlab.views.editor.board", None)
     editor = edit_world(parse(ROWS), ALT)
