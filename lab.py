@@ -22,6 +22,7 @@ OLDEST, NEWEST = (3, 11), (3, 13)
 ROOT = os.path.dirname(os.path.abspath(__file__))
 START = "notebooks/00_start_here.ipynb"
 STAMP = "slamlab-stamp.json"
+LECTURE_LOCK = "requirements-test.lock"  # in no student's pack
 LECTURE = ("greenlet", "playwright")  # and what they need besides: nothing
 NEWS = "@jupyterlab/apputils-extension:announcements"
 # what differs from JupyterLab's own settings: the width of the side bar is for whole names
@@ -150,7 +151,7 @@ def install_all(venv, lock, lecture):
     if lecture:
         driver = os.path.join(venv, "lecture.lock")
         with open(driver, "w") as file:
-            file.write(entries("requirements-test.lock", LECTURE))
+            file.write(entries(LECTURE_LOCK, LECTURE))
         install(venv, *(locked + (driver,)))
     install(venv, "--no-index", "--no-build-isolation", "-e", ROOT)
     say("compiling, so that notebooks start fast")
@@ -268,6 +269,8 @@ def open_lab(venv, arguments):
     os.chdir(ROOT)
     # so that slamlab is found in JupyterLab's terminals
     known = environment()
+    # the course's matrices are small: their products gain nothing by more threads, and cost more
+    known.setdefault("OPENBLAS_NUM_THREADS", "1")
     known["PATH"] = os.pathsep.join([os.path.dirname(command[0]), known.get("PATH", os.defpath)])
     if os.name != "nt":
         os.execve(command[0], command, known)
@@ -295,6 +298,8 @@ def main(arguments):
     parser.add_argument("--venv", default=".venv", help="where to install (.venv)")
     parser.add_argument("--lock", default="requirements.lock", help="what (requirements.lock)")
     options, rest = parser.parse_known_args(arguments)
+    if options.lecture and not os.path.exists(os.path.join(ROOT, LECTURE_LOCK)):
+        raise Trouble("--lecture is for the whole project or the lecturers' pack; leave it out")
     venv = os.path.realpath(os.path.join(ROOT, options.venv))
     try:
         set_up(venv, options.lock, options.lecture)

@@ -18,7 +18,7 @@ from course.mutation import mutants
 from course.other_processor import environment
 from course.programs import SOLUTION, ProgramError, Programs, namespace, programs
 from course.source import ROOT
-from slamlab.checks.time_limit import TimeLimitExceeded, time_limit
+from slamlab.exercises.time_limit import TimeLimitExceeded, time_limit
 from slamlab.exercises import catalogue, fingerprints
 from slamlab.exercises.drives import StudentError
 from slamlab.exercises.families import FAMILIES

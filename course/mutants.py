@@ -15,7 +15,7 @@ import numpy as np
 from course.fingerprints import MUTANT_SECONDS
 from course.mutation import Mutant, mutants
 from course.programs import SOLUTION, Programs, namespace, programs
-from slamlab.checks.time_limit import TimeLimitExceeded, time_limit
+from slamlab.exercises.time_limit import TimeLimitExceeded, time_limit
 from slamlab.exercises import catalogue
 from slamlab.exercises.drives import StudentError
 from slamlab.exercises.fingerprints import parts_of

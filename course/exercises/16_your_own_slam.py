@@ -17,7 +17,7 @@
 # | `pose` | where it believes it is now, `[x, y, θ]`, in a frame of its choice |
 # | `trajectory()` | all poses as it believes them *now*, (n, 3). It is asked for at the end |
 # | `map()` | points on the walls, (n, 2), in the same frame as `trajectory()` |
-# | `covariance` | how sure it is of `pose`, (3, 3), or `None` for no claim |
+# | `covariance` | how sure it is of `pose`: the covariance (3, 3) of the errors of its `[x, y, θ]`, along the axes of the same frame as `pose`, not of the robot; or `None` for no claim |
 #
 # You may import numpy, scipy, and of the course `slamlab.geometry`, `slamlab.layers`,
 # `slamlab.readings` and `slamlab.worlds.ray_casting`. The course's filters, matchers and graphs are not there
@@ -94,9 +94,10 @@ check("16-corridor")
 # %% [markdown]
 # ## 2 · It closes a loop
 #
-# Now the robot drives once round a block and 3 m farther, so that it sees its beginning again. On
-# the way, at a corner, six scans are lost, and the wheels turn a tenth of a radian too much there. No
-# matching of neighbours can notice it. Back at the start, the poses have to be off by less
+# Now the robot drives once round a block and 3 m farther, so that it sees its beginning again. Its
+# lidar sees 5 m far. On the way, round a corner, ten scans are lost, and the wheels turn a tenth of a
+# radian too much there. What is seen before this gap and what is seen after it have next to nothing in
+# common, so whoever only matches with the scans before will not notice. Back at the start, the poses have to be off by less
 # than 0.1 m. `trajectory()` is asked for at the end, and all its poses together have to be off by less
 # than 0.12 m: closing a loop tells something about the poses before it, too.
 #
@@ -109,7 +110,8 @@ check("16-loop")
 # %% [markdown]
 # ## 3 · It says how sure it is
 #
-# The corridor again, and this time `covariance` is asked for after each reading. For six readings no
+# The corridor again, and this time `covariance` is asked for after each reading. It counts once the
+# first milestone is passed: what the wheels alone know is not asked. For six readings no
 # scan arrives. Meanwhile σ of the place has to grow, by a factor of 1.3 at least, and the mean NEES of
 # the poses that you give on the way has to lie between 0.05 and 20. It is 3 where the claims are true;
 # the band is wide, because few drives are tried and the errors of neighbouring readings hang together.

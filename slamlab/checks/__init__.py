@@ -2,7 +2,7 @@
 
 Read in this order:
 
-- here: check, hint, ask, attempt, validate; ``time_limit``: their timeout
+- here: check, hint, ask, attempt, validate
 - ``borrowed``: what a student took from the package that grading does not hold
 - ``ladder``: what hint says; ``questions``: what ask shows, ``stored_questions``: of lessons
 - ``notebook_file``: where this notebook stands, what of it is not saved
@@ -43,7 +43,8 @@ def hint(task_id):
     """
     if "NBGRADER_EXECUTION" in os.environ:  # a grader has no use for it
         return
-    from slamlab.checks import ladder, time_limit
+    from slamlab.checks import ladder
+    from slamlab.exercises import time_limit
 
     task = _task(task_id)
     if task is None:
@@ -170,7 +171,7 @@ def _check(task_id, namespace):
 
 
 def _run(task, namespace, tell):
-    from slamlab.checks import time_limit
+    from slamlab.exercises import time_limit
     from slamlab.exercises.run_task import run, run_and_tell
     from slamlab.exercises.task import OPEN_SEED
 
@@ -183,7 +184,7 @@ def _run(task, namespace, tell):
                     verdict = run_and_tell(task, namespace)
                 else:
                     verdict = run(task, namespace, task.draw(OPEN_SEED))
-            if verdict.kind == "missing":
+            if verdict.kind == "missing" and verdict.problem.endswith("is not defined"):
                 near = get_close_matches(verdict.problem.split()[0], namespace, n=1, cutoff=0.8)
                 meant = f"; there is {near[0]}: is it meant?" if near else ""
                 problem = f"{verdict.problem} yet: run the cell above{meant}"

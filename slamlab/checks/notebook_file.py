@@ -35,8 +35,8 @@ def notebook_file(names, folder="."):
     return best if best is not None and found[best] >= 2 else None
 
 
-def unsaved_functions(path, names):
-    """List the functions that were run last in another form than the file holds.
+def unsaved_definitions(path, names):
+    """List the functions and classes that were run last in another form than the file holds.
 
     Parameters
     ----------
@@ -45,14 +45,14 @@ def unsaved_functions(path, names):
 
     Returns
     -------
-    list of str, names of functions, in the file's order
+    list of str, their names, in the file's order
     """
     last = {}
     for source in _history(names):
-        last |= dict.fromkeys(_defined(source), source.strip())
+        last |= _defined(source)
     saved = {}
     for source in _sources(path):
-        saved |= dict.fromkeys(_defined(source), source)
+        saved |= _defined(source)
     return [name for name in saved if name in last and last[name] != saved[name]]
 
 
@@ -72,9 +72,14 @@ def _sources(path):
 
 
 def _defined(source):
-    """The names of the functions that a cell defines."""
+    """What a cell defines: name to its form without comments and layout.
+
+    ``_`` is a trial under ``@attempt``: many cells have one, and none of them is handed in.
+    """
     try:
         body = ast.parse(source).body
     except (SyntaxError, ValueError):
-        return []
-    return [node.name for node in body if isinstance(node, ast.FunctionDef)]
+        return {}
+    kinds = ast.FunctionDef | ast.ClassDef
+    found = {node.name: ast.dump(node) for node in body if isinstance(node, kinds)}
+    return {name: form for name, form in found.items() if name != "_"}

@@ -3,13 +3,15 @@
 import textwrap
 from datetime import datetime
 
-from slamlab.checks.notebook_file import notebook_file, unsaved_functions
+from slamlab.checks.notebook_file import notebook_file, unsaved_definitions
 from slamlab.coursework import progress_records
 from slamlab.exercises.report import WIDTH, coloured, format_verdict, number, points
 from slamlab.exercises.task import OPEN_SEED
 from slamlab.grading import judge, preflight, submissions
 from slamlab.grading.submissions import Submission, SubmissionError
 from slamlab.grading.worker_pool import WorkerPool, WorkerStartError
+
+UNPACKED = 1980  # the year of all files in a pack, the earliest that a zip can hold
 
 
 class ValidationError(Exception):
@@ -57,6 +59,15 @@ def validate(path, default=None, keep=False) -> bool:
     return all(verdict.full for verdict in result["verdicts"])
 
 
+def _saved(path):
+    """When a file was saved: the time, of another day with its date; a pack's files have none."""
+    saved = datetime.fromtimestamp(path.stat().st_mtime)
+    if saved.year <= UNPACKED:
+        return "as it was handed out"
+    is_today = saved.date() == datetime.now().date()
+    return f"as saved at {saved:%H:%M:%S}" if is_today else f"as saved on {saved:%Y-%m-%d at %H:%M}"
+
+
 def validate_current_notebook(names):
     """Validate the notebook whose kernel this is.
 
@@ -72,10 +83,9 @@ def validate_current_notebook(names):
             "the same."
         )
         return
-    for name in unsaved_functions(path, names):
+    for name in unsaved_definitions(path, names):
         print(f"not saved: {name} as you ran it last; save (Ctrl+S), then run this cell again")
-    saved = datetime.fromtimestamp(path.stat().st_mtime)
-    print(f"{path.name} as saved at {saved:%H:%M:%S}, in a fresh process from top to bottom:")
+    print(f"{path.name} {_saved(path)}, in a fresh process from top to bottom:")
     try:
         validate(path, keep=True)
     except ValidationError as error:

@@ -90,7 +90,7 @@ def format_numbers(name, array) -> str:
         return f"{name} = {WRITTEN[name](array.astype(int))}"
     if array.dtype.kind == "f":  # neither -0 nor rounding's dust
         most = np.abs(array[np.isfinite(array)]).max(initial=0)
-        array = np.where(np.abs(array) > 1e-12 * most, array, 0.0)
+        array = np.where(np.abs(array) <= 1e-12 * most, 0.0, array)  # NaN stays NaN
     text = np.array2string(
         array,
         precision=4,

@@ -2,7 +2,7 @@
 
 import time
 from collections.abc import Callable
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass
 from functools import partial
 
@@ -20,6 +20,7 @@ NOT_FINITE = (
     "{} of {} poses are not finite, or farther away than 1000 km: was something divided by zero, "
     "or does the pose run off?"
 )
+GUARD_LATER = 0.1  # than the limit, which is told then [s]
 TOO_LONG = "{} took {:.1f} s of CPU, more than the {:g} s that are allowed"
 
 
@@ -39,6 +40,8 @@ class Budget:
     patience : float, of the wall clock, for all worlds together [s]
     clock : callable that gives CPU seconds
     wall_clock : callable that gives seconds
+    guard : callable(seconds) -> context that ends what runs longer, as ``time_limit`` does; where
+        nobody else ends it
     spent, waited : float, what was used so far, of CPU and of the wall clock [s]
     """
 
@@ -48,6 +51,7 @@ class Budget:
     patience: float = 600.0
     clock: Callable[[], float] = time.process_time
     wall_clock: Callable[[], float] = time.monotonic
+    guard: Callable = nullcontext
     spent: float = 0.0
     waited: float = 0.0
 
@@ -71,8 +75,9 @@ class Budget:
         self._check()
         start, begun = self.clock(), self.wall_clock()
         try:
-            return function()
-        finally:
+            with self.guard(limit + GUARD_LATER):
+                return function()
+        finally:  # what the guard ended has taken too long
             took = self.clock() - start
             self.spent += took
             self.waited += self.wall_clock() - begun

@@ -3,6 +3,7 @@
 import functools
 from dataclasses import dataclass
 
+from slamlab.exercises.time_limit import capture_output, time_limit
 from slamlab.geometry import compose, transform
 from slamlab.layers import Points, Poses, Segments
 from slamlab.project.drive_errors import LENGTHS, aligned
@@ -66,7 +67,7 @@ def practise(make, families=("plain",), worlds=1, seed=1):
     Parameters
     ----------
     make : callable that makes the estimator, its class
-    families : sequence of str, of :data:`PUBLIC`
+    families : sequence of str, of :data:`PUBLIC`, or one of them
     worlds : int, of each family
     seed : int, another one draws other worlds
 
@@ -74,11 +75,14 @@ def practise(make, families=("plain",), worlds=1, seed=1):
     -------
     list of Trial
     """
-    budget, found = Budget(), []
-    for family in families:
-        for arena in practice_arenas(family, worlds, seed):
-            driven = drive(make, arena.readings, budget)
-            found.append(Trial(arena, driven, arena.judge(driven)))
+    budget, found = Budget(guard=functools.partial(time_limit, cpu=True)), []
+    with capture_output() as printed:
+        for family in [families] if isinstance(families, str) else families:
+            for arena in practice_arenas(family, worlds, seed):
+                driven = drive(make, arena.readings, budget)
+                found.append(Trial(arena, driven, arena.judge(driven)))
+    if printed.text:
+        print(f"your code printed:\n{printed.text}\n")
     return found
 
 
@@ -94,14 +98,17 @@ def table(trials):
     str
     """
     over = "".join(f"{f'{length:g} m':>8}" for length in LENGTHS)
-    lines = [f"{'world':<12}{'points':>7}   error over{over}{'map':>7}{'NEES':>8}{'CPU':>8}"]
+    head = f"{'world':<12}{'points':>7}   error [m] over{over}{'map':>7}{'NEES':>10}{'CPU':>9}"
+    lines = [head]
     for trial in trials:
         m = trial.result.measures
-        errors = "".join(f"{error:8.2f}" for error in m.errors)
-        nees = "none" if m.nees != m.nees else f"{m.nees:.3g}"
+        errors = "".join(f"{error:8.3f}" for error in m.errors)
+        nees = "none" if m.nees != m.nees else f"{m.nees:.1f}"
         lines.append(
-            f"{trial.result.family:<12}{trial.result.points:7.0f}{'':13}{errors}{m.map:7.2f}"
-            f"{nees:>8}{trial.drive.seconds:6.1f} s"
+            f"{trial.result.family:<12}{trial.result.points:7.0f}{'':17}{errors}{m.map:7.2f}"
+            f"{nees:>10}{trial.drive.seconds:7.1f} s"
         )
         lines += [f"    {mistake}" for mistake in trial.result.mistakes]
+        if not len(trial.drive.points) and not trial.result.mistakes:
+            lines.append("    map() gives no points: its fifth of the score is lost")
     return "\n".join(lines)

@@ -11,9 +11,9 @@ import warnings
 from collections import Counter
 
 from course.programs import namespace, programs
-from slamlab.checks.time_limit import TimeLimitExceeded, capture_output, time_limit
 from slamlab.exercises.families import FAMILIES
 from slamlab.exercises.run_task import run_and_tell
+from slamlab.exercises.time_limit import TimeLimitExceeded, capture_output, time_limit
 from tests.answers import IDS, answers
 
 

@@ -240,6 +240,7 @@ FAR = (("met", 1.0), ("distance", 2.0))
 def test_a_whole_number_is_told_in_all_its_digits():
     assert case_text.format_numbers("seed", np.array(795512345.0)) == "seed = 795512345"
     assert case_text.format_numbers("x", np.array([0.12345, 1e-20, 3.0])) == "x = [0.1235, 0, 3]"
+    assert case_text.format_numbers("r", np.array([np.nan, 2.5, np.inf])) == "r = [nan, 2.5, inf]"
 
 
 def test_of_an_exception_on_a_probe_the_probe_is_shown():

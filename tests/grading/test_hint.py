@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from slamlab.checks import check, hint, ladder
-from slamlab.checks.time_limit import TimeLimitExceeded
 from slamlab.exercises.law import equals
+from slamlab.exercises.time_limit import TimeLimitExceeded
 from tests.grading import fake
 from tests.grading.test_cases import SETS, TURN, turn, want
 from tests.grading.test_judge import judged

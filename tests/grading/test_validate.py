@@ -1,6 +1,7 @@
 """A student's notebook says of itself, as saved, what the grader will say of it."""
 
 import os
+from datetime import datetime
 
 import pytest
 
@@ -81,6 +82,25 @@ def test_where_no_program_tells_the_file_it_is_known_by_the_cells_that_ran(
     text = said(capsys, In=["", fake.SOLUTION, CELL])
     assert text.startswith("99 fake.ipynb as saved at ")
     assert "save it" in said(capsys, In=["", "import math"])
+
+
+def test_of_all_that_was_run_just_what_differs_from_the_file_is_named(file, capsys):
+    two = "def f():\n    return 1\n\nclass Mine:\n    step = f"
+    trial = "@attempt\ndef _():\n    print({})"
+    sources = [two, trial.format(1), trial.format(2), fake.SOLUTION, CELL]
+    file.write_text(notebook(*sources), "utf-8")
+    again = ["", two + "  # as before", trial.format(1), trial.format(2), trial.format(1)]
+    assert "not saved" not in said(capsys, In=[*again, fake.SOLUTION, CELL])
+    changed = two.replace("step = f", "step = None")
+    told = [line for line in said(capsys, In=[*again, changed]).splitlines() if "not saved" in line]
+    assert [line.split()[2] for line in told] == ["Mine"]
+
+
+def test_a_file_that_was_never_saved_has_no_time(file, capsys):
+    os.utime(file, (0, datetime(1980, 1, 1, 12).timestamp()))
+    assert "99 fake.ipynb as it was handed out, in a fresh process" in said(capsys)
+    os.utime(file, (0, datetime(2024, 5, 17, 9, 30).timestamp()))
+    assert "as saved on 2024-05-17 at 09:30" in said(capsys)
 
 
 def test_a_function_that_was_run_in_another_form_than_the_saved_one_is_named(file, capsys):

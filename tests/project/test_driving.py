@@ -51,7 +51,7 @@ def pose_of(value):
     [
         (estimator(step=after(5, divides_by_zero)), "step failed with ZeroDivisionError"),
         (estimator(step=after(5, pose_of(np.zeros(2)))), r"pose has shape \(2,\), expected \(3,\)"),
-        (estimator(step=after(5, pose_of(None))), "pose returned None"),
+        (estimator(step=after(5, pose_of(None))), "pose is None after step"),
         (estimator(step=after(5, pose_of("lost"))), "pose returned str"),
         (estimator(step=after(5, pose_of(np.zeros(3) * 1j))), "complex"),
         (

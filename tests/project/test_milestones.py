@@ -86,6 +86,32 @@ def test_another_good_estimator_passes(task):
 
 
 @pytest.mark.parametrize("seed", SEEDS)
+def test_who_is_sure_of_what_the_wheels_tell_has_not_attempted_it(seed):
+    class OfWheels(Template):
+        count = 0
+
+        def step(self, reading):
+            super().step(reading)
+            self.count += 1
+            self.covariance = np.diag([0.05, 0.05, 0.02]) ** 2 * self.count**2 + 1e-6 * np.eye(3)
+
+    found = verdict(SURE, OfWheels, seed)
+    assert (found.points, found.kind) == (0, "not attempted")
+    assert SURE.needs == (CORRIDOR.id,)
+
+
+def test_the_trajectory_is_judged_before_a_map_that_hangs_on_it():
+    class Nowhere(Solution):
+        def trajectory(self):
+            return np.full_like(super().trajectory(), np.nan)
+
+        def map(self):
+            return np.full((9, 2), np.nan)
+
+    assert "map" not in verdict(CORRIDOR, Nowhere).problem
+
+
+@pytest.mark.parametrize("seed", SEEDS)
 def test_who_closes_no_loop_survives_the_corridor_only(seed):
     assert verdict(CORRIDOR, WithoutLoops, seed).full
     found = verdict(LOOP, WithoutLoops, seed)

@@ -189,6 +189,12 @@ def test_the_browsers_driver_stays_once_it_was_asked_for(lab):
     assert lab.calls == []
 
 
+def test_the_students_pack_has_no_driver_and_says_so_before_anything_is_made(lab):
+    (lab.folder / lab.module.LECTURE_LOCK).unlink()
+    assert "--lecture is for the whole project or the lecturers' pack" in message(lab, "--lecture")
+    assert lab.calls == []
+
+
 def test_a_lecturer_is_told_whether_there_is_a_browser(tmp_path, monkeypatch, capsys):
     lab = Lab(tmp_path, monkeypatch)
     monkeypatch.undo()

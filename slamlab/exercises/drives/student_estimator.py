@@ -10,6 +10,7 @@ from slamlab.exercises.drives import StudentError, describe, numbers, shaped
 
 MAX_MAP_POINTS = 50_000
 FAR = 1e6  # farther away there is no building: such a number counts as not finite [m, rad]
+NO_POSE = "pose is None after step(reading): it has to be [x, y, theta], from the first reading on"
 HALF_OF_P = "covariance is not symmetric: is a term of P missing on one side?"
 
 
@@ -52,7 +53,10 @@ class StudentEstimator:
         pose (3,), with NaN where it is not finite, and covariance (3, 3), NaN where none is claimed
         """
         _called(lambda: self._theirs.step(reading), "step")
-        pose = _near(_called(lambda: self._theirs.pose, "pose"), "pose", (3,))
+        pose = _called(lambda: self._theirs.pose, "pose")
+        if pose is None:
+            raise StudentError("malformed", NO_POSE)
+        pose = _near(_called(pose, "pose") if callable(pose) else pose, "pose", (3,))
         claimed = _called(lambda: getattr(self._theirs, "covariance", None), "covariance")
         if callable(claimed):
             claimed = _called(claimed, "covariance")

@@ -7,8 +7,8 @@ from slamlab.exercises.law import Diagnosis, Law
 from slamlab.exercises.task import Task
 from slamlab.exercises.tasks.ex16 import short_drives
 
-# over 150 seeds the solution is off by 0.04 m and 0.06 m at most; without loops by 0.34 m in the
-# middle, and by less than 0.1 m with one seed in twenty
+# over 150 seeds the solution is off by 0.03 m and 0.07 m at most; who matches with the last five
+# scans alone by 0.36 m in the middle and by 0.22 m at least, over 60 seeds
 MET, CARRIED = 0.1, 0.12  # [m]
 
 

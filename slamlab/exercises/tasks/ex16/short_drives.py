@@ -4,11 +4,12 @@ The two drives of a set follow one way. The truth is in no array: what the wheel
 much, those of the other say too little, so the mean of both is where they drove.
 """
 
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
 
-from slamlab.exercises.drives.ex16 import RANGE_MAX, RANGE_MIN, by_wheels
+from slamlab.exercises.drives.ex16 import RANGE_MAX, RANGE_MIN, SHORT_RANGE, by_wheels
 from slamlab.geometry import between, wrap
 from slamlab.simulation.range_scanners import Scanner
 from slamlab.worlds.world import World
@@ -22,6 +23,7 @@ LIDAR = Scanner(
     bearing_sigma=np.radians(0.3),
     dropouts=0.01,
 )
+SHORT_SIGHTED = replace(LIDAR, range_max=SHORT_RANGE)
 STEP = 0.5  # of way between readings [m]
 WIDTH = 2.0  # of corridors [m]
 LAST = 5  # poses at the end that are judged
@@ -57,8 +59,10 @@ def corridor(rng, steps=18, lost=()):
             return inputs
 
 
-def ring(rng, around=(5.5, 4.0), beyond=3.0, blind=6):
+def ring(rng, around=(5.5, 4.0), beyond=3.0, blind=10):
     """Two drives round a block, until the way's beginning is seen again; blind on a stretch of it.
+
+    What is seen before that stretch and what is seen after it have next to nothing in common.
 
     Parameters
     ----------
@@ -88,7 +92,7 @@ def ring(rng, around=(5.5, 4.0), beyond=3.0, blind=6):
     while True:
         errors = WHEELS * [1, 1, 0.4] * rng.standard_normal(truth.shape)
         errors[lost, 2] = turned / blind  # there it turns by too much, or by too little
-        inputs = _measured(rng, world, truth, errors, lost)
+        inputs = _measured(rng, world, truth, errors, lost, SHORT_SIGHTED)
         if off_at_the_end(inputs, [by_wheels(u) for u in inputs["odometry"]]).min() > BAD:
             return inputs
 
@@ -124,11 +128,11 @@ def offs(inputs, trajectories):
     return np.hypot(*np.moveaxis((seen - route(inputs))[..., :2], -1, 0))
 
 
-def _measured(rng, world, truth, errors, lost):
+def _measured(rng, world, truth, errors, lost, lidar=LIDAR):
     steps = between(truth[:-1], truth[1:])
     odometry = np.zeros((2, len(truth), 3))
     odometry[:, 1:] = steps + errors[1:], steps - errors[1:]
-    ranges = np.array([[LIDAR.scan(world, pose, rng).ranges for pose in truth] for _ in range(2)])
+    ranges = np.array([[lidar.scan(world, pose, rng).ranges for pose in truth] for _ in range(2)])
     ranges[:, list(lost)] = np.nan
     return {"odometry": odometry, "ranges": ranges}
 

@@ -68,6 +68,7 @@ SURE = Task(
     drive=DRIVES["16-sure"],
     inputs=lambda rng: short_drives.corridor(rng, lost=BLIND),
     shapes=_shapes,
+    needs=("16-corridor",),  # true of the wheels alone is not what is asked
     laws=(
         Law(
             "grows",
