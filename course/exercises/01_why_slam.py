@@ -102,18 +102,20 @@ WALLS = Segments("walls", worlds.corridor().outline())
 # %%
 ask(
     "ex01-lap",
-    "The odometry reports every length rightly, and 3° too much at each of the four corners. **After "
+    "The odometry reports every length correctly, and 3° too much at each of the four corners. "
+    "**After "
     "the lap of 42 m, how far from its start does the robot believe itself to be?**",
     right=1.4,
     tolerance=0.3,
     unit="m",
     reason="the heading ends 12° off, but the errors come one by one, and a lap turns back to where it began.",
     wrong={
-        8.7: "so it would be if the heading were 12° off on all 42 m, straight ahead. But the errors come one "
-        "by one, and the way turns back.",
-        2.2: "that is one error of 3° at the start of a straight drive of 42 m. Here are four, and the way "
-        "turns back.",
-        0: "so it is in truth. But the robot believes its odometry, and four such sides do not close.",
+        8.7: "that would be right if the heading were 12° off on all 42 m, straight ahead. But the "
+        "errors come one by one, and the way turns back.",
+        2.2: "that is what one error of 3° does at the start of a straight drive of 42 m. Here "
+        "there are four, and the way turns back.",
+        0: "that is where it really is. But the robot believes its odometry, and four such sides "
+        "do not close.",
     },
 )
 
@@ -415,7 +417,7 @@ def _():
 # - besides, each turn errs at random, with a standard deviation of 0.01 rad (0.6°);
 # - the length of each step errs at random, with a standard deviation of 1.5 %.
 #
-# Return the best track of the whole drive that you can. Any method goes. These questions may lead on:
+# Return the best track of the whole drive that you can. Any method goes. These questions may help:
 #
 # - Where is the robot whenever it is docked? Is it enough to start afresh from there?
 # - The lap that the wheels report does not close. By how much does it miss its start in place, and by
@@ -424,14 +426,14 @@ def _():
 # - What do the laps of one drive have in common, and what does this say about the way after the last
 #   lap, which no dock corrects?
 #
-# Only places are scored: how far all poses of all tracks are off (the root of the mean square, rms).
-# Sixteen robots drive one route. The first step of the ladder asks for less than 2.2 m, the second for
-# less than 0.7 m and the third for less than 0.165 m. Dead reckoning is off by about 4 m.
+# Only places are scored: how far all poses of all tracks are off (the root of the mean square,
+# rms). Sixteen robots drive one route. Points come in three steps: for less than 2.2 m, for less
+# than 0.7 m and for less than 0.165 m. Dead reckoning is off by about 4 m.
 #
-# There is at least one lap. Each lap is a round trip to the left or to the right in steps of about half
-# a metre, and all its turns together, including the one in the dock, are one full turn. A house has
-# four corners, but no corner need be right and no wall quite straight. The robot does not slip
-# sideways. There may be any number of laps, and perhaps nothing follows the last one.
+# There is at least one lap. Each lap is a round trip to the left or to the right in steps of about
+# half a metre, and all its turns together, including the one in the dock, are one full turn. A
+# house has four corners, but no corner need be a right angle and no wall quite straight. The robot
+# does not slip sideways. There may be any number of laps, and perhaps nothing follows the last one.
 
 
 # %% name="home"

@@ -76,13 +76,13 @@ views.show(
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="04-streak"
 # The streak lies **across** the way: $\sigma$ is {= sigmas[1]:.2f =} m to the side and
-# {= sigmas[0]:.2f =} m ahead. An error of the heading is levered by the distance.
+# {= sigmas[0]:.2f =} m ahead. The distance works like a lever on an error of the heading.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### A tangent
 #
-# Call the motion $f$. It is no matrix, but our errors are small, and seen from near a smooth function
-# looks like its tangent. With the error $\tilde x = x - \hat x$,
+# Call the motion $f$. It is not linear, but our errors are small, and seen from close up a smooth
+# function looks like its tangent. With the error $\tilde x = x - \hat x$,
 #
 # $$f(\hat x + \tilde x) \approx f(\hat x) + A\,\tilde x. \tag{04.1}$$
 #
@@ -189,8 +189,8 @@ for heading_sigma in (0.1, 0.3, 0.6):
     print(f"{heading_sigma:3} rad {share_inside(b, ends_then):8.0%} {off:13.2f} m")
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="04-bias"
-# At 0.6 rad the robots end on average {= off:.2f =} m short of where the filter believes. Nothing in
-# (04.3) tells it so, for a tangent knows nothing of the curve that it touches.
+# At 0.6 rad the robots end on average {= off:.2f =} m short of where the filter believes. Nothing
+# in (04.3) tells it so, because a tangent does not know how its curve bends.
 #
 # **A Jacobian is a promise about small errors.** An EKF must never let its heading get this unsure.
 # Samples (lesson 11) need no tangent, and in the exercise you will do better than (04.3), too.
@@ -266,8 +266,9 @@ W
 # The first column, for an error of the distance, points **along** the heading. The second, for an error
 # of the turn, changes the heading only, as the turn comes last.
 #
-# A look at the units finds many a mistake. $C$ holds the *variances* of $d$ and of $\Delta\theta$, in m²
-# and rad². $W$ carries them to the pose, so that $Q$ has m² in its upper left block and rad² in its corner.
+# A look at the units finds many mistakes. $C$ holds the *variances* of $d$ and of $\Delta\theta$,
+# in m² and rad². $W$ carries them to the pose, so that $Q$ has m² in its upper left block and rad²
+# in its corner.
 
 
 # %% slideshow={"slide_type": "subslide"}
@@ -314,9 +315,9 @@ views.explore(
 # measurement. Once more that is the Jacobian.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* Ask what atan2 has that the arctangent of the quotient has not. Then do the next
-# derivation with the body: look at a student, step to your left, and let the class say where that student
-# has gone in your view.
+# *For the lecturer:* Ask what atan2 can tell that the arctangent of the quotient cannot. Then do
+# the next derivation with the body: look at a student, step to your left, and let the class say
+# where that student has gone in your view.
 
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
@@ -342,9 +343,10 @@ H_steps.step("the root is r again: give it its name", in_r, given={r: root})
 # -\dfrac{p_x - x}{r} & -\dfrac{p_y - y}{r} & 0 \\[2ex]
 # \dfrac{p_y - y}{r^2} & -\dfrac{p_x - x}{r^2} & -1 \end{bmatrix} \tag{04.9}$$
 #
-# The roman subscript stands for the robot. The row of the range is the unit vector that points from the
-# landmark to the robot: a step that way is the whole change of the range, a turn changes nothing. In the
-# row of the bearing, the $-1$ says that whoever turns left sees the whole world turn right.
+# The roman subscript stands for the robot. The row of the range is the unit vector that points from
+# the landmark to the robot: a step in this direction changes the range by its full length, and a
+# turn does not change it. In the row of the bearing, the $-1$ says that whoever turns left sees the
+# whole world turn right.
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
@@ -456,12 +458,13 @@ for name, bearing in {"subtracted": v[1], "wrapped": wrap(v[1])}.items():
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="04-wrap"
 # Subtracted, the innovation throws the robot almost once round; wrapped, it moves the heading by
-# {= abs(np.degrees(correction[2])):.1f =}°. So every filter that works has
+# {= abs(np.degrees(correction[2])):.1f =}°. So every filter that works wraps the innovation of the
+# bearing,
 #
 # $$v_\beta = \operatorname{wrap}(z_\beta - h_\beta(\hat x, p)) \in (-\pi, \pi], \tag{04.12}$$
 #
-# though no derivation says it: slopes know nothing of the jump. And all angles are in **radians**, for
-# only then is the slope of the sine a cosine.
+# although no derivation asks for it, since a slope does not see the jump. And all angles are in
+# **radians**, because only then is the slope of the sine a cosine.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* This fault shows only when a landmark passes behind the robot; tests with everything
@@ -507,10 +510,10 @@ g = sp.Matrix([x + r * sp.cos(theta + beta), y + r * sp.sin(theta + beta)])  # t
 # goes along; turn it, and the end swings sideways, as the step did in (04.5).
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# How wrong is a sight? The range of our lidar errs by a share $k$ of itself, the bearing by the same
-# $\sigma_\beta$ at every range. A covariance holds the *squares*:
+# How wrong is a sight? As in lesson 02, the range errs by a share $c_1$ of itself, and the bearing
+# by the same $\sigma_\beta$ at every range. A covariance holds the *squares*:
 #
-# $$R = \begin{bmatrix} (k\,r)^2 & 0 \\ 0 & \sigma_\beta^2 \end{bmatrix} \tag{04.15}$$
+# $$R = \begin{bmatrix} (c_1\,r)^2 & 0 \\ 0 & \sigma_\beta^2 \end{bmatrix} \tag{04.15}$$
 
 # %% slideshow={"slide_type": "subslide"}
 ask(
@@ -612,9 +615,10 @@ print("P_ni =", E(p_n * p_i.T))
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=3
 # ## Trust nothing: three ways to the same matrix
 #
-# A derivation can be mistyped, a program can be mistyped, and differences depend on their step size. That
-# all three go wrong in the same way is hardly possible. So at one pose with nothing special about it we
-# hold three against each other: the derivation, the code of `slamlab`, and `slopes` of the model itself.
+# A derivation can be mistyped, a program can be mistyped, and differences depend on their step
+# size. It is hardly possible that all three go wrong in the same way. So, at one pose with nothing
+# special about it, we compare three matrices: the one derived, the one that the code of `slamlab`
+# computes, and the `slopes` of the model itself.
 
 # %% slideshow={"slide_type": "fragment"}
 at = {x: 1.2, y: -0.7, theta: 0.9, p_x: -1.5, p_y: 2.2, d: 1.3, dtheta: 0.4, r: 3.1, beta: 1.1}
@@ -704,9 +708,9 @@ views.explore(
 (right, _), (wrong, believed), (forgiven, _) = last(1, 3), last(-1, 3), last(0.5, 3)
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="04-sign"
-# With the wrong sign the median error is {= 100 * wrong:.1f =} cm after 20 sights, with the right $H$
-# {= 100 * right:.1f =} cm. And the filter believes in {= 100 * believed:.1f =} cm: it is sure of
-# something wrong, for no innovation enters $P$ (lesson 03).
+# With the wrong sign the median error is {= 100 * wrong:.1f =} cm after 20 sights, with the right
+# $H$ {= 100 * right:.1f =} cm. And the filter believes in {= 100 * believed:.1f =} cm: it is sure
+# of something wrong, because no innovation enters $P$ (lesson 03).
 #
 # Move the factor. At one half the error is {= 100 * forgiven:.1f =} cm, nearly as good as right: the
 # next sight mends what the last one missed. A wrong *size* may be forgiven; a wrong *sign* sends the robot the
@@ -739,9 +743,9 @@ views.explore(
 #
 # The sections below this one are optional.
 #
-# **Exercise:** [04 · Models and Jacobians](../exercises/ex04_models_and_jacobians.ipynb). You write $H$ and
-# the Jacobians of a new landmark, derive that of a camera which is in no book, and beat the tangent where it
-# fails. The models judge you, not a stored answer.
+# **Exercise:** [04 · Models and Jacobians](../exercises/ex04_models_and_jacobians.ipynb). You write
+# $H$ and the Jacobians of a new landmark, derive the Jacobian of a camera that is in no book, and
+# beat the tangent where it fails. The models judge you, not a stored answer.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Deeper: a robot that steers
@@ -766,8 +770,8 @@ f_steered = sp.Matrix([X_ahead, Y_ahead, theta + T * V / B * sp.sin(gamma)])
 )
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
-# Nothing: it is (04.5) again. Whatever drives a robot, an error of its heading swings the step that it
-# makes. Only $W$ differs, for the noise is in $V$ and $\gamma$ now:
+# Nothing: it is (04.5) again. Whatever drives a robot, an error of its heading swings the step that
+# it makes. Only $W$ differs, because the noise is now in $V$ and $\gamma$:
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 W_steered = f_steered.jacobian([V, gamma])
@@ -799,10 +803,10 @@ print(sp.simplify(H_r.subs(placed) + H_p.subs(placed) * g.jacobian(pose)))
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## In print
 #
-# Optional: what two theses and a note print of this lesson's formulas. They are good theses, read by
-# committees; every text of this size has such slips. The machine subtracts what is derived from what is
-# printed. In words we say what the difference does to a robot, since a slip that harms nobody is a
-# spelling mistake.
+# Optional: how two theses and a note print this lesson's formulas. They are good theses, and
+# committees have read them; every text of this size has such slips. The machine subtracts what is
+# derived from what is printed. We then say in words what the difference does to a robot, since a
+# slip that harms nobody is only a spelling mistake.
 
 
 # %% slideshow={"slide_type": "fragment"}
@@ -871,7 +875,7 @@ sigma_claimed = np.sqrt(0.05**2 + (3.0 * 0.1) ** 2)  # (12) with A of §4.1, 3 m
 # ### In print: noise
 
 # %% slideshow={"slide_type": "fragment"} tags=["folded", "nbval-check-output"]
-c, k, dt = sp.symbols("c k Δt", positive=True)
+c, c_1, dt = sp.symbols("c c_1 Δt", positive=True)
 C_8 = sp.diag(c * dx**2, c * dy**2, c * dt**2)
 W_6 = sp.Matrix([dt * sp.cos(theta), dt * sp.sin(theta), dtheta])
 try:
@@ -879,11 +883,11 @@ try:
 except sp.ShapeError:
     print("Smolec (8), Q: refused,", W_6.shape, "times", C_8.shape)
 meant = sp.Matrix([Dx, Dy, dtheta])
-Q_8, Q = c * meant * meant.T, W * sp.diag(k, c) * W.T
+Q_8, Q = c * meant * meant.T, W * sp.diag(c_1, c) * W.T
 print("rank of what (8) means:", Q_8.rank(), " of W C Wᵀ:", Q.rank())
 print("its variance of the heading, driving straight on:", Q_8[2, 2].subs(dtheta, 0))
 b, s = sp.symbols("b sigma_beta", positive=True)
-compare("Smolec (9), R", sp.diag(r * c, b * beta), sp.diag((k * r) ** 2, s**2))
+compare("Smolec (9), R", sp.diag(r * c, b * beta), sp.diag((c_1 * r) ** 2, s**2))
 C_step = noise.C_odometry([0.1, 0], 0.05, 0.05, turn_per_metre=0.05)
 true_sigma = np.degrees(np.sqrt(50 * C_step[1, 1]))  # 50 steps of 10 cm
 
