@@ -111,9 +111,9 @@ ask(
     reason="the heading ends 12° off, but the errors come one by one, and a lap turns back to where it began.",
     wrong={
         8.7: "that would be right if the heading were 12° off on all 42 m, straight ahead. But the "
-        "errors come one by one, and the way turns back.",
+        "errors come one by one, and the path turns back.",
         2.2: "that is what one error of 3° does at the start of a straight drive of 42 m. Here "
-        "there are four, and the way turns back.",
+        "there are four, and the path turns back.",
         0: "that is where it really is. But the robot believes its odometry, and four such sides "
         "do not close.",
     },
@@ -280,9 +280,9 @@ def _():
 
 
 # %% [markdown]
-# Most tracks stay between your two curves: 289 of the 300 robots end there, where 95 % would be 285.
-# The fan opens faster than the way grows: after twice the way the drift is nearly three times as
-# large.
+# Most tracks stay between your two curves: 289 of the 300 robots end there, where 95 % would be
+# 285. The fan opens faster than the distance grows: after twice the distance the drift is nearly
+# three times as large.
 
 # %% [markdown]
 # ## 4 · Any drive
@@ -314,7 +314,8 @@ ask(
         "there, and stays.",
         "half way round": "what counts is how far the end lies from the place of the error, and on a lap it is farthest "
         "away from the other side.",
-        "shortly before the end: nothing can make up for it": "nothing does, but only a short way is left that it can bend.",
+        "shortly before the end: nothing can make up for it": "nothing does, but only a short "
+        "stretch is left that it can bend.",
         "the same everywhere": "each error turns all that follows by the same angle. But how far the end moves by that depends "
         "on how far away it is.",
     },
@@ -395,11 +396,11 @@ def _():
 
 
 # %% [markdown] answers="ex01-harm"
-# What counts is the straight line from the error to the end, and not the way that was driven between
-# them. An error at the far side of the building is the worst. One that is made at the start turns the
-# whole lap about its beginning, and the end of the lap lies just there, so it stays where it is: **a
-# lap that closes proves little about its headings at the start, and much about those half way
-# round**.
+# What counts is the straight line from the error to the end, and not the path that was driven
+# between them. An error at the far side of the building is the worst. One that is made at the start
+# turns the whole lap about its beginning, and the end of the lap lies just there, so it stays where
+# it is: **a lap that closes proves little about its headings at the start, and much about those
+# half way round**.
 
 # %% [markdown]
 # ## 5 · Make it better: home again
@@ -408,8 +409,8 @@ def _():
 # been here before**. The simplest such thing is a dock: it holds the robot in one place, and it
 # clicks. Whenever the robot is docked, its pose is known exactly: it is the pose at the start.
 #
-# A robot drives laps of a house, to the left or to the right, and each lap ends in the dock. After the
-# last one it may drive on. Its wheels err in three ways:
+# A robot drives laps of a house, to the left or to the right, and each lap ends in the dock. After
+# the last one it may drive on. Its wheels err in three ways:
 #
 # - a worn tyre makes it report **every turn too large, or every turn too small, by one factor** of 1 %
 #   to 18 %. The factor is the same for the whole drive, but each robot has its own, and nobody knows
@@ -423,8 +424,8 @@ def _():
 # - The lap that the wheels report does not close. By how much does it miss its start in place, and by
 #   how much in heading? Which of the steps in between are to blame, and how would you share out both?
 # - By how much does a robot turn altogether in a lap? And by how much did this one say it did?
-# - What do the laps of one drive have in common, and what does this say about the way after the last
-#   lap, which no dock corrects?
+# - What do the laps of one drive have in common, and what does this say about the path after the
+#   last lap, which no dock corrects?
 #
 # Only places are scored: how far all poses of all tracks are off (the root of the mean square,
 # rms). Sixteen robots drive one route. Points come in three steps: for less than 2.2 m, for less

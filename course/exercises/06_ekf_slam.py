@@ -224,7 +224,8 @@ ask(
         "the loop closed. Now they are tied to the first ones, which are known well.",
         "those half way round": "seen from the start, they are the farthest away in either direction.",
         "those seen first, which have been out of sight the longest": "they were placed from a pose that was known, and no ellipse grows while it is out of sight.",
-        "none: when the loop closes, all become equally sure": "all become surer. But each stays as unsure as its way from the start makes it.",
+        "none: when the loop closes, all become equally sure": "all become surer. But each stays "
+        "as unsure as the path from the start to it makes it.",
     },
     right="those half way round",
 )

@@ -284,11 +284,12 @@ def _():
 # %% [markdown]
 # ## 4 · SLAM in a corridor
 #
-# In one dimension all of SLAM is a few lines. `x[0]` is the robot's position, and `x[1]`, `x[2]`, … are
-# doors. The robot drives a way `d`, whose variance is `q`, and then sees door `i` at the distance `z`
-# ahead, negative if the door lies behind. What it sees is $z = x_i - x_0 + \varepsilon$, and the
-# variance of the noise $\varepsilon$ is `r`. (In code `q` and `r` are small letters here, since they
-# are numbers: the $Q$ and $R$ of the lessons.) All is linear, so the filter is exact.
+# In one dimension all of SLAM is a few lines. `x[0]` is the robot's position, and `x[1]`, `x[2]`, …
+# are doors. The robot drives a distance `d`, whose variance is `q`, and then sees door `i` at the
+# distance `z` ahead, negative if the door lies behind. What it sees is $z = x_i - x_0 +
+# \varepsilon$, and the variance of the noise $\varepsilon$ is `r`. (In code `q` and `r` are small
+# letters here, since they are numbers: the $Q$ and $R$ of the lessons.) All is linear, so the
+# filter is exact.
 #
 # **Your task.** Write one step: drive, then see. There may be any number of doors from one on, and
 # robot and doors may share errors from the start. The robot's variance may be 0, and so may `d` and
@@ -370,19 +371,21 @@ def _():
 # that variance lies between half of `sigma` and twenty times `sigma`. What is the map, and how sure is
 # it?
 #
-# The plain way takes the mean of each door's readings and divides σ² by their number. It is bad in two
-# respects, and the check scores both: the *error* of the doors, compared with the least that is
-# possible, and *NEES*, of the ways from each door to the next, and of each door by itself.
+# The plain way takes the mean of each door's readings and divides σ² by their number. It is bad in
+# two respects, and the check scores both: the *error* of the doors, compared with the least that is
+# possible, and *NEES*, of the distances from each door to the next, and of each door by itself.
 
 # %%
 ask(
     "ex07-way",
     "Each morning is off by 1 m or so, and `sigma` is 2 cm. Two neighbouring doors were passed "
-    "together on several mornings. **How well can you know the way from the one to the other?**",
+    "together on several mornings. **How well can you know the distance from the one to the "
+    "other?**",
     {
         "to a metre or so: that is how far off the readings are": "each of them is. But the two readings of one morning are off by the same amount.",
         "to a metre divided by the root of the number of mornings": "that is what the mean of each door's readings achieves, and more is in them.",
-        "to two or three centimetres, or better": "a morning's error moves both doors alike, so the way between them does not contain it.",
+        "to two or three centimetres, or better": "a morning's error moves both doors alike, so "
+        "the distance between them does not contain it.",
     },
     right="to two or three centimetres, or better",
 )

@@ -103,8 +103,9 @@ check("16-corridor")
 # than 0.1 m. `trajectory()` is asked for at the end, and all its poses together have to be off by less
 # than 0.12 m: closing a loop tells something about the poses before it, too.
 #
-# Lesson 15 has the way: look for an old pose near the present one, match with the scans round it, and let a
-# graph share out the error. A map of the whole drive against which each scan is matched may do as well.
+# Lesson 15 shows how: look for an old pose near the present one, match with the scans round it, and
+# let a graph share out the error. A map of the whole drive against which each scan is matched may
+# do as well.
 
 # %%
 check("16-loop")

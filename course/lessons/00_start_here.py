@@ -334,7 +334,7 @@ coursework.show_progress()
 # | $n$, $m$, $N$ | how many there are; $N$ of landmarks or samples; in lessons 02 and 05 $n$ is also a direction |
 # | $d$ | distance that the odometry reports; with a subscript, such as $d_{\mathrm{abs}}$, a bound on an error |
 # | $c$, $\kappa$ | constants, named where they are used |
-# | $\tau$ | share of a way between two points |
+# | $\tau$ | share of the distance between two points |
 # | $\iota$ | angle under which a beam meets a wall |
 # | $U$ | voltage of an infrared sensor |
 # | $\Phi$ | how much contradiction a robust weight allows an edge |

@@ -396,9 +396,9 @@ views.show(fig, f"Length errors rise with slope {slow:.1f} on the axes, heading'
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=3
 # ## See the cloud
 #
-# Here is where 800 such robots end. First you see errors of heading alone. Make the way longer: the
-# cloud bends round the start, because every robot drives the same distance, wherever it heads. Then
-# set the heading error to 0 and raise the length error.
+# Here is where 800 such robots end. First you see errors of heading alone. Make the drive longer:
+# the cloud bends round the start, because every robot drives the same distance, wherever it heads.
+# Then set the heading error to 0 and raise the length error.
 
 
 # %% name="cloud" tags=["folded"]

@@ -49,8 +49,8 @@ real = a2_at_rest.stored()  # statistics of a real lidar, for part two
 #
 # Put the origin into the sensor. The beam flies in the direction $\varphi$, along the unit vector
 # $n = (\cos\varphi, \sin\varphi)^{\mathsf T}$, and after a range $r$ it is at the point $r\,n$. The
-# wall goes from $p_1$ to $p_2$, and a share $\tau$ of this way leads to $p_1 + \tau\,(p_2 - p_1)$.
-# Beam and wall meet where the two are the same point:
+# wall goes from $p_1$ to $p_2$, and a share $\tau$ of it leads to $p_1 + \tau\,(p_2 - p_1)$. Beam
+# and wall meet where the two are the same point:
 #
 # $$ r\,n = p_1 + \tau\,(p_2 - p_1). \tag{02.1} $$
 
@@ -600,7 +600,8 @@ ask(
     reason="the posts stand arctan(0.5 / 2) = 14° to either side; a wider cone hears them first.",
     wrong={
         14: "this is how far the posts stand off to one side; the cone reaches to both.",
-        26.6: "this is arctan(1 / 2): the way to a post is half the door, on either side.",
+        26.6: "this is arctan(1 / 2), but each post stands only half the door's width off to its "
+        "side.",
         53: "half of the door lies on each side: arctan(0.5 / 2), and twice that.",
         25: "this is the cone of a common sensor. Compute the angle of the posts.",
     },

@@ -50,12 +50,12 @@ ask(
     {
         "a round spot, 5 cm wide": "that is the cloud at the start; but a heading that is off takes "
         "its robot farther off with every metre.",
-        "a streak along the way": "that is what wheels do that miscount. These wheels are exact: "
+        "a streak along the path": "that is what wheels do that miscount. These wheels are exact: "
         "every robot drives 3 m.",
-        "a streak across the way": "0.1 rad of heading times 3 m is 0.3 m to the side, six times "
+        "a streak across the path": "0.1 rad of heading times 3 m is 0.3 m to the side, six times "
         "what the place was off by.",
     },
-    right="a streak across the way",
+    right="a streak across the path",
 )
 
 # %% slideshow={"slide_type": "subslide"}
@@ -63,7 +63,7 @@ x_hat, u = np.array([0, 0, 0.7]), np.array([3.0, 0.3])  # what it believes; dist
 P, exact = np.diag([0.05, 0.05, 0.1]) ** 2, np.zeros((2, 2))
 ends = small_errors.driven(x_hat, P, u, exact, np.random.default_rng(4))
 end = models.f_odometry(x_hat, u)
-way = Poses("the way, as believed", [x_hat, end])
+way = Poses("the path, as believed", [x_hat, end])
 
 # %% slideshow={"slide_type": "fragment"} answers="04-streak"
 fig, _ = views.cloud(ends, {}, "Where 1000 robots end", (8, 5), [way])
@@ -71,11 +71,12 @@ along, across = np.array([[np.cos(0.7), np.sin(0.7)], [-np.sin(0.7), np.cos(0.7)
 sigmas = [np.std(ends[:, :2] @ axis) for axis in (along, across)]
 views.show(
     fig,
-    f"End points in a streak across the way: σ is {sigmas[1]:.2f} m across it, {sigmas[0]:.2f} along.",
+    f"End points in a streak across the path: σ is {sigmas[1]:.2f} m across it, {sigmas[0]:.2f} "
+    f"along.",
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="04-streak"
-# The streak lies **across** the way: $\sigma$ is {= sigmas[1]:.2f =} m to the side and
+# The streak lies **across** the path: $\sigma$ is {= sigmas[1]:.2f =} m to the side and
 # {= sigmas[0]:.2f =} m ahead. The distance works like a lever on an error of the heading.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
@@ -110,7 +111,7 @@ A_here.round(3)
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # The first two columns say that an error of the place stays what it is. The third belongs to the
 # heading: for each radian that it is off, the end is off by {= A_here[0, 2]:.2f =} m in $x$ and by
-# {= A_here[1, 2]:.2f =} m in $y$. That is across the way, and 3 m long.
+# {= A_here[1, 2]:.2f =} m in $y$. That is across the path, and 3 m long.
 
 # %% slideshow={"slide_type": "subslide"}
 ellipse = {"A P Aᵀ, 95 %": A_here @ P @ A_here.T}
@@ -118,7 +119,7 @@ fig, _ = views.cloud(ends, ellipse, "Foretold by one matrix", (8, 5), [way], cen
 foretold = share_inside(Belief(end, A_here @ P @ A_here.T), ends)
 views.show(
     fig,
-    f"The same streak and the ellipse A P Aᵀ round the believed end; {foretold:.0%} lie inside.",
+    f"The same streak and the ellipse A P Aᵀ round the believed end; {100 * foretold:.0f} % lie inside.",
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
@@ -160,8 +161,8 @@ def drive(heading_sigma, distance):
 # %% slideshow={"slide_type": "fragment"} answers="04-bias" tags=["folded"]
 def banana(heading_sigma, distance):
     ends, b = drive(heading_sigma, distance)
-    way = Poses("the way, as believed", [x_hat, b.x])
-    title = f"{share_inside(b, ends):.0%} of the robots are inside the ellipse"
+    way = Poses("the path, as believed", [x_hat, b.x])
+    title = f"{100 * share_inside(b, ends):.0f} % of the robots are inside the ellipse"
     return views.cloud(ends, {"A P Aᵀ, 95 %": b.P}, title, (8, 5), [way], centre=b.x)[0]
 
 
@@ -170,7 +171,7 @@ views.explore(
     lambda heading_sigma, distance: (
         f"End points after {distance:.1f} m, σ of the heading {heading_sigma:.2f} rad: they bend "
         "round the start, the ellipse of the tangent is straight; "
-        f"{share_inside(*drive(heading_sigma, distance)[::-1]):.0%} are inside."
+        f"{100 * share_inside(*drive(heading_sigma, distance)[::-1]):.0f} % are inside."
     ),
     heading_sigma=(0.02, 1.5, 0.6),
     distance=(0.5, 6.0, 3.0),
@@ -186,7 +187,7 @@ print("σ of θ   inside   their average is off f(x̂) by")
 for heading_sigma in (0.1, 0.3, 0.6):
     ends_then, b = drive(heading_sigma, 3.0)
     off = np.hypot(*(ends_then.mean(axis=0) - b.x)[:2])
-    print(f"{heading_sigma:3} rad {share_inside(b, ends_then):8.0%} {off:13.2f} m")
+    print(f"{heading_sigma:3} rad {100 * share_inside(b, ends_then):6.0f} % {off:13.2f} m")
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="04-bias"
 # At 0.6 rad the robots end on average {= off:.2f =} m short of where the filter believes. Nothing
@@ -238,7 +239,7 @@ A_steps.step("with the step's own Δx and Δy", by_hand, given={dx: f[0] - x, dy
 # $$A = \begin{bmatrix} 1 & 0 & -\Delta y \\ 0 & 1 & \Delta x \\ 0 & 0 & 1 \end{bmatrix} \tag{04.5}$$
 #
 # Here $(\Delta x, \Delta y)$ is the step that the robot made in the world, and $(-\Delta y, \Delta x)$
-# is that step turned by 90°: the streak across the way. You can see it without calculus. If the
+# is that step turned by 90°: the streak across the path. You can see it without calculus. If the
 # heading is off, the whole step swings round its start, and its end moves at right angles to it.
 #
 # **Try** a robot that turns *before* it drives: write $\theta + \Delta\theta$ in the cosine and the
@@ -279,7 +280,8 @@ def wheels(distance_error, heading_sigma):
     trusted = A_here @ P @ A_here.T
     claims = {"A P Aᵀ + Q": trusted + noise.Q(jacobians.W_odometry(x_hat, u), C)}
     claims |= {"A P Aᵀ, wheels trusted": trusted}
-    title = f"{share_inside(Belief(end, claims['A P Aᵀ + Q']), ends):.0%} inside the solid ellipse"
+    inside = share_inside(Belief(end, claims["A P Aᵀ + Q"]), ends)
+    title = f"{100 * inside:.0f} % inside the solid ellipse"
     return views.cloud(ends, claims, title, (8, 5), [way], centre=end)[0]
 
 
@@ -287,8 +289,9 @@ def wheels(distance_error, heading_sigma):
 views.explore(
     wheels,
     lambda distance_error, heading_sigma: (
-        f"End points with wheels off by {distance_error:.0%} of the way and a heading off by "
-        f"{heading_sigma:.2f} rad. The first widens the cloud along the way, the second across it; "
+        f"End points with wheels off by {100 * distance_error:.0f} % of the path and a heading off by "
+        f"{heading_sigma:.2f} rad. The first widens the cloud along the path, the second across "
+        f"it; "
         "the solid ellipse follows both, the dashed one only the second."
     ),
     distance_error=(0.0, 0.2, 0.1),
@@ -297,7 +300,7 @@ views.explore(
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # With wheels that err by 10 % of the distance, the streak has become nearly round. $A$ widens it across the
-# way, $W$ along it: two errors at right angles. A filter that trusts its wheels believes in the dashed
+# path, $W$ along it: two errors at right angles. A filter that trusts its wheels believes in the dashed
 # ellipse. Set either slider to zero to see the other error alone.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=7
@@ -540,7 +543,9 @@ def first_sight(landmark_range, heading_sigma):
     J_r, J_z = jacobians.J_xr(x_hat, z), jacobians.J_z(x_hat, z)
     P_nn, p = small_errors.new_landmark(P, J_r, J_z, R), models.g(x_hat, z)
     line = Poses("the line of sight", [x_hat, [*p, 1.2]])
-    title = f"{np.mean(nees(marks - p, P_nn) < 5.99):.0%} of the places are inside the ellipse"
+    title = (
+        f"{100 * np.mean(nees(marks - p, P_nn) < 5.99):.0f} % of the places are inside the ellipse"
+    )
     return views.cloud(marks, {"P_nn of (04.17), 95 %": P_nn}, title, (8, 5), [line], centre=p)[0]
 
 

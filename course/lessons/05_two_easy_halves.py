@@ -63,8 +63,8 @@ gap = np.hypot(*(wheels - run.truth.poses)[-1, :2])
 views.show(fig, f"The true lap closes; the wheels' lap ends {gap:.1f} m beside it.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# The true lap closes. By the wheels alone it ends {= gap:.1f =} m from where the robot really is, since
-# each small error of a turn bends the whole way after it.
+# The true lap closes. By the wheels alone it ends {= gap:.1f =} m from where the robot really is,
+# since each small error of a turn bends the whole path after it.
 #
 # The landmarks can help. But a sight $z$, a range and a bearing, only says where the landmark is *as
 # seen from the robot*. It ties two unknown things together.

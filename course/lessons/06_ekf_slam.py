@@ -816,8 +816,8 @@ ask(
     {
         "nothing: in the end all three steps are done": "the sight was made *after* the drive; it is placed from "
         "a pose that the robot had left.",
-        "the errors average out over many sights": "the displacement is the same for each landmark, a step "
-        "backwards along the way: it is no noise.",
+        "the errors average out over many sights": "the displacement is the same for each "
+        "landmark, a step backwards along the path, and so it is no noise.",
         "landmarks end up a step behind, and $P$ does not know it": "the filter then bends the "
         "robot to a map "
         "that it believes too much.",

@@ -532,7 +532,7 @@ views.show(
 # ## The map's certainty never falls
 #
 # While the robot drives blind, it becomes less certain. What do the landmarks do meanwhile, and the
-# ways between them? The vector from landmark $i$ to landmark $j$ has the covariance
+# vectors between them? The vector from landmark $i$ to landmark $j$ has the covariance
 #
 # $$\Delta p_{ij} = p_j - p_i, \qquad \Delta P_{ij} = P_{ii} - P_{ij} - P_{ji} + P_{jj}. \tag{07.10}$$
 
@@ -644,7 +644,7 @@ ask(
     unit="cm",
     reason="no sighting ever tells where the start was, and every landmark depends on it.",
     wrong={
-        0: "the ways between the landmarks become exact; but where is all of it?",
+        0: "the vectors between the landmarks become exact; but where is the whole?",
         10: "averaging helps against noise that is drawn anew; the start's error is drawn once.",
         28: "that is both axes together; the question is about each.",
     },

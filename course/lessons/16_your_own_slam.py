@@ -121,8 +121,9 @@ views.explore(
 # $$e_{ij} = \ominus\left(\ominus x^*_i \oplus x^*_j\right) \oplus \left(\ominus x_i \oplus x_j\right).
 # \tag{16.1}$$
 #
-# The two poses are a certain way apart, such as 5 m, and we take the mean length of $e_{ij}$'s position
-# over all such pairs. One wrong turn spoils only the pairs that have it between them.
+# The two poses are a certain distance apart, measured along the drive, such as 5 m, and we take the
+# mean length of $e_{ij}$'s position over all such pairs. One wrong turn spoils only the pairs that
+# have it between them.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=6
 # ## Short, middle, long
