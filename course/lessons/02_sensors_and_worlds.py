@@ -274,7 +274,7 @@ views.explore(
 # the room itself and, through its door, strips of what lies behind. The door, at $(0, 2)$, shows
 # {= in_sight(0.1, 2.0)[1]:.0f =} %. We tried a place every half a metre, and none shows more than
 # {= max(in_sight(x, y)[1] for x in np.arange(-1.9, 8, 0.5) for y in np.arange(-1.9, 7.5, 0.5)):.0f =}
-# %. This is what a map is for, and why it needs poses.
+# %. A map puts together what no single place shows, and for this it needs poses.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=4
 # ## Sensor, robot, world

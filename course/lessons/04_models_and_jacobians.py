@@ -717,9 +717,9 @@ views.explore(
 # $H$ {= 100 * right:.1f =} cm. And the filter believes in {= 100 * believed:.1f =} cm: it is sure
 # of something wrong, because no innovation enters $P$ (lesson 03).
 #
-# Move the factor. At one half the error is {= 100 * forgiven:.1f =} cm, nearly as good as right: the
-# next sight mends what the last one missed. A wrong *size* may be forgiven; a wrong *sign* sends the robot the
-# wrong way. Neither can be read off the believed $\sigma$. Only a test finds it.
+# Move the factor. At one half the error is {= 100 * forgiven:.1f =} cm, nearly as good as right:
+# the next sight mends what the last one missed. A wrong *size* may be forgiven; a wrong *sign*
+# sends the robot the wrong way. Neither shows in the believed $\sigma$. Only a test finds them.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Literature

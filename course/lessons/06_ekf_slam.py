@@ -950,8 +950,9 @@ print("left:", story.ids, " P of robot and b unchanged:", np.array_equal(story.P
 # You can build EKF-SLAM from three steps, name every block of its covariance and who made it, watch a loop close, and
 # tell by NEES when the filter is too sure of itself.
 #
-# **What comes next:** [lesson 07](07_correlations.ipynb) looks at the white and the coloured blocks: why correlations
-# cannot be dropped, what they cost, and ways round that cost.
+# **What comes next:** [lesson 07](07_correlations.ipynb) looks at the white and the coloured
+# blocks: why correlations cannot be dropped, what they cost, and how some of that cost can be
+# avoided.
 #
 # The sections below this one are optional.
 #

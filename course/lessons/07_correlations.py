@@ -2,7 +2,8 @@
 # # 07 · Correlations
 #
 # **You will be able to** say block by block where the correlations of a map come from, what breaks
-# when they are dropped, what they cost, and which ways round that cost give nothing away.
+# when they are dropped, what they cost, and how some of that cost can be avoided without losing
+# anything.
 #
 # **90 minutes**, in two parts of 45: where correlations come from, and what they are good for.
 # **Before:** lesson [06](06_ekf_slam.ipynb), which builds the filter, and NEES from lesson
@@ -599,8 +600,8 @@ views.show(
 # $$P_{\mathrm{map}} \leftarrow P_{\mathrm{map}} - B B^{\mathsf T}, \qquad B = K_{\mathrm{map}}\,
 # S^{1/2}. \tag{07.11}$$
 #
-# No variance grows by this, in no direction; nor does any determinant (the proof stands under
-# *Deeper*). We check at every step, for every landmark and up to 120 pairs:
+# No variance grows by this, in any direction, and neither does any determinant (the proof stands
+# under *Deeper*). We check at every step, for every landmark and up to 120 pairs:
 
 # %% slideshow={"slide_type": "fragment"} tags=["folded", "nbval-check-output"] answers="07-grow"
 largest, det = (
@@ -873,7 +874,7 @@ for name, covariance in (("landmarks", P_end), ("vectors", D @ P_end @ D.T)):
 # They share less, but not nothing: without a compass all vectors share the turn of the map.
 # Distances and angles do not even share that. Dropping what is left does less harm than dropping
 # $P_{ij}$. But it *is* dropped, and the vectors round a closed loop no longer add up to zero unless
-# one sees to it.
+# the program makes them do so.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## What even the full filter gets wrong
