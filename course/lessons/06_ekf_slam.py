@@ -128,10 +128,10 @@ sigma_seen = innovations(P_doubt)[:, 1].std()
 sigma_apart, sigma_together = (np.sqrt(S[1, 1]) for S in expected(P_doubt))
 
 # %% [markdown] slideshow={"slide_type": "subslide"} answers="06-second"
-# The bearings of the 1000 robots scatter by {= sigma_seen:.3f =} rad. The filter that keeps
-# $P_{\mathrm ri}$ expects {= sigma_together:.3f =} rad, the other one {= sigma_apart:.3f =}. Move
-# the sliders: however wrong the robots are, their innovations stay as small, because each landmark
-# is misplaced *with* its robot.
+# The innovations of the 1000 robots' bearings scatter by {= sigma_seen:.3f =} rad. The filter that
+# keeps $P_{\mathrm ri}$ expects {= sigma_together:.3f =} rad, the other one {= sigma_apart:.3f =}.
+# Move the sliders: however wrong the robots are, their innovations stay as small, because each
+# landmark is misplaced *with* its robot.
 #
 # The filter without $P_{\mathrm ri}$ gets an innovation far smaller than it expected, and concludes
 # that its pose must be good. It has learned nothing of the kind. That is what became of lesson 05's
@@ -235,8 +235,8 @@ print(f"100 landmarks: a drive changes {changed} of the {before.size} numbers in
 #
 # $$p_n = g(x_{\mathrm r}, z). \tag{06.4}$$
 #
-# Two errors go into it: that of the pose, through the Jacobian $J_{\mathrm r}$ of $g$, and that of the
-# sight, through $J_z$. Nobody else's estimate changes.
+# Two errors go into it: that of the pose, through the Jacobian $J_{\mathrm r}$ of $g$, and that of
+# the sight, through $J_z$. No other estimate changes.
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
@@ -349,9 +349,10 @@ views.show(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# Landmark $a$ was placed from an exact pose. The only error in it is the sensor's, so it is related to nobody.
-# Driving colours the robot's own block, because its heading and its place err together. Then $b$ is born as a
-# relative of the robot, and still a stranger to $a$: the robot has nothing of $a$'s error to hand on.
+# Landmark $a$ was placed from an exact pose. The only error in it is the sensor's, which it shares
+# with nothing else. Driving colours the robot's own block, because its heading and its place err
+# together. Then $b$ is born as a relative of the robot, and still a stranger to $a$: the robot has
+# nothing of $a$'s error to hand on.
 #
 # What has to happen before the last white blocks get a colour?
 
