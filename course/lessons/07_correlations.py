@@ -410,8 +410,8 @@ print(f"of all the map's variance, {shifts:.0%} is displacement and {turn:.0%} a
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="07-sign"
 # Just before the loop closes, {= 100 * (shifts + turn):.0f =} % of the map's variance is that of a
-# stiff plate that is pushed about on a table. Only the rest bends the map. So the *shape* of the map
-# is known better than its place. We shall meet this twice again.
+# stiff plate that is pushed about on a table. Only the rest bends the map. So the *shape* of the
+# map is known better than its place. We shall meet this again, twice.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* This is a good place for the break. A sheet of paper on the desk, pushed and
@@ -708,12 +708,12 @@ for name, mak in (("compass", compass_map), ("no compass", turned_map)):
 # Without a compass one more thing stays unknown: **how the map is turned against the start**. The
 # heading at the start is exact here, because we said so. But the robot had turned, with noise,
 # before it placed most of its landmarks, and no later sighting can tell that turn from a turn of
-# the whole map. The shape is exact in the end all the same: hardly anything is left but
-# displacement and turn.
+# the whole map. The shape becomes well known all the same: hardly anything is left but displacement
+# and turn.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* The classic proof is about a linear system, in which headings are known. Ask what
-# of a map is exact in the end without a compass: distances and angles.
+# *For the lecturer:* The classic proof is about a linear system, in which headings are known. Ask
+# which parts of a map can become exact without a compass: distances and angles.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=4
 # ## The price
@@ -872,9 +872,9 @@ for name, covariance in (("landmarks", P_end), ("vectors", D @ P_end @ D.T)):
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # They share less, but not nothing: without a compass all vectors share the turn of the map.
-# Distances and angles do not even share that. Dropping what is left does less harm than dropping
-# $P_{ij}$. But it *is* dropped, and the vectors round a closed loop no longer add up to zero unless
-# the program makes them do so.
+# Distances and angles do not even share that. Dropping what is left should do less harm than
+# dropping $P_{ij}$, because it is less. But it *is* dropped, and the vectors round a closed loop no
+# longer add up to zero unless the program makes them do so.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## What even the full filter gets wrong
