@@ -244,10 +244,10 @@ views.show(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="05-largest"
-# Without a map the ellipses swell to {= largest[0]:.2f =} m on the far side of the lap. (On the way home
-# they shrink again: an error of the heading at the start turns the whole lap about its start.) With
-# the map the largest after the start measures {= largest[1]:.2f =} m, in a stretch where no landmark is
-# near, and the last one {= spread(P_poses)[-1]:.2f =} m.
+# Without a map the ellipses swell to {= largest[0]:.2f =} m on the far side of the lap. (On the way
+# home they shrink again: an error of the heading at the start turns the whole lap about its start.)
+# With the map the largest ellipse after the start measures {= largest[1]:.2f =} m, in a stretch
+# where no landmark is near, and the last one {= spread(P_poses)[-1]:.2f =} m.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=3
 # ## How much of a map is needed?
@@ -590,7 +590,8 @@ fig, ax = views.growth(
 views.show(fig, f"The squared errors fall as one over k, over {looks[-1]} sights, on the line.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# The errors of 100 robots follow a line that falls as $1/k$. From one place, $k$ sights leave
+# The mean squared errors of 100 robots follow a line that falls as $1/k$. From one place, $k$
+# sights leave
 #
 # $$P_{ii} \approx \tfrac{1}{k}\, J_z R J_z^{\mathsf T}, \tag{05.10}$$
 #
@@ -735,8 +736,8 @@ for name, errors in rms.items():
 # ### Why care is not enough
 #
 # Compare (05.11) with (05.2): the two terms with $P_{\mathrm ri}$, the covariance *between* robot
-# and landmark, are gone. It is not small. The robot placed the landmark from its own pose, so the
-# error that the pose had then is in the landmark as well.
+# and landmark, are gone. This covariance is not small. The robot placed the landmark from its own
+# pose, so the error that the pose had then is in the landmark as well.
 #
 # When the robot sees the landmark again, the shared error cancels and the innovation is small. One filter
 # expects that, knowing $P_{\mathrm ri}$, and learns little. Two filters take it each time for a
