@@ -795,10 +795,10 @@ print(f"mean NEES: Jacobians at the estimate {nees_with('standard'):.1f}, ", end
 print(f"at the truth {nees_with('ideal'):.1f}")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# It does not help here: over errors as large as this no straight line will do, wherever it touches
-# the curve. What helps is to keep the errors small. Seeing farther does so in two ways: more
-# landmarks hold the heading, and the loop closes earlier. Lesson 07 shows a case in which the place
-# of the Jacobians does matter.
+# It does not help here; it makes things worse. Over errors as large as this no straight line will
+# do, wherever it touches the curve. What helps is to keep the errors small. Seeing farther does so
+# in two ways: more landmarks hold the heading, and the loop closes earlier. Lesson 07 shows a case
+# in which the place of the Jacobians does matter.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* Neighbouring steps of a run share their errors, so an excursion beyond the
