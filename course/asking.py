@@ -7,6 +7,8 @@ What is asked is kept in ``slamlab/data/questions/NN.json``, of an exercise in `
 import ast
 import json
 
+from slamlab.checks.questions import wording
+
 POSITIONAL = ("id", "text", "choices", "right")
 
 
@@ -98,6 +100,28 @@ def text(source):
         if "wrong" in told:
             told["wrong"] = list(told["wrong"].items())
     return json.dumps(stored, ensure_ascii=False, indent=1) + "\n" if stored else ""
+
+
+def reword(notebook, source):
+    """Put what a source asks today into a notebook whose outputs were carried over, in place.
+
+    A question's words are no code, so that new ones do not run the notebook again.
+
+    Parameters
+    ----------
+    notebook : NotebookNode, with outputs
+    source : Source
+    """
+    code = [cell.text for cell in source.cells if cell.type == "code"]
+    words = {
+        told["id"]: wording(told["text"], told.get("choices")) for told in map(asked, code) if told
+    }
+    for cell in notebook.cells:
+        if cell.cell_type == "code" and (told := asked(cell.source)):
+            shown = next(
+                each.data for each in cell.outputs if "text/markdown" in each.get("data", {})
+            )
+            shown["text/markdown"] = shown["text/plain"] = words[told["id"]]
 
 
 def _call(code):

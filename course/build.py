@@ -39,6 +39,7 @@ def build(path, force=False, root=ROOT):
             fresh = stored and executed(stored) and same_code(notebook, stored)
             ran = force or not fresh
             notebook = _run(derived) if ran else carry_outputs(notebook, stored)
+            asking.reword(notebook, derived.source)
         text = nbformat.writes(notebook)
         name = derived.path.relative_to(root).as_posix()
         if derived.path.exists() and derived.path.read_text(encoding="utf-8") == text:

@@ -5,7 +5,7 @@ import importlib
 import re
 from itertools import pairwise
 
-from course import asking, equations, visible_code
+from course import asking, equations, values, visible_code
 from course.exercise import SolutionError, solution_regions
 from course.figure_lint import figure_problems
 from course.source import CHECK, ID, METADATA, heading, main_line
@@ -55,6 +55,7 @@ def lint(source, exercise=None):
     problems += [f"{source.at(cell)}: {text}" for cell, text in _slides(source)]
     problems += [f"{source.at(cell)}: {text}" for cell, text in _minutes(source)]
     problems += [f"{source.at(cell)}: {text}" for cell, text in _questions(source)]
+    problems += [f"{source.at(cell)}: {text}" for cell, text in _per_cent(source)]
     problems += [f"{source.at(cell)}: {text}" for cell, text in equations.problems(source)]
     problems += [f"{source.at(cell)}: {text}" for cell, text in _first_and_last_cell(source)]
     if source.kind == "lesson":
@@ -161,6 +162,14 @@ def _questions(source):
             yield cell, f"answers a question {cell.answers!r} that no cell before it asks"
         if cell.answers and cell.type == "markdown" and heading(cell.text):
             yield cell, "a heading is not folded: put it before the question"
+
+
+def _per_cent(source):
+    """Problems of prose, that of questions too: a number and its % without the space."""
+    for cell in source.cells:
+        prose = cell.type == "markdown" or asking.asks(cell.text)
+        if prose and re.search(r"\d%", values.MARK.sub("", cell.text)):  # values get their space
+            yield cell, "a space stands before %, as in 38 %"
 
 
 def _first_and_last_cell(source):

@@ -12,6 +12,7 @@ import nbformat
 
 MARK = re.compile(r"\{=\s*(.+?)\s*=\}", re.DOTALL)
 _MINUS = re.compile(r"(?<!\w)-(?=[\d.])")
+_PER_CENT = re.compile(r"(?<=\d)%")
 _ADDED = "slamlab_values"  # metadata of a computing cell
 
 
@@ -103,9 +104,14 @@ def _computing(wanted):
 
 
 def _fill(cell, values):
-    cell.source = MARK.sub(lambda found: _MINUS.sub("−", values[found[1]]), cell.source)
+    cell.source = MARK.sub(lambda found: _typeset(values[found[1]]), cell.source)
     told = cell.metadata.get("slamlab", {})
     cell.metadata["slamlab"] = nbformat.from_dict(told | {"values": values})
+
+
+def _typeset(value):
+    """A value as the text writes numbers: −3, 38 %."""
+    return _PER_CENT.sub(" %", _MINUS.sub("−", value))
 
 
 def _kept(cell):

@@ -102,18 +102,20 @@ WALLS = Segments("walls", worlds.corridor().outline())
 # %%
 ask(
     "ex01-lap",
-    "The odometry reports every length rightly, and 3° too much at each of the four corners. **After "
+    "The odometry reports every length correctly, and 3° too much at each of the four corners. "
+    "**After "
     "the lap of 42 m, how far from its start does the robot believe itself to be?**",
     right=1.4,
     tolerance=0.3,
     unit="m",
     reason="the heading ends 12° off, but the errors come one by one, and a lap turns back to where it began.",
     wrong={
-        8.7: "so it would be if the heading were 12° off on all 42 m, straight ahead. But the errors come one "
-        "by one, and the way turns back.",
-        2.2: "that is one error of 3° at the start of a straight drive of 42 m. Here are four, and the way "
-        "turns back.",
-        0: "so it is in truth. But the robot believes its odometry, and four such sides do not close.",
+        8.7: "that would be right if the heading were 12° off on all 42 m, straight ahead. But the "
+        "errors come one by one, and the path turns back.",
+        2.2: "that is what one error of 3° does at the start of a straight drive of 42 m. Here "
+        "there are four, and the path turns back.",
+        0: "that is where it really is. But the robot believes its odometry, and four such sides "
+        "do not close.",
     },
 )
 
@@ -278,9 +280,9 @@ def _():
 
 
 # %% [markdown]
-# Most tracks stay between your two curves: 289 of the 300 robots end there, where 95 % would be 285.
-# The fan opens faster than the way grows: after twice the way the drift is nearly three times as
-# large.
+# Most tracks stay between your two curves: 289 of the 300 robots end there, where 95 % would be
+# 285. The fan opens faster than the distance grows: after twice the distance the drift is nearly
+# three times as large.
 
 # %% [markdown]
 # ## 4 · Any drive
@@ -312,7 +314,8 @@ ask(
         "there, and stays.",
         "half way round": "what counts is how far the end lies from the place of the error, and on a lap it is farthest "
         "away from the other side.",
-        "shortly before the end: nothing can make up for it": "nothing does, but only a short way is left that it can bend.",
+        "shortly before the end: nothing can make up for it": "nothing does, but only a short "
+        "stretch is left that it can bend.",
         "the same everywhere": "each error turns all that follows by the same angle. But how far the end moves by that depends "
         "on how far away it is.",
     },
@@ -393,11 +396,11 @@ def _():
 
 
 # %% [markdown] answers="ex01-harm"
-# What counts is the straight line from the error to the end, and not the way that was driven between
-# them. An error at the far side of the building is the worst. One that is made at the start turns the
-# whole lap about its beginning, and the end of the lap lies just there, so it stays where it is: **a
-# lap that closes proves little about its headings at the start, and much about those half way
-# round**.
+# What counts is the straight line from the error to the end, and not the path that was driven
+# between them. An error at the far side of the building is the worst. One that is made at the start
+# turns the whole lap about its beginning, and the end of the lap lies just there, so it stays where
+# it is: **a lap that closes proves little about its headings at the start, and much about those
+# half way round**.
 
 # %% [markdown]
 # ## 5 · Make it better: home again
@@ -406,8 +409,8 @@ def _():
 # been here before**. The simplest such thing is a dock: it holds the robot in one place, and it
 # clicks. Whenever the robot is docked, its pose is known exactly: it is the pose at the start.
 #
-# A robot drives laps of a house, to the left or to the right, and each lap ends in the dock. After the
-# last one it may drive on. Its wheels err in three ways:
+# A robot drives laps of a house, to the left or to the right, and each lap ends in the dock. After
+# the last one it may drive on. Its wheels err in three ways:
 #
 # - a worn tyre makes it report **every turn too large, or every turn too small, by one factor** of 1 %
 #   to 18 %. The factor is the same for the whole drive, but each robot has its own, and nobody knows
@@ -415,23 +418,23 @@ def _():
 # - besides, each turn errs at random, with a standard deviation of 0.01 rad (0.6°);
 # - the length of each step errs at random, with a standard deviation of 1.5 %.
 #
-# Return the best track of the whole drive that you can. Any method goes. These questions may lead on:
+# Return the best track of the whole drive that you can. Any method goes. These questions may help:
 #
 # - Where is the robot whenever it is docked? Is it enough to start afresh from there?
 # - The lap that the wheels report does not close. By how much does it miss its start in place, and by
 #   how much in heading? Which of the steps in between are to blame, and how would you share out both?
 # - By how much does a robot turn altogether in a lap? And by how much did this one say it did?
-# - What do the laps of one drive have in common, and what does this say about the way after the last
-#   lap, which no dock corrects?
+# - What do the laps of one drive have in common, and what does this say about the path after the
+#   last lap, which no dock corrects?
 #
-# Only places are scored: how far all poses of all tracks are off (the root of the mean square, rms).
-# Sixteen robots drive one route. The first step of the ladder asks for less than 2.2 m, the second for
-# less than 0.7 m and the third for less than 0.165 m. Dead reckoning is off by about 4 m.
+# Only places are scored: how far all poses of all tracks are off (the root of the mean square,
+# rms). Sixteen robots drive one route. Points come in three steps: for less than 2.2 m, for less
+# than 0.7 m and for less than 0.165 m. Dead reckoning is off by about 4 m.
 #
-# There is at least one lap. Each lap is a round trip to the left or to the right in steps of about half
-# a metre, and all its turns together, including the one in the dock, are one full turn. A house has
-# four corners, but no corner need be right and no wall quite straight. The robot does not slip
-# sideways. There may be any number of laps, and perhaps nothing follows the last one.
+# There is at least one lap. Each lap is a round trip to the left or to the right in steps of about
+# half a metre, and all its turns together, including the one in the dock, are one full turn. A
+# house has four corners, but no corner need be a right angle and no wall quite straight. The robot
+# does not slip sideways. There may be any number of laps, and perhaps nothing follows the last one.
 
 
 # %% name="home"

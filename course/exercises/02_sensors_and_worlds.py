@@ -192,8 +192,8 @@ def _():
 #
 # An RPLIDAR reports **degrees**, counted **clockwise** from its front, and **millimetres**, where 0
 # means that nothing came back. Its front looks along its own x axis. It is mounted on the robot at
-# the pose `mount`, given in the robot's frame, and the robot stands at `pose` in the world. From
-# frame to frame, (02.5) leads.
+# the pose `mount`, given in the robot's frame, and the robot stands at `pose` in the world. (02.5)
+# leads from frame to frame.
 
 # %%
 ask(
@@ -202,7 +202,8 @@ ask(
     "stands at the origin and looks along +y. The sensor reports a wall at 90° and 1000 mm. **Where "
     "in the world is that wall?** (metres)",
     {
-        "at (1, −0.2)": "so it would be if the device counted counter-clockwise. It counts clockwise from its own front.",
+        "at (1, −0.2)": "that would be right if the device counted counter-clockwise. It counts "
+        "clockwise from its own front.",
         "at (−1, 0.2)": "the sensor is behind the robot's centre, and the robot looks along +y: so it is at y = −0.2.",
         "at (−1, −0.2)": "clockwise from a front that looks backwards is the robot's left, and that is −x here.",
         "at (−0.2, 1)": "that is the place in the robot's frame. The robot itself looks along +y.",
@@ -315,10 +316,10 @@ check("02-noise")
 # %% [markdown]
 # ## 5 · A busy room
 #
-# Now we turn the question round: how large is a sensor's `error`, if all that we have is its readings? A sensor
-# stands still and scans $k$ times, which makes an array of shape $(k, n)$ with a row a scan and a
-# column a beam. Each column holds repeated readings of *one* wall, at a distance that you do not
-# know.
+# Now we turn the question round: how large is a sensor's `error`, if all that we have is its
+# readings? A sensor stands still and scans $k$ times, which makes an array of shape $(k, n)$, with
+# a row for each scan and a column for each beam. Each column holds repeated readings of *one* wall,
+# at a distance that you do not know.
 #
 # In a quiet room this takes two lines: the spread of each column about its mean, as a share of that
 # mean.
@@ -355,8 +356,8 @@ ask(
     reason="one reading that is 4.5 m off outweighs twenty good ones, because each counts by its square. "
     "quiet_fit would be wrong twentyfold.",
     wrong={
-        0.05: "so say the twenty good ones. But the single bad one is ninety times as far off, and counts by "
-        "its square.",
+        0.05: "that is what the twenty good ones say. But the single bad one is ninety times as "
+        "far off, and counts by its square.",
         0.26: "that is the mean of how far the 21 readings are from 5 m. A standard deviation takes the mean of "
         "the squares.",
     },
@@ -364,7 +365,7 @@ ask(
 
 # %% [markdown]
 # **Your task.** Estimate `error` and `blocked` as well as you can, by any method. A few questions
-# may lead on:
+# may help:
 #
 # - How can a person be told from the wall, when the spread of the wall's readings is just what you are
 #   looking for? May you guess it, and do better in a second round?
@@ -374,9 +375,9 @@ ask(
 #   deserve the same weight?
 #
 # We try forty sensors. An answer is judged by the factor by which `error` is off, and by the
-# difference of `blocked`. For the first three steps of the ladder the *median* over all sensors
-# counts: a factor of 1.35, 1.17 and 1.08 (and a difference of 0.04, 0.03 and 0.03). The last step
-# wants 31 of the 40 to be within a factor of 1.16 (and 0.06).
+# difference of `blocked`. Points come in four steps. For the first three the *median* over all
+# sensors counts: a factor of 1.35, 1.17 and 1.08 (and a difference of 0.04, 0.03 and 0.03). The
+# last step asks that 31 of the 40 be within a factor of 1.16 (and 0.06).
 
 
 # %% name="busy-fit"

@@ -16,7 +16,7 @@
 # A belief is a state `x` (n,) and the covariance `P` (n, n) of its error. In tasks 1 to 3 all sizes
 # are general: there may be one state or many, and one measured number, a few, or even more than
 # there are states. $P$, $Q$ and $R$ are symmetric and positive definite. A function may not change
-# its arguments, for whoever called it still needs them.
+# its arguments, because whoever called it still needs them.
 
 # %%
 import numpy as np
@@ -26,7 +26,7 @@ from slamlab.checks import ask, attempt, check
 from slamlab.layers import Ellipses, Points
 
 # %% [markdown]
-# Two pieces of the filter are ready, for each follows from the lesson's recipe in a line. The
+# Two pieces of the filter are ready, because each follows from the lesson's recipe in a line. The
 # **prediction** is (03.8): a step moves the truth to $F x + q$, and $q$ has the covariance $Q$. The
 # **innovation** is (03.10) and (03.11): a measurement is $z = H x + \varepsilon$ of the true $x$,
 # and $\varepsilon$ has the covariance $R$; $v$ is what is new in $z$, and $S$ is the covariance of
@@ -71,7 +71,8 @@ ask(
     "measured, and the range comes out longer than expected. **What happens to the speed and to its "
     "doubt?**",
     {
-        "nothing: the speed was not measured": "so it is where P is diagonal. Here a cart that is farther is probably faster.",
+        "nothing: the speed was not measured": "that is right where P is diagonal. Here a cart "
+        "that is farther is probably faster.",
         "the speed goes up, and its doubt gets smaller": "K has a row for the speed, since its error goes with that of the position.",
         "the speed goes up, and its doubt stays": "what moves the speed also tells something about it.",
         "the speed goes up, and its doubt grows, because it was off": "a surprise moves x. It never makes P larger.",
@@ -100,7 +101,7 @@ def gain(P, H, R):
 check("03-gain")
 
 # %% [markdown]
-# Here 20 000 carts are corrected with shares of your gain, from none of it to twice of it. Where
+# Here 20 000 carts are corrected with shares of your gain, from none of it to twice as much. Where
 # must the lowest point be?
 
 
@@ -373,11 +374,11 @@ def ghost_drive(rng, steps=50):
 
 
 # %% [markdown]
-# **Your task.** Write a filter that lives with ghosts. The noise is not bell-shaped here, so the lesson's
-# promises that need one are off, and another rule may do better. Any method goes, and there are
-# many: refuse what does not fit, trust it less, weigh the two cases by how likely they are, follow
-# both, look again at what you refused. `zs` has one number in each row. `GHOSTS` and `REACH` hold
-# in all drives.
+# **Your task.** Write a filter that copes with ghosts. The noise is not bell-shaped here, so what
+# the lesson promised for bells only does not hold, and another rule may do better. Any method goes,
+# and there are many: refuse what does not fit, trust it less, weigh the two cases by how likely
+# they are, follow both, look again at what you refused. `zs` has one number in each row. `GHOSTS`
+# and `REACH` hold in all drives.
 #
 # The check lets your filter follow 40 drives of 50 steps and looks at three things: how far off it
 # is on a typical drive, compared with the lesson's filter; how far off it is compared with a filter

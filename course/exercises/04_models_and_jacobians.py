@@ -1,9 +1,9 @@
 # %% [markdown]
 # # Exercise 04 · Models and Jacobians
 #
-# **You will be able to** write the Jacobians of EKF-SLAM as functions, derive that of a sensor which
-# is in no book, say how unsure a new landmark is and with what it shares its error, and do better than
-# a tangent where the tangent fails.
+# **You will be able to** write the Jacobians of EKF-SLAM as functions, derive the Jacobian of a
+# sensor that is in no book, say how unsure a new landmark is and with what it shares its error, and
+# do better than a tangent where the tangent fails.
 #
 # **60 minutes. Before:** lesson [04 · Models and
 # Jacobians](../notebooks/04_models_and_jacobians.ipynb).
@@ -72,9 +72,9 @@ def H_robot(x, p):
 check("04-h-robot")
 
 # %% [markdown]
-# Now hold your $H_{\mathrm r}$ against the model itself: move the robot by a little, and compare what changes.
-# The two rows of each pair should be almost equal. What is left comes from the bend of $h$, and becomes smaller
-# faster than the step does.
+# Now compare your $H_{\mathrm r}$ with the model itself: move the robot by a little, and see what
+# changes. The two rows of each pair should be almost equal. The difference comes from the curvature
+# of $h$, and shrinks faster than the step does.
 
 
 # %%
@@ -97,7 +97,8 @@ def _():
 # %%
 ask(
     "ex04-lever",
-    "The heading of the robot is 0.01 rad off, and all else is exact. **How far off does it place a "
+    "The heading of the robot is 0.01 rad off, and everything else is exact. **How far off does it "
+    "place a "
     "landmark that it sees 8 m away?**",
     {
         "1 cm, as at any distance: an angle is an angle": "it is 1 cm at 1 m. The same angle reaches farther, the longer the arm.",
@@ -212,7 +213,8 @@ ask(
     "The robot turns a little to the left, and its camera sits at its centre. Two landmarks appear in "
     "the same column, one of them 1 m away, the other 10 m. **Whose column moves farther?**",
     {
-        "that of the near one": "so it would be if the camera moved. At the centre it only turns.",
+        "that of the near one": "that would be right if the camera moved. At the centre it only "
+        "turns.",
         "that of the far one": "it swings past on a longer arm, but it is also seen from that much farther away.",
         "both move by the same": "a turn about the camera moves all directions alike. A camera ahead of the centre is also carried "
         "sideways, and then the near landmark moves farther.",
@@ -274,10 +276,11 @@ def _():
 # %% [markdown]
 # ## 5 · Make it better: a drive with an unsure heading
 #
-# A robot was carried to another room. It knows its heading to 0.3 rad at best and to 0.8 rad at worst,
-# and it drives a few metres. The linearised step of the lesson says that it is now at $f(\hat x, u)$, with
-# the covariance $A P A^{\mathsf T} + W C W^{\mathsf T}$, where $C$ (2 × 2) is the covariance of the drive's
-# own noise. Here that step is, ready made, and what 500 robots say to it:
+# A robot was carried to another room. It knows its heading to 0.3 rad at best and to 0.8 rad at
+# worst, and it drives a few metres. The linearised step of the lesson says that it is now at
+# $f(\hat x, u)$, with the covariance $A P A^{\mathsf T} + W C W^{\mathsf T}$, where $C$ (2 × 2) is
+# the covariance of the drive's own noise. Here is that step, ready to use, and a picture of where
+# 500 robots really end:
 
 
 # %%

@@ -220,10 +220,12 @@ ask(
     "The next cell drives your filter round a loop of 25 m, with landmarks on either side that are "
     "seen from 2.5 m away, and a little beyond the start. **Whose ellipses are largest at the end?**",
     {
-        "those of the landmarks seen last, where most error has gathered": "so it was until the loop closed. Now they are tied to the first ones, which are known well.",
+        "those of the landmarks seen last, where most error has gathered": "that was right until "
+        "the loop closed. Now they are tied to the first ones, which are known well.",
         "those half way round": "seen from the start, they are the farthest away in either direction.",
         "those seen first, which have been out of sight the longest": "they were placed from a pose that was known, and no ellipse grows while it is out of sight.",
-        "none: when the loop closes, all become equally sure": "all become surer. But each stays as unsure as its way from the start makes it.",
+        "none: when the loop closes, all become equally sure": "all become surer. But each stays "
+        "as unsure as the path from the start to it makes it.",
     },
     right="those half way round",
 )
@@ -317,9 +319,9 @@ check("06-same")
 # %% [markdown]
 # ## 5 · Make it better: one sight in ten is false
 #
-# The sensor now lies. One sight in ten shows something else, a metre or so and some half a radian away from the
-# landmark whose id it carries, and nobody says which. A landmark's *first* sight is never false. The wheels are
-# worse than before, so a robot that ignores its eyes is lost as well.
+# The sensor now lies. One sight in ten shows something else, about a metre and half a radian away
+# from the landmark whose id it carries, and nobody says which. A landmark's *first* sight is never
+# false. The wheels are worse than before, so a robot that ignores its eyes is lost as well.
 #
 # One false sight moves the robot, and with it every landmark that shares its error. How could you notice that a
 # sight cannot be true *before* it has done its harm? What does the filter know about how far off a true sight

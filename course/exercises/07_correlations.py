@@ -2,16 +2,16 @@
 # # Exercise 07 · Correlations
 #
 # **You will be able to** follow how landmarks come to share an error, pass on what was learned of
-# some to all the others, fuse estimates honestly that share an error, show what becomes of a filter
-# that forgets, and find out how large a shared error is when nobody tells you.
+# some to all the others, fuse estimates that share an error without becoming too sure, show what
+# becomes of a filter that forgets, and find out how large a shared error is when nobody tells you.
 #
 # **60 minutes. Before:** lessons [03](../notebooks/03_kalman_filter.ipynb) to
 # [07 · Correlations](../notebooks/07_correlations.ipynb).
 #
 # Replace each `raise NotImplementedError(...)` by your code, run the cell, and then the check below
-# it, as often as you like. A check tries random inputs, and some at the edge of what a task promises;
-# it tells you which law is broken. No task may change the arrays that it is given, for the caller
-# still needs them.
+# it, as often as you like. A check tries random inputs, and some at the edge of what a task
+# promises; it tells you which law is broken. No function may change the arrays that it is given,
+# because the caller still needs them.
 #
 # Units are metres and radians throughout. A covariance that you are given is symmetric and positive
 # definite, unless its task says otherwise. An error, marked by a tilde, is the truth minus the
@@ -26,8 +26,8 @@ from slamlab.geometry import compose
 from slamlab.models import H_robot
 
 # %% [markdown]
-# The entries of a covariance are in m², m·rad and rad², which are hard to compare. A correlation is a
-# pure number from −1 to 1. This function makes one of the other, for the pictures:
+# The entries of a covariance are in m², m·rad and rad², which are hard to compare. A correlation is
+# a pure number from −1 to 1. This function turns a covariance into correlations, for the pictures:
 
 
 # %%
@@ -60,10 +60,10 @@ ask(
 )
 
 # %% [markdown]
-# **Your task.** The covariance after the first sighting, and after both. `P` may be block-diagonal, as
-# in the lesson, or full from the start. `R` may be full as well, and the numbers may be in mm and
-# mrad. (If you know the MAK thesis: its formulas are printed with several slips, so derive them
-# rather than copy.)
+# **Your task.** Return the covariance after the first sighting, and after both. `P` may be
+# block-diagonal, as in the lesson, or full from the start. `R` may be full as well, and the numbers
+# may be in mm and mrad. (If you know the MAK thesis: its formulas are printed with several slips,
+# so derive them rather than copy.)
 
 
 # %%
@@ -137,10 +137,10 @@ def _():
 # it knows its entries exactly: how sure are the others then? And what do they learn if they share no
 # error with those in sight?
 #
-# **Your task.** The whole state and its covariance, afterwards. `seen` holds which entries of x were
-# in sight, counted from 0, in any order, each once: at least one, perhaps all. `x_seen` and `P_seen`
-# are in the same order. Entries are plain numbers here: no angle needs to be wrapped. `P` is
-# positive definite; `P_seen` may be 0.
+# **Your task.** Return the whole state and its covariance, as they are afterwards. `seen` holds
+# which entries of x were in sight, counted from 0, in any order, each once: at least one, perhaps
+# all. `x_seen` and `P_seen` are in the same order. Entries are plain numbers here: no angle needs
+# to be wrapped. `P` is positive definite; `P_seen` may be 0.
 
 
 # %%
@@ -223,7 +223,8 @@ ask(
     "Each of the two estimates has the variance 1, in x and in y, and they share nearly all of their "
     "error. **What is the variance of the best estimate from both?**",
     {
-        "nearly ½": "so it is if they share nothing. What both have wrong, their mean has wrong, too.",
+        "nearly ½": "that is right if they share nothing. What both have wrong, their mean has "
+        "wrong, too.",
         "nearly 1": "the second estimate says again what the first one said.",
         "nearly 0: they agree with each other": "that they agree shows only that they have the same error.",
     },
@@ -231,9 +232,9 @@ ask(
 )
 
 # %% [markdown]
-# **Your task.** The estimate x and its covariance. The two may share nothing, or nearly everything, or
-# err in opposite directions; `P_ab` need not be symmetric. `P_a`, `P_b` and `P_ab` together are the
-# covariance of four numbers, and it can be inverted.
+# **Your task.** Return the estimate x and its covariance. The two may share nothing, or nearly
+# everything, or err in opposite directions; `P_ab` need not be symmetric. `P_a`, `P_b` and `P_ab`
+# together are the covariance of four numbers, and it can be inverted.
 
 
 # %%
@@ -283,16 +284,17 @@ def _():
 # %% [markdown]
 # ## 4 · SLAM in a corridor
 #
-# In one dimension all of SLAM is a few lines. `x[0]` is the robot's position, and `x[1]`, `x[2]`, … are
-# doors. The robot drives a way `d`, whose variance is `q`, and then sees door `i` at the distance `z`
-# ahead, negative if the door lies behind. What it sees is $z = x_i - x_0 + \varepsilon$, and the
-# variance of the noise $\varepsilon$ is `r`. (In code `q` and `r` are small letters here, since they
-# are numbers: the $Q$ and $R$ of the lessons.) All is linear, so the filter is exact.
+# In one dimension all of SLAM is a few lines. `x[0]` is the robot's position, and `x[1]`, `x[2]`, …
+# are doors. The robot drives a distance `d`, whose variance is `q`, and then sees door `i` at the
+# distance `z` ahead, negative if the door lies behind. What it sees is $z = x_i - x_0 +
+# \varepsilon$, and the variance of the noise $\varepsilon$ is `r`. (In code `q` and `r` are small
+# letters here, since they are numbers: the $Q$ and $R$ of the lessons.) All is linear, so the
+# filter is exact.
 #
-# **Your task.** One step: drive, then see. There may be any number of doors from one on, and robot and
-# doors may share errors from the start. The robot's variance may be 0, and so may `d` and `q`; `r` is
-# positive. The check also drives 60 walks with your step, and asks whether the errors at the end are
-# as large as your $P$ says (NEES).
+# **Your task.** Write one step: drive, then see. There may be any number of doors from one on, and
+# robot and doors may share errors from the start. The robot's variance may be 0, and so may `d` and
+# `q`; `r` is positive. The check also drives 60 walks with your step, and asks whether the errors
+# at the end are as large as your $P$ says (NEES).
 
 
 # %%
@@ -352,9 +354,9 @@ def _():
 
 # %% [markdown]
 # **See:** for an honest filter the curve lies in the grey band at 95 of 100 steps (there are four
-# unknowns, so NEES is 4 on average). The filter that forgets leaves the band as soon as doors come in
-# sight a second time, and its claim becomes ever more wrong: it takes the same
-# old error for a new one each time.
+# unknowns, so NEES is 4 on average). The filter that forgets leaves the band as soon as doors come
+# into sight a second time, and its claim becomes ever more wrong: it takes the same old error for a
+# new one each time.
 
 # %% [markdown]
 # ## 5 · An error of unknown size that is shared (open)
@@ -369,33 +371,36 @@ def _():
 # that variance lies between half of `sigma` and twenty times `sigma`. What is the map, and how sure is
 # it?
 #
-# The plain way takes the mean of each door's readings and divides σ² by their number. It is bad in two
-# respects, and the check scores both: the *error* of the doors, compared with the least that is
-# possible, and *NEES*, of the ways from each door to the next, and of each door by itself.
+# The plain way takes the mean of each door's readings and divides σ² by their number. It is bad in
+# two respects, and the check scores both: the *error* of the doors, compared with the least that is
+# possible, and *NEES*, of the distances from each door to the next, and of each door by itself.
 
 # %%
 ask(
     "ex07-way",
     "Each morning is off by 1 m or so, and `sigma` is 2 cm. Two neighbouring doors were passed "
-    "together on several mornings. **How well can you know the way from the one to the other?**",
+    "together on several mornings. **How well can you know the distance from the one to the "
+    "other?**",
     {
         "to a metre or so: that is how far off the readings are": "each of them is. But the two readings of one morning are off by the same amount.",
         "to a metre divided by the root of the number of mornings": "that is what the mean of each door's readings achieves, and more is in them.",
-        "to two or three centimetres, or better": "a morning's error moves both doors alike, so the way between them does not contain it.",
+        "to two or three centimetres, or better": "a morning's error moves both doors alike, so "
+        "the distance between them does not contain it.",
     },
     right="to two or three centimetres, or better",
 )
 
 # %% [markdown]
-# Some thoughts to begin with, if you like. What do you know of two doors that no morning passed both of?
-# What could be a state here, and what would stand in its
-# covariance? How do the mornings' errors show in the readings, and how large do they seem to be? What
-# does lesson 07 say of a filter that leaves such an error out of its state?
+# Some thoughts to begin with, if you like. What do you know of two doors that were never passed on
+# the same morning? What could be a state here, and what would stand in its covariance? How do the
+# mornings' errors show in the readings, and how large do they seem to be? What does lesson 07 say
+# of a filter that leaves such an error out of its state?
 #
-# **Your task.** The map of the doors. `morning[k]`, `door[k]` and `z[k]` say when which door was read,
-# and where it seemed to be. Mornings and doors are counted from 0, and none is left out. Each morning
-# has at least two readings, of different doors, and any two doors are linked by a chain of doors in
-# which neighbours were passed on the same morning. The size of the corridor varies.
+# **Your task.** Return the map of the doors, and its covariance. `morning[k]`, `door[k]` and `z[k]`
+# say when which door was read, and where it seemed to be. Mornings and doors are counted from 0,
+# and none is left out. Each morning has at least two readings, of different doors, and any two
+# doors are linked by a chain of doors in which neighbours were passed on the same morning. The size
+# of the corridor varies.
 
 
 # %%

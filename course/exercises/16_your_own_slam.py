@@ -20,11 +20,12 @@
 # | `covariance` | how sure it is of `pose`: the covariance (3, 3) of the errors of its `[x, y, θ]`, along the axes of the same frame as `pose`, not of the robot; or `None` for no claim |
 #
 # You may import numpy, scipy, and of the course `slamlab.geometry`, `slamlab.layers`,
-# `slamlab.readings` and `slamlab.worlds.ray_casting`. The course's filters, matchers and graphs are not there
-# when your SLAM is judged; what you wrote in the exercises is yours to use. All worlds of a contest
-# together may take 50 s of CPU, a single reading 1 s. All your cells are run anew before each world, in 5 s of
-# these at most: what you only want to look at, such as a trial of yours, goes under `@attempt`, as below, and is
-# left out there. Lengths are in metres and angles in radians.
+# `slamlab.readings` and `slamlab.worlds.ray_casting`. The course's filters, matchers and graphs are
+# not there when your SLAM is judged; what you wrote in the exercises is yours to use. All worlds of
+# a contest together may take 50 s of CPU, a single reading 1 s. All your cells are run anew before
+# each world, in 5 s of these at most: what you only want to look at, such as an experiment of your
+# own, goes under `@attempt`, as below, and is left out there. Lengths are in metres and angles in
+# radians.
 
 # %%
 from slamlab.checks import ask, attempt, check
@@ -68,22 +69,24 @@ def _():
 
 
 # %% [markdown]
-# The errors are those of pieces of the drive, 1 m, 5 m and 20 m long, as lesson 16 explains. 0 points
-# are worth what the wheels alone do, 55 what the package's `icp` does on the same drive, 85 what its `graph`
-# does, and 100 errors a fifth smaller still. Other values of `seed` give other worlds, and other families
-# are `symmetric`, `corridor`, `kidnapped`, `range-bias`, `people` and `dropouts`.
+# The errors are those of pieces of the drive, 1 m, 5 m and 20 m long, as lesson 16 explains. You
+# get 0 points for errors as large as those of the wheels alone, 55 for errors as large as those of
+# the package's `icp` on the same drive, 85 for those of its `graph`, and 100 for errors a fifth
+# smaller still. Other values of `seed` give other worlds, and other families are `symmetric`,
+# `corridor`, `kidnapped`, `range-bias`, `people` and `dropouts`.
 #
-# The lidar has 180 beams and sees 8 m far. Its ranges err by 0.8 % and by 5 mm more, its bearings by 0.3°, and
-# one beam in a hundred comes back empty. Each wheel slips by 1.2 cm in a metre, as chance has it, and is
-# larger or smaller than believed by some 0.6 %. In single families one of these is worse.
+# The lidar has 180 beams and sees 8 m far. Its ranges err by 0.8 % and by 5 mm more, its bearings
+# by 0.3°, and one beam in a hundred comes back empty. Each wheel slips at random, by 1.2 cm in a
+# metre, and is larger or smaller than believed by some 0.6 %. In single families one of these is
+# worse.
 
 # %% [markdown]
 # ## 1 · It survives a corridor
 #
 # The first milestone is a corridor, 9 m long, with a few niches and a cheap lidar of 120 beams. The
 # wheels go astray by half a metre and more. At the end your poses have to be at most half as far
-# off as those of the wheels; the better half of the points is for 0.3 m. Two drives are tried, each
-# with a new `MySlam()`, and in each of them a scan is lost on the way.
+# off as those of the wheels; more points are for being off by less than 0.3 m. Two drives are
+# tried, each with a new `MySlam()`, and in each of them a scan is lost on the way.
 #
 # What lesson 13 teaches is enough: match each scan with what was seen lately, beginning where the
 # wheels say. If you have solved exercise 13, you hold all the pieces.
@@ -101,8 +104,9 @@ check("16-corridor")
 # than 0.1 m. `trajectory()` is asked for at the end, and all its poses together have to be off by less
 # than 0.12 m: closing a loop tells something about the poses before it, too.
 #
-# Lesson 15 has the way: look for an old pose near the present one, match with the scans round it, and let a
-# graph share out the error. A map of the whole drive against which each scan is matched may do as well.
+# Lesson 15 shows how: look for an old pose near the present one, match with the scans round it, and
+# let a graph share out the error. A map of the whole drive against which each scan is matched may
+# do as well.
 
 # %%
 check("16-loop")
@@ -110,12 +114,13 @@ check("16-loop")
 # %% [markdown]
 # ## 3 · It says how sure it is
 #
-# The corridor again, and this time `covariance` is asked for after each reading. It counts once the
-# first milestone is passed: what the wheels alone know is not asked. For six readings no
-# scan arrives. Meanwhile σ of the place has to grow, by a factor of 1.3 at least, and the mean NEES of
-# the poses that you give on the way has to lie between 0.05 and 20. It is 3 where the claims are true;
-# the band is wide, because few drives are tried and the errors of neighbouring readings hang together.
-# In a contest it is narrower, and a false claim costs up to 20 points, while no claim costs nothing.
+# The corridor again, and this time `covariance` is asked for after each reading. The milestone counts
+# once the first one is passed, because what the wheels alone know is not asked here. For six readings
+# no scan arrives. Meanwhile σ of the place has to grow, by a factor of 1.3 at least, and the mean
+# NEES of the poses that you give on the way has to lie between 0.05 and 20. It is 3 where the
+# claims are true; the band is wide, because few drives are tried and neighbouring readings share
+# much of their errors. In a contest it is narrower, and a false claim costs up to 20 points, while
+# no claim costs nothing.
 
 # %%
 check("16-sure")
@@ -143,4 +148,5 @@ def _():
 # after the robot has been carried to another place, look for it in the whole map. And measure where the time
 # goes: what grows with every reading will cost you the last worlds.
 #
-# To hand in, save this notebook and give it away as it is. Nothing else of this folder travels with it.
+# To hand in, save this notebook and hand it in as it is. Nothing else from this folder goes with
+# it.

@@ -68,9 +68,9 @@ scan = RPLIDAR_A2.scan(room, pose, rng)
 print(f"{scan.valid.sum()} of {len(scan.ranges)} beams came back")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# This lidar is simulated, with the losses of a real one. All chance in the course comes from a
-# generator `rng` whose seed is written down, so you get the number that is printed here. With
-# another seed than 7 you may get another number.
+# This lidar is simulated, with the losses of a real one. All random numbers in the course come from
+# a generator `rng` whose seed is written in the cell, so you get the number that is printed here.
+# With another seed than 7 you may get another one.
 #
 # The next question has choices. The cell below it, which answers it, is folded: it opens when you
 # have chosen, or when you click on its dots.
@@ -97,8 +97,8 @@ views.show(fig, alt="Walls of a room in grey; a scan's points lie on those that 
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="00-missing"
 # The points lie on what faces the lidar. Behind the table in the middle, the cupboards and the
-# pillars there is nothing: **a scan is never the room, it is what one place sees of it**. This is
-# why a robot has to drive, and why it has to know where it was.
+# pillars there is nothing: **a scan is never the whole room, only what can be seen of it from one
+# place**. This is why a robot has to drive, and why it has to know where it took each scan.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Sliders
@@ -139,10 +139,10 @@ views.explore(
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=3
 # ## How an exercise works
 #
-# Every lesson from 01 on has an exercise. You write functions; below each of them stands a cell such
-# as `check("01-next-pose")`. It tries your function on random inputs, and on inputs at the edges of
-# what the text promises, and judges it by **laws**: a robot moves as far as its step is long. So
-# every right solution passes, however it is written.
+# Every lesson from 01 on has an exercise. You write functions; below each of them stands a cell
+# such as `check("01-next-pose")`. It tries your function on random inputs, and on inputs at the
+# edges of what the text promises, and judges it by **laws**, such as: a robot moves exactly as far
+# as its step is long. So every right solution passes, however it is written.
 #
 # Where a law is broken, you see the smallest input that breaks it, what your function returned, and
 # what the law wants. If the mistake is a classic one, you are told which.
@@ -154,7 +154,7 @@ views.explore(
 #   it shows a step on the way.
 # - Check and ask for hints as often as you like: nobody counts. Your points come from a fresh run on
 #   other random inputs, and nothing else is hidden.
-# - One law holds everywhere: a function leaves the arrays that it is given as they are.
+# - One law holds everywhere: a function must not change the arrays that it is given.
 # - In a terminal, `slamlab check NOTEBOOK` checks a whole notebook, and `slamlab reset 01` brings
 #   exercise 01 back as it was.
 
@@ -167,9 +167,10 @@ views.explore(
 # | angles | radians, from −π to π | degrees (only in text and on axes) |
 # | turning | counter-clockwise is positive | clockwise, as many devices count |
 # | robot's frame | x ahead, y to the left | y ahead |
-# | points | one a row, `(n, 2)` | one a column |
+# | points | one per row, `(n, 2)` | one per column |
 #
-# Devices and files speak their own units. They are converted once, where they enter.
+# Devices and files use units of their own. These are converted once, where the data enter the
+# program.
 
 # %% slideshow={"slide_type": "subslide"} name="frames"
 views.show(
@@ -203,9 +204,9 @@ for theta in (25, 115):
     print(f"θ = {theta:3d}°   r = {r:.2f} m   β = {np.degrees(beta):6.1f}°")
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="00-turn"
-# The bearing loses what the heading gains, and the range $r$ does not change. A robot that misjudges
-# its heading therefore misjudges the direction of **everything** that it sees. Lesson 01 begins with
-# this.
+# The bearing loses what the heading gains, and the range $r$ does not change. A robot that
+# misjudges its heading therefore misjudges the direction of **everything** that it sees. Lesson 01
+# starts from here.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=1 name="first-notation"
 # ## The symbols of the first lessons
@@ -216,7 +217,7 @@ for theta in (25, 115):
 # | --- | --- | --- |
 # | $x$ | `x` | pose of the robot: $x$, $y$, $\theta$ |
 # | $a$, $b$ | `a`, `b` | any two poses |
-# | $a \oplus b$ | `geometry.compose(a, b)` | pose $b$, given in the frame of $a$, in the frame $a$ is given in |
+# | $a \oplus b$ | `geometry.compose(a, b)` | pose $b$, which is given relative to $a$, in the frame in which $a$ is given |
 # | $\ominus a \oplus b$ | `geometry.between(a, b)` | pose $b$ as seen from pose $a$ |
 # | $\mathrm{Rot}(\theta)$ | | the matrix that rotates a vector by $\theta$ |
 # | $r$, $\beta$ | `r`, `beta` | range and bearing of what is seen |
@@ -234,9 +235,9 @@ for theta in (25, 115):
 # | 00 | [Start here](00_start_here.ipynb) | how all this works | 20 min | |
 # | 01 | [Why SLAM](01_why_slam.ipynb) | a robot that believes its wheels draws a map that does not close | 45 min | 60 min |
 # | 02 | [Sensors and worlds](02_sensors_and_worlds.ipynb) | how a lidar, an infrared and an ultrasonic scanner see a room, and how a real one errs | 60 min | 60 min |
-# | 03 | [The Kalman filter](03_kalman_filter.ipynb) | predict, measure, correct: the gain derived, the filter's word about its own error tested | 60 min | 60 min |
-# | 04 | [Models and Jacobians](04_models_and_jacobians.ipynb) | how a robot moves and measures, and how errors pass through: derived, not believed | 60 min | 60 min |
-# | 05 | [Two easy halves](05_two_easy_halves.ipynb) | a known map locates the robot, known poses draw the map; both in turn is not SLAM | 50 min | 60 min |
+# | 03 | [The Kalman filter](03_kalman_filter.ipynb) | predict, measure, correct: the gain derived, and what the filter says about its own error tested | 60 min | 60 min |
+# | 04 | [Models and Jacobians](04_models_and_jacobians.ipynb) | how a robot moves and measures, and what becomes of a small error: derived, not taken on trust | 60 min | 60 min |
+# | 05 | [Two easy halves](05_two_easy_halves.ipynb) | a known map locates the robot, and known poses draw the map, but doing both in turn is not SLAM | 50 min | 60 min |
 # | 06 | [EKF-SLAM: the MAK filter](06_ekf_slam.ipynb) | robot and map in one filter, every block of its covariance built before your eyes | 60 min | 60 min |
 # | 07 | [Correlations](07_correlations.ipynb) | why what robot and landmarks share cannot be dropped, what it costs, and ways out | 90 min | 60 min |
 
@@ -279,8 +280,8 @@ coursework.show_progress()
 #
 # - **A function:** Shift+Tab behind its name, or `help(name)`, shows its equation, and the shape and
 #   unit of each argument.
-# - **A check that fails:** read its first ✗ line, which says what law is broken, then the case below
-#   it, and try your function on that input by hand.
+# - **A check that fails:** read its first ✗ line, which says which law is broken, then the case
+#   below it, and try your function on that input by hand.
 # - **A cell that fails:** the last line of the message says what went wrong.
 # - **Everything else:** the `README.md` of the project, and whoever gave you the course.
 #
@@ -296,10 +297,11 @@ coursework.show_progress()
 #
 # | Letter | What it means |
 # | --- | --- |
-# | $x$ | the state: the robot's pose $x$, $y$, $\theta$, and with it, from lesson 06 on, the map; $y$ and $\theta$ are nothing else |
+# | $x$ | the state: the robot's pose $x$, $y$, $\theta$, and with it, from lesson 06 on, the map; $y$ and $\theta$ mean nothing else |
 # | $a$, $b$ | any two poses |
 # | $u$ | control: distance $d$ and turn $\Delta\theta$; of a steered robot the speed $V$ and the angle $\gamma$ |
-# | $s$ | way that a wheel rolls |
+# | $s$ | distance that a wheel rolls |
+# | $o$ | motion that the wheels report, as a pose in the robot's frame |
 # | $B$ | distance between wheels, or axles [m] |
 # | $T$ | time of a step [s]; with a pose as its subscript, $T_a$, the pose's homogeneous matrix |
 # | $\mathrm{Rot}$ | $\mathrm{Rot}(\theta)$ rotates by the angle $\theta$ |
@@ -329,10 +331,10 @@ coursework.show_progress()
 # | $w$ | weight, of a sample for instance |
 # | $e$ | error: of a step, or of an edge between two poses |
 # | $k$ | number of a step; $i$, $j$ number landmarks or poses |
-# | $n$, $m$, $N$ | how many there are; $N$ of landmarks or samples; in lesson 02 $n$ is also the direction of a beam |
+# | $n$, $m$, $N$ | how many there are; $N$ of landmarks or samples; in lessons 02 and 05 $n$ is also a direction |
 # | $d$ | distance that the odometry reports; with a subscript, such as $d_{\mathrm{abs}}$, a bound on an error |
 # | $c$, $\kappa$ | constants, named where they are used |
-# | $\tau$ | share of a way between two points |
+# | $\tau$ | share of the distance between two points |
 # | $\iota$ | angle under which a beam meets a wall |
 # | $U$ | voltage of an infrared sensor |
 # | $\Phi$ | how much contradiction a robust weight allows an edge |
@@ -341,8 +343,9 @@ coursework.show_progress()
 # | $\delta$ | a small step, such as one of Gauss and Newton |
 # | $\psi$ | angle as a lidar counts it, clockwise |
 #
-# A few letters serve one derivation only, such as $M$, $U$, $V$ and $\gamma$ in lesson 13 or $\pi$ and $\eta$
-# in lesson 15. They are defined where they stand.
+# A few letters are used in one derivation only, such as $s$ (a share of the gain) in lesson 03, $\lambda$ in
+# lesson 06, $B$, $C$, $D$, $M$, $O$ and the sums $\varphi$, $\psi$, $\vartheta$ in lesson 07, $M$, $U$, $V$ and
+# $\gamma$ in lesson 13, or $\pi$ and $\eta$ in lesson 15. They are defined where they stand.
 
 # %% [markdown] slideshow={"slide_type": "skip"} name="notation"
 # ### In the code
@@ -381,12 +384,12 @@ coursework.show_progress()
 # | $Q$ | `noise.Q(W, C)` | (3, 3) | m², rad² | what the control's noise adds to the pose's covariance |
 # | $R$ | `noise.R(r, range_error, bearing_sigma)` | (2, 2) | m², rad² | covariance of one observation |
 # | | `geometry.wrap(angle)` | () | rad | the same angle between −π and π |
-# | $a \oplus b$ | `geometry.compose(a, b)` | (3,) | m, m, rad | pose $b$, given in the frame of $a$, in the frame $a$ is given in |
+# | $a \oplus b$ | `geometry.compose(a, b)` | (3,) | m, m, rad | pose $b$, which is given relative to $a$, in the frame in which $a$ is given |
 # | $\ominus a$ | `geometry.inverse(a)` | (3,) | m, m, rad | the pose that undoes $a$ |
 # | $\ominus a \oplus b$ | `geometry.between(a, b)` | (3,) | m, m, rad | pose $b$ as seen from pose $a$ |
 # | $T_a$ | `geometry.matrix(a)` | (3, 3) | | homogeneous matrix of a pose |
 # | | `geometry.from_matrix(T)` | (3,) | m, m, rad | the pose of a homogeneous matrix |
-# | | `geometry.transform(a, points)` | (n, 2) | m | points (n, 2) of the frame of $a$ in the frame $a$ is given in |
+# | | `geometry.transform(a, points)` | (n, 2) | m | points (n, 2) of the frame of $a$ in the frame in which $a$ is given |
 #
 # A filter holds a belief of $n$ numbers, `b` in the code, and takes in $m$ measured ones. Its update
 # returns a new belief and a `step` that says what it was made of:

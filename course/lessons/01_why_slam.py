@@ -31,10 +31,10 @@ from slamlab.studies import intel_maps
 # wheels, each with a counter (an *encoder*), and a lidar that measures the distance to the walls in
 # 400 directions. The robot is simulated, so that we know where it really was.
 #
-# Again and again it delivers a **reading**, and each reading has two parts:
+# At short intervals it delivers a **reading**, which has two parts:
 #
-# - the **odometry**: how far the robot moved since the last reading, as its wheels tell it and as
-#   seen from where it was then;
+# - the **odometry**: how far the robot has moved and turned since the last reading, as its wheels
+#   tell it, in the frame of the pose that it had then;
 # - the **scan**: one turn of the lidar.
 
 # %% name="one-reading" tags=["code"]
@@ -67,8 +67,9 @@ ask(
     "misjudged by 1 %, and they slip a little. The lap is 42 m long and ends exactly where it began. "
     "**By how much does dead reckoning miss the start?**",
     {
-        "by about 10 cm": "this would be 0.3 % of the distance, as if nothing but lengths were wrong.",
-        "by about half a metre": "more than 0.3 % of the way is the right feeling, but far more.",
+        "by about 10 cm": "this would be 0.3 % of the distance, as if only lengths were wrong.",
+        "by about half a metre": "it is right to expect more than 0.3 % of the distance, but the "
+        "miss is far larger than this.",
         "by more than 2 m": "wheels that differ also turn the robot, and a turn bends all that "
         "follows.",
     },
@@ -101,7 +102,7 @@ views.show(
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="01-gap"
 # The true lap, in black, closes. The lap of the odometry leans over more and more, cuts through
-# walls and ends {= np.hypot(*gap[:2]):.1f =} m away from its start. Compare: 0.3 % of 42 m are only
+# walls and ends {= np.hypot(*gap[:2]):.1f =} m away from its start. Compare: 0.3 % of 42 m is only
 # {= 100 * 0.003 * 42:.0f =} cm. The gap is {= np.hypot(*gap[:2]) / (0.003 * 42):.0f =} times as
 # large, so it is not the length of the steps that does the harm. It is their **direction**.
 
@@ -125,7 +126,7 @@ ask(
     right=24.0,
     tolerance=1.0,
     unit="°",
-    reason="0.003 · 42 m / 0.3 m are 0.42 rad, and this is 24°.",
+    reason="0.003 · 42 m / 0.3 m is 0.42 rad, which is 24°.",
     wrong={
         0.42: "this is the angle in radians.",
         0.57: "this is what one metre does, and the robot drives 42 of them.",
@@ -155,14 +156,15 @@ print(f"in the run above the lap ended turned by {np.degrees(gap[2]):.0f}°")
 #
 # $$ p = \begin{pmatrix} x \\ y \end{pmatrix} + \mathrm{Rot}(\theta)\, p_{\mathrm{r}}, \tag{01.3} $$
 #
-# which is the position part of (01.1). The package calls it `transform`. It trusts the pose.
+# which is the position part of (01.1). The package calls it `transform`. It trusts the pose that it
+# is given.
 
 # %% slideshow={"slide_type": "subslide"} name="ask-smear"
 ask(
     "01-smear",
     "We lay the same scans out twice: from the true poses, and from those of the odometry. The robot "
-    "saw the corner at the lower left when it set out **and** when it came back. **What is there in "
-    "the second map?**",
+    "saw the corner at the lower left when it set out **and** when it came back. **What will the "
+    "second map show?**",
     {
         "one corridor with thicker walls": "this is what noise of the lidar would do; the poses are "
         "metres off.",
@@ -273,27 +275,27 @@ views.explore(
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## How errors grow
 #
-# A constant error can be measured and taken away: this is called calibration. Errors of chance cannot. Let
-# 2000 robots drive straight ahead in steps of half a metre. Each step goes wrong at random, in one
-# of two ways:
+# A constant error can be measured and corrected, which is called calibration. A random error
+# cannot. Let 2000 robots drive straight ahead in steps of half a metre. Each step goes wrong at
+# random, in one of two ways:
 #
 # - its **length** is wrong by 2 %, which is 1 cm;
 # - after it, the **heading** is wrong by 1°, and the robot keeps looking there.
 #
-# Numbers for chance are standard deviations, here and in all lessons.
+# Such numbers are standard deviations, here and in all lessons.
 
 # %% slideshow={"slide_type": "subslide"} name="ask-growth"
 ask(
     "01-growth",
-    "The robots drive 5 m, and then 20 m: four times as far. Wrong lengths cause an error along the "
-    "way, wrong headings one across it. **By which factors do these errors grow?**",
+    "The robots drive 5 m, and then 20 m: four times as far. Wrong lengths cause an error along "
+    "the line, wrong headings an error across it. **By which factors do these errors grow?**",
     {
         "along 4, across 4": "errors would add up like this if all of them went to the same side.",
         "along 2, across 2": "right for lengths; but an early error of heading has more steps to "
         "lead astray.",
         "along 2, across 8": "variances of independent errors add, and each error of heading "
         "bends all that follows.",
-        "along 4, across 16": "errors of chance partly cancel: they do not all go to the same side.",
+        "along 4, across 16": "random errors partly cancel: they do not all go to the same side.",
     },
     right="along 2, across 8",
 )
@@ -333,14 +335,15 @@ for way in (5, 20, 80):
 # %% slideshow={"slide_type": "subslide"} name="ask-bends"
 ask(
     "01-bends",
-    "A robot drives three steps of length $d$. After each of them, also the last, its heading "
-    "errs by an independent small angle of variance $\\sigma^2$. **What is the variance of its "
-    "place across the way, in units of $\\sigma^2 d^2$?**",
+    "A robot drives three steps of length $d$. After each of them, the last one included, its "
+    "heading errs by an independent small angle of variance $\\sigma^2$. **What is the variance "
+    "of its final place, across the line that it meant to drive, in units of $\\sigma^2 d^2$?**",
     {
         "3": "one each would be right if every error moved the end by the same length.",
         "5": "the first error bends two steps, the second one, the last none: 4 + 1 + 0.",
         "9": "this is (2 + 1 + 0)²: amounts add up only if all errors go to the same side.",
-        "14": "9 + 4 + 1 lets the last error bend a step, but it is made when all are driven.",
+        "14": "9 + 4 + 1 lets the last error bend a step, but that error is made when all steps "
+        "have been driven.",
     },
     right="5",
 )
@@ -386,16 +389,16 @@ views.show(fig, f"Length errors rise with slope {slow:.1f} on the axes, heading'
 
 # %% [markdown]
 # On doubly logarithmic axes a power is a straight line, and its exponent is the slope:
-# {= slow:.1f =} for lengths, {= fast:.1f =} for headings. After 5 m both errors seem bearable. After
-# 80 m the one of headings is {= heading[-1] / length[-1]:.0f =} times the other. **Errors that
-# only ever add up run away.**
+# {= slow:.1f =} for lengths, {= fast:.1f =} for headings. After 5 m both errors seem bearable.
+# After 80 m the error that headings cause is {= heading[-1] / length[-1]:.0f =} times the other.
+# **Errors that only ever add up run away.**
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=3
 # ## See the cloud
 #
-# Here is where 800 such robots end. First you see errors of heading alone. Let the way grow: the
-# cloud bends round the start, because a robot that is turned does not get shorter steps. Then
-# exchange the two errors.
+# Here is where 800 such robots end. First you see errors of heading alone. Make the drive longer:
+# the cloud bends round the start, because every robot drives the same distance, wherever it heads.
+# Then set the heading error to 0 and raise the length error.
 
 
 # %% name="cloud" tags=["folded"]
@@ -445,11 +448,11 @@ ask(
     "**Do the ends of the corridor meet now?**",
     {
         "exactly": "each match errs by a little, and errors that only ever add up run away.",
-        "to within centimetres": "the walls give away the heading far better than the wheels do.",
+        "to about ten centimetres": "the walls tell the heading far better than the wheels do.",
         "no better than before: it starts from the odometry": "it starts there, but the walls "
         "correct each step before the next begins.",
     },
-    right="to within centimetres",
+    right="to about ten centimetres",
 )
 
 # %% slideshow={"slide_type": "fragment"} name="cure" answers="01-cure"
@@ -511,9 +514,9 @@ for name, (far, turned) in zip(("odometry", "icp"), per_step, strict=True):
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=4
 # ## The same on a real robot
 #
-# A simulator shows what its author believes. So here is a log that made history: a robot drove for
-# {= intel_maps.stored().minutes:.0f =} minutes through the Intel Research Lab in Seattle, along the
-# same corridors several times. Dirk Hähnel recorded {= intel_maps.stored().readings =} scans of
+# A simulator shows only what its author believes. So here is a log that made history: a robot drove
+# for {= intel_maps.stored().minutes:.0f =} minutes through the Intel Research Lab in Seattle, along
+# the same corridors several times. Dirk Hähnel recorded {= intel_maps.stored().readings =} scans of
 # 180 beams, and what the wheels said. The log is not ours to give away, but you get the points of
 # two maps that we made from it: by odometry, and by `icp` with the settings from above.
 
@@ -554,12 +557,11 @@ views.show(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="01-again"
-# Mind the scales: the left map is {= long:.0f =} m long, the right one {= across:.0f =} m. By the
-# wheels alone the laps lie over each other, turned, until nothing can be made out. On the right
-# stands a building. Held
-# against trusted measurements of how one place lies as seen from another (Kümmerle and others,
-# 2009), odometry is off by {= intel.off["odometry"]:.1f =} m on average and `icp` by
-# {= intel.off["icp"]:.2f =} m.
+# Mind the scales: the left map is {= long:.0f =} m long, the right one {= across:.0f =} m. With the
+# wheels alone, the laps are turned against each other and overlap until nothing can be made out. On
+# the right stands a building. Compared with trusted measurements of where one place lies as seen
+# from another (Kümmerle and others, 2009), odometry is off by {= intel.off["odometry"]:.1f =} m on
+# average and `icp` by {= intel.off["icp"]:.2f =} m.
 #
 # But look closely: many walls stand twice. The matcher **does not know that it has been here
 # before**. Recognising a place, and mending the past, is called *closing the loop*.

@@ -2,7 +2,7 @@
 # # 02 · Sensors and worlds
 #
 # **You will be able to** compute what a range sensor sees of a world, carry its readings into the
-# world's frame, say how wrong they are and why, and hold a simulated sensor against a real one.
+# world's frame, say how wrong they are and why, and compare a simulated sensor with a real one.
 #
 # **60 minutes** in two parts: what a sensor sees (23), and how it errs (37). **Before:** lesson
 # [01](01_why_slam.ipynb); two linear equations in two unknowns; the standard deviation.
@@ -12,7 +12,7 @@
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* Part one is geometry, part two is statistics; each fits a lecture of its own.
 # If time is short, leave out "Move a wall" and "Three sensors, one place". What the class will
-# remember is the end of part two, where the numbers of a real device give away how it works. Polls
+# remember is the end of part two, where the numbers of a real device reveal how it works. Polls
 # that work well: the wall behind the sensor, the forgotten minus, the three errors of a wheel.
 
 # %% slideshow={"slide_type": "skip"} name="imports" tags=["folded"]
@@ -49,8 +49,8 @@ real = a2_at_rest.stored()  # statistics of a real lidar, for part two
 #
 # Put the origin into the sensor. The beam flies in the direction $\varphi$, along the unit vector
 # $n = (\cos\varphi, \sin\varphi)^{\mathsf T}$, and after a range $r$ it is at the point $r\,n$. The
-# wall goes from $p_1$ to $p_2$, and a share $\tau$ of this way leads to $p_1 + \tau\,(p_2 - p_1)$.
-# Beam and wall meet where the two are the same point:
+# wall goes from $p_1$ to $p_2$, and a share $\tau$ of it leads to $p_1 + \tau\,(p_2 - p_1)$. Beam
+# and wall meet where the two are the same point:
 #
 # $$ r\,n = p_1 + \tau\,(p_2 - p_1). \tag{02.1} $$
 
@@ -158,19 +158,20 @@ views.explore(
 # %% slideshow={"slide_type": "subslide"} name="ask-arc"
 ask(
     "02-arc",
-    "A robot stands beside a long straight wall and plots the bare list: $r$ upwards, over $\\beta$. "
+    "A robot stands beside a long straight wall and plots the raw list, with $r$ upwards over "
+    "$\\beta$. "
     "**What does the wall look like?**",
     {
-        "a straight line": "straight is the wall in x and y. At a slant the range grows faster "
-        "and faster.",
+        "a straight line": "the wall is straight in x and y. Over the bearing, its range grows "
+        "faster and faster to either side.",
         "level: the wall's distance does not change": "the distance of the wall is the "
         "shortest of its ranges; every other beam flies farther.",
-        "an arc, lowest where the sensor looks at it square on": "to either side the beams hit "
-        "the wall at a slant, farther off.",
-        "an arc, highest where the sensor looks at it square on": "square on, the way to the wall "
-        "is shortest, so the arc is lowest there.",
+        "an arc, lowest where the beam meets the wall at a right angle": "to either side the beams "
+        "hit the wall at a slant, farther off.",
+        "an arc, highest where the beam meets the wall at a right angle": "there the wall is "
+        "nearest, so the range is least.",
     },
-    right="an arc, lowest where the sensor looks at it square on",
+    right="an arc, lowest where the beam meets the wall at a right angle",
 )
 
 
@@ -210,23 +211,24 @@ views.explore(
 # ### Sparse and dense
 #
 # A straight wall at the distance $\rho$ whose normal points in the direction $\alpha$ is seen at
-# the bearing $\beta$ under the *angle of incidence* $\iota = \beta - \alpha$, counted from square
-# on. Its range is
+# the bearing $\beta$ under the *angle of incidence* $\iota = \beta - \alpha$, which is zero where
+# the beam meets the wall at a right angle (*square on*). Its range is
 #
 # $$ r = \frac{\rho}{\cos\iota}. \tag{02.4} $$
 #
 # Two beams that lie a small angle $\Delta\beta$ apart hit it $r\,\Delta\beta / \cos\iota$ apart.
 # With 400 beams this is {= 1000 * 3 * np.radians(0.9):.0f =} mm on a wall 3 m ahead, but
-# {= 100 * 8 * np.radians(0.9) / np.cos(np.radians(70)):.0f =} cm on one 8 m away that is seen 70°
-# off square on. Set the slider to 40 beams: some walls are left with two or three points, and
-# nobody could tell where they end. At the other end of the slider are Smolec's 3600.
+# {= 100 * 8 * np.radians(0.9) / np.cos(np.radians(70)):.0f =} cm on one 8 m away that is seen at
+# $\iota = 70°$. Set the slider to 40 beams: some walls are left with two or three points, and
+# nobody could tell where they end. At the other end of the slider are 3600 beams, as many as Smolec
+# simulates in one of the theses on which this course is built.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=2
 # ## What a beam cannot see
 #
 # Even a perfect sensor sees little of a building. Most walls stand behind others, which is called
 # *occlusion*, or beyond the sensor's range. Here are four rooms off a corridor, whose doors face
-# each other: Smolec's *situation 1*. How much of all its walls is in sight from the middle of one
+# each other: Smolec's *situation 1*. What share of all its walls is in sight from the middle of one
 # room? And where must the robot stand to see most? Think of a place before you move it there.
 
 
@@ -272,7 +274,7 @@ views.explore(
 # the room itself and, through its door, strips of what lies behind. The door, at $(0, 2)$, shows
 # {= in_sight(0.1, 2.0)[1]:.0f =} %. We tried a place every half a metre, and none shows more than
 # {= max(in_sight(x, y)[1] for x in np.arange(-1.9, 8, 0.5) for y in np.arange(-1.9, 7.5, 0.5)):.0f =}
-# %. This is what a map is for, and why it needs poses.
+# %. A map puts together what no single place shows, and for this it needs poses.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=4
 # ## Sensor, robot, world
@@ -341,8 +343,8 @@ views.explore(
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # Every wall stands there several times, because the five scans were taken from five places. Move
-# the first slider to 0.20, and they fall on each other. Now the second slider: what would you see
-# of a wrong turn if the robot never moved?
+# the first slider to 0.20, and they fall on each other. Now try the second slider. If the robot
+# never moved, would you notice that the mount is turned?
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=4
 # ## What the device says
@@ -365,8 +367,8 @@ ask(
     {
         "not at all: both are mirrored alike": "both are mirrored, but each in its own frame, and the "
         "frame has turned.",
-        "by 40°": "this is what forgetting the *turn* would do. With the minus, the map also turns "
-        "the wrong way.",
+        "by 40°": "this is what forgetting the *turn* would do. With the wrong sign, the map also "
+        "turns the wrong way.",
         "by 80°": "the mirrored room turns by 40° to the wrong side, and the pose adds 40° more.",
     },
     right="by 80°",
@@ -408,8 +410,8 @@ views.explore(
 # ## Move a wall, watch the scan
 #
 # This is Smolec's *situation 2*, and what a lidar at the origin sees of it. Drag a corner, or
-# choose it with Tab and move it with the arrow keys; a click into the rows lets you change numbers,
-# or add a wall. *Undo* takes it back.
+# choose it with Tab and move it with the arrow keys; click into the rows to change numbers or to
+# add a wall. *Undo* takes back the last change.
 #
 # Pull the corner $(-2.4, -3.2)$ to the right: does more of the bay in the lower left come into
 # sight, or less? And which points vanish when you add the pillar `-1 -1 0.2`?
@@ -469,11 +471,11 @@ sp.simplify(sp.diff(r_wall, iota) / r_wall)
 ask(
     "02-slant",
     "$\\sigma_\\beta$ is 0.1°, and the beam meets a wall at $\\iota = 80°$, where $\\tan\\iota$ is "
-    "5.7. **How large is the part of $\\sigma$ that the bearing makes, in per cent of $r$?**",
+    "5.7. **How large is the part of $\\sigma$ that the bearing contributes, in per cent of $r$?**",
     right=1.0,
     tolerance=0.06,
     unit="% of r",
-    reason="0.1° are 0.00175 rad; times 5.7 this is 0.0099, more than twice the 0.4 % of the range "
+    reason="0.1° is 0.00175 rad; times 5.7 this is 0.0099, more than twice the 0.4 % of the range "
     "itself.",
     wrong={
         0.57: "this is 5.7 · 0.1 with degrees in it: a derivative counts in radians.",
@@ -529,10 +531,10 @@ views.explore(
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=2
 # ## An infrared sensor: a voltage falls
 #
-# The robot of the MAK thesis carries a Sharp GP2D120. It sends out infrared light and looks, from
-# a few centimetres to the side, at the angle under which the spot on the wall appears. This is called
-# *triangulation*. The farther the wall, the less the angle still changes, and the sensor's voltage
-# $U$ behaves roughly as
+# The robot of the MAK thesis, another source of this course, carries a Sharp GP2D120. It sends out
+# infrared light and looks, from a few centimetres to the side, at the angle under which the spot on
+# the wall appears. This is called *triangulation*. The farther the wall, the less the angle still
+# changes, and the sensor's voltage $U$ behaves roughly as
 #
 # $$ U = \frac{\kappa}{r}. \tag{02.7} $$
 #
@@ -556,8 +558,8 @@ sp.Abs(sp.diff(kappa / U, U)).subs(U, kappa / r) * sigma_U
 #
 # An *ultrasonic* sensor sends out a cone of sound and hears the first echo, from whatever direction
 # in the cone it comes. Here a lidar, the infrared sensor and an ultrasonic sensor look at the MAK
-# thesis' arena of cardboard boxes, from the same place. See which of them shows most, which
-# only what is near, and what becomes of corners in the third.
+# thesis' arena of cardboard boxes, from the same place. Look for three things: which sensor shows
+# most, which shows only what is near, and what becomes of corners in the third picture.
 
 # %% slideshow={"slide_type": "fragment"} name="three-sensors" tags=["folded"]
 arena, stands = worlds.arena(), np.array([-0.12, -0.2, np.radians(100)])
@@ -578,7 +580,7 @@ views.show(fig, "The lidar sees most walls sharply, infrared only the near ones,
 # The lidar draws whatever is in sight beyond its least range of
 # {= 100 * RPLIDAR_A2.range_min:.0f =} cm. Of {= GP2D120.beams =} infrared readings only
 # {= back["infrared"] =} come back, from walls nearer than {= 100 * GP2D120.range_max:.0f =} cm, and
-# even these fray a little. The ultrasonic sensor draws arcs, because a whole fan of directions
+# even these scatter a little. The ultrasonic sensor draws arcs, because a whole fan of directions
 # hears the same nearest place: corners become round, and notches are filled.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=3
@@ -598,7 +600,8 @@ ask(
     reason="the posts stand arctan(0.5 / 2) = 14° to either side; a wider cone hears them first.",
     wrong={
         14: "this is how far the posts stand off to one side; the cone reaches to both.",
-        26.6: "this is arctan(1 / 2): the way to a post is half the door, on either side.",
+        26.6: "this is arctan(1 / 2), but each post stands only half the door's width off to its "
+        "side.",
         53: "half of the door lies on each side: arctan(0.5 / 2), and twice that.",
         25: "this is the cone of a common sensor. Compute the angle of the posts.",
     },
@@ -644,8 +647,8 @@ views.explore(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="02-door"
-# At 25° {= heard(25, 2)[2] =} of 91 directions hears through the door, and the wall comes out bent.
-# At 0°, where the sensor is a lidar, {= heard(0, 2)[2] =} do. From
+# At 25°, only {= heard(25, 2)[2] =} of the 91 directions hears through the door, and the wall comes
+# out bent. At 0°, where the sensor is a lidar, {= heard(0, 2)[2] =} do. From
 # {= next(cone for cone in range(40) if heard(cone, 2)[2] == 0) =}° on the door is shut: a robot
 # that maps by sound walls itself in. Drive nearer, and it opens again.
 
@@ -669,24 +672,25 @@ views.explore(
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # Three errors arise. Only whole ticks are counted. The wheel *slips*, and then it turns farther
-# than it travels, or less far. And a tick stands for the wheel's circumference divided by the
-# slots, which is wrong if the wheel is larger than believed.
+# than it travels, or less far. And a tick is taken for the wheel's circumference divided by the
+# number of slots, which is wrong if the wheel is larger than believed.
 
 # %% slideshow={"slide_type": "subslide"} name="ask-wheels"
 ask(
     "02-wheels",
-    "Robots drive 1 m, 4 m and 16 m straight ahead, and count their ticks. **How do the three errors "
-    "of the way grow?**",
+    "Robots drive 1 m, 4 m and 16 m straight ahead, and count their ticks. **How do the three "
+    "errors of the measured distance grow?**",
     {
-        "all with the way": "only the wrong wheel does it again in every metre, to the same side.",
-        "ticks and slip with the root of the way, the wheel with the way": "the slip does; but ticks "
-        "do not add up. What one metre leaves of a tick is counted in the next.",
-        "ticks not at all, slip with its root, the wheel with the way": "a tick is won or lost once; "
-        "slips partly cancel; a wrong wheel is wrong in every metre.",
-        "ticks not at all, slip and wheel with the way": "slips would have to go to the same side "
+        "all in proportion to the distance": "only the wrong wheel repeats its error in every "
+        "metre, always to the same side.",
+        "ticks and slip with its root, the wheel in proportion": "the slip does; but ticks do not "
+        "add up. What one metre leaves of a tick is counted in the next.",
+        "ticks not at all, slip with its root, the wheel in proportion": "a tick is gained or lost "
+        "once; slips partly cancel; a wrong wheel is wrong in every metre.",
+        "ticks not at all, slip and wheel in proportion": "slips would have to go to the same side "
         "every time.",
     },
-    right="ticks not at all, slip with its root, the wheel with the way",
+    right="ticks not at all, slip with its root, the wheel in proportion",
 )
 
 
@@ -726,7 +730,7 @@ for name, errors in wheel_errors.items():
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=3
 # ## A real lidar
 #
-# Now to a real RPLIDAR A2. Somebody let one stand in a room, recorded {= len(real["turns"][0]) =},
+# Now to a real RPLIDAR A2. Somebody placed one in a room, recorded {= len(real["turns"][0]) =},
 # {= len(real["turns"][1]) =} and {= len(real["turns"][2]) =} turns, and published the recordings.
 # They are not ours to give away. You get statistics of them, in a table that comes with the course,
 # and every number below is computed from this table, in front of you.
@@ -754,8 +758,8 @@ views.show(
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### The number of points a turn
 #
-# The simulated device has {= RPLIDAR_A2.beams =} beams, always in the same directions. How many has
-# the real one?
+# The simulated device has {= RPLIDAR_A2.beams =} beams, always in the same directions. How many
+# does the real one have?
 
 # %% slideshow={"slide_type": "fragment"} name="points-a-turn" tags=["nbval-check-output", "code"]
 for number, sizes in enumerate(real["turns"], 1):
@@ -804,8 +808,8 @@ print(f"by the median:      σ = {100 * real['errors']['median']:.2f} % of r")
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Those at a slant
 #
-# By (02.6) a reading at a slant is worse. Is it true of the real device? Take ranges of 2 to 4 m
-# only, sort them by incidence, and compare with (02.6): $c_1$ from the readings that look square
+# By (02.6) a reading at a slant is worse. Is this true of the real device? We take ranges of 2 to 4
+# m only, sort them by incidence, and compare with (02.6): $c_1$ from the readings that look square
 # on, and $\sigma_\beta = 0.1°$ from our guess.
 
 # %% slideshow={"slide_type": "fragment"} name="by-slant" tags=["nbval-check-output", "code"]
@@ -823,7 +827,7 @@ for low, *both in zip(a2_at_rest.SLANTS[:-1], 100 * share, 100 * predicted, stri
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## Does the noise grow like the range?
 #
-# Now leave out the slanted ones ($\tan\iota \ge \tfrac12$). The data sheet, Smolec (who
+# Now leave out the readings at a slant ($\tan\iota \ge \tfrac12$). The data sheet, Smolec (who
 # simulates 1 %) and our guess agree in one thing: they all name *one* share of the range, for all
 # ranges.
 
@@ -932,8 +936,9 @@ for (low, high), values in zip(a2_at_rest.WINDOWS, real["steps"], strict=True):
 # turns. At 7 m the step is {= np.median(np.diff(real["steps"][2])):.0f =} mm, at 4.6 m
 # {= np.median(np.diff(real["steps"][1])):.0f =} mm: each time about
 # {= np.median(np.diff(real["steps"][3])) / 11.2**2:.1f =} mm/m² times $r^2$. (At 3 m it drowns in
-# the whole millimetres of the recording.) The device measures $1/r$. It triangulates, as the
-# infrared sensor does. We needed no data sheet; the numbers told us.
+# the whole millimetres of the recording.) The steps of $r$ grow as equal steps of $1/r$ do, so the
+# device measures $1/r$: it triangulates, as the infrared sensor does. We needed no data sheet; the
+# numbers told us.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* This is the one moment of detective work, so give it time. Let the class

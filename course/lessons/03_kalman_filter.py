@@ -146,8 +146,8 @@ views.explore(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** the mixture stands nearer to the surer source and is narrower than both. A useless range
-# finder ($\sigma = 2$ m) hardly moves it, but never widens it.
+# **See:** the mixture stands nearer to the surer source and is narrower than both. A poor range
+# finder ($\sigma = 2$ m) hardly moves the mixture, but it never widens it.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Bayes' rule was there all the time
@@ -179,7 +179,7 @@ print(f"largest difference of the two curves: {apart:.9f}")
 #   G = \begin{bmatrix} T^2/2 \\ T \end{bmatrix} \tag{03.6}$$
 #
 # $F$ moves the cart on by its speed, $G$ adds the push. And $q$ is what nobody tells the robot:
-# wheels slip, motors are not exact.
+# wheels slip, and motors are not exact.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Mean and covariance
@@ -193,8 +193,8 @@ print(f"largest difference of the two curves: {apart:.9f}")
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* Dwell on the correlation in the next picture: a bit later the cart measures
-# its position only, and thanks to this very streak corrects its speed. Robot and landmarks will
-# hang together in the same way, and lessons 06 and 07 rest on it.
+# its position only, and thanks to this very streak corrects its speed. Robot and landmarks will be
+# tied together in the same way, and lessons 06 and 07 rest on it.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Two seconds later
@@ -253,7 +253,7 @@ views.explore(
 #
 # The *error* of an estimate is the truth minus the estimate, $\tilde x = x - \hat x$. The truth
 # moves by (03.5). The estimate moves in the same way, but without $q$, of which it knows nothing.
-# Subtract one from the other, and the push cancels, for what is known adds no doubt:
+# Subtract one from the other, and the push cancels, because what is known adds no doubt:
 #
 # $$\tilde x \leftarrow F \tilde x + q \tag{03.7}$$
 #
@@ -537,10 +537,10 @@ views.explore(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# **See:** the map is that of a bowl. The red dot corrects half of the position and leaves the speed
-# alone. The blue star is $P H^{\mathsf T} S^{-1}$, and it lies at the bottom. Move the dot there:
-# before the measurement the error was {= mean_square(0, 0):.3f =}, and no gain leaves less than
-# {= mean_square(*step.K[:, 0]):.3f =}.
+# **See:** the contours are those of a bowl. The red dot corrects half of the position and leaves
+# the speed alone. The blue star is $P H^{\mathsf T} S^{-1}$, and it lies at the bottom. Move the
+# dot there: before the measurement the error was {= mean_square(0, 0):.3f =}, and no gain leaves
+# less than {= mean_square(*step.K[:, 0]):.3f =}.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## Where bell curves come in
@@ -679,7 +679,7 @@ ask(
     {
         "less wrong than with the best gain": "the best gain is at the bottom of the bowl.",
         "more wrong than with the best gain, but less than without a measurement": "this holds for "
-        "1.5 times the best gain. At twice of it the bowl has risen farther.",
+        "1.5 times the best gain. At twice the best gain the bowl has risen farther.",
         "as wrong as if they had not measured": "the bowl is a parabola in the factor, lowest at 1. "
         "At 2 it is as high as at 0.",
     },
@@ -709,8 +709,8 @@ views.show(
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="03-double"
 # **See:** the short form is right at $s = 0$ and $s = 1$ only. With a smaller gain it is too
-# modest, with a larger one it boasts: at $s = 2$ it claims a *negative* mean square. Joseph's form
-# (03.15) would pass through all the dots, and programs prefer it.
+# modest, and with a larger one it claims too much: at $s = 2$ it claims a *negative* mean square.
+# Joseph's form (03.15) would pass through all the dots, and programs prefer it.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## The whole filter on a drive
@@ -844,7 +844,8 @@ for name, values in rms.items():
 # %% slideshow={"slide_type": "fragment"}
 ask(
     "03-half-slip",
-    "A filter believes that the slip is half as large as it is. All else it knows exactly. Where is "
+    "A filter believes that the slip is half as large as it is. It knows everything else exactly. "
+    "Where is "
     "its average NEES?",
     {
         "below the band": "NEES is below where errors are smaller than P says. This filter's P is "
@@ -927,9 +928,8 @@ for name, believed in cases.items():
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### The definition itself
 #
-# At the last step of the 200 drives we can test (03.18) as it stands. In no direction should the
-# mean square of the errors, in units of the variance believed, be above 1 by more than chance
-# allows:
+# At the last step of the 200 drives we can test (03.18) itself. In no direction should the mean
+# square of the errors, in units of the variance believed, be above 1 by more than chance allows:
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="03-half-slip"
 for slip in (0.5, 1, 2):
@@ -937,6 +937,10 @@ for slip in (0.5, 1, 2):
     result = consistency((truth - wrong.x)[:, -1], np.tile(wrong.P[-1], (200, 1, 1)))
     verdict = "refuted" if result.refuted else "nothing against it"
     print(f"slip × {slip:3}: largest {result.largest:.2f}, limit {result.limit:.2f}: {verdict}")
+
+# %% [markdown] slideshow={"slide_type": "fragment"} answers="03-half-slip"
+# Half the slip is refuted. Twice the slip is not: (03.18) allows a filter to be too modest. That is why
+# NEES has a band with two ends.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=1
 # ## Who had the idea, and what comes next
@@ -965,8 +969,8 @@ for slip in (0.5, 1, 2):
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Deeper: best for every state at once
 #
-# The trace adds square metres to squared metres per second. May one do that? Look at what any other
-# gain costs, with the letters of the cart:
+# The trace adds square metres to squared metres per second. Does this make sense? Look at what any
+# other gain costs, with the letters of the cart:
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 K_best = gains.subs(best)
@@ -1023,7 +1027,7 @@ print("P apart by less than 1e-12:", bool(abs(found.P[-1] - P_patient).max() < 1
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # Nothing was lost: the belief $(\hat x, P)$ holds *everything* that the past has to say about now.
 # The filter is least squares done step by step, with a memory of five numbers, two of $\hat x$ and
-# three of $P$. The patient one does know the *earlier* states better, for it has seen what came
+# three of $P$. The patient one does know the *earlier* states better, because it has seen what came
 # after them; lesson 15 comes back to that.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
@@ -1053,8 +1057,8 @@ for sigma in (1, 1e-5, 1e-6):
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # Where nearly all of a large number is taken away, what is left is rounding. Joseph's form adds two
-# squares, and cannot fail in this way. With everyday numbers (first row) all three forms do, so
-# Joseph's is an insurance, and it costs a few products more.
+# squares, and cannot fail in this way. With everyday numbers (first row) none of the three forms
+# fails, so Joseph's form is an insurance, which costs a few more products.
 #
 # Ready-made filters pay for it. Here is `filterpy`, which many robots use, on the first of our 200
 # drives:

@@ -50,12 +50,12 @@ ask(
     {
         "a round spot, 5 cm wide": "that is the cloud at the start; but a heading that is off takes "
         "its robot farther off with every metre.",
-        "a streak along the way": "that is what wheels do that miscount. These wheels are exact: "
+        "a streak along the path": "that is what wheels do that miscount. These wheels are exact: "
         "every robot drives 3 m.",
-        "a streak across the way": "0.1 rad of heading times 3 m is 0.3 m to the side, six times "
+        "a streak across the path": "0.1 rad of heading times 3 m is 0.3 m to the side, six times "
         "what the place was off by.",
     },
-    right="a streak across the way",
+    right="a streak across the path",
 )
 
 # %% slideshow={"slide_type": "subslide"}
@@ -63,7 +63,7 @@ x_hat, u = np.array([0, 0, 0.7]), np.array([3.0, 0.3])  # what it believes; dist
 P, exact = np.diag([0.05, 0.05, 0.1]) ** 2, np.zeros((2, 2))
 ends = small_errors.driven(x_hat, P, u, exact, np.random.default_rng(4))
 end = models.f_odometry(x_hat, u)
-way = Poses("the way, as believed", [x_hat, end])
+way = Poses("the path, as believed", [x_hat, end])
 
 # %% slideshow={"slide_type": "fragment"} answers="04-streak"
 fig, _ = views.cloud(ends, {}, "Where 1000 robots end", (8, 5), [way])
@@ -71,18 +71,19 @@ along, across = np.array([[np.cos(0.7), np.sin(0.7)], [-np.sin(0.7), np.cos(0.7)
 sigmas = [np.std(ends[:, :2] @ axis) for axis in (along, across)]
 views.show(
     fig,
-    f"End points in a streak across the way: σ is {sigmas[1]:.2f} m across it, {sigmas[0]:.2f} along.",
+    f"End points in a streak across the path: σ is {sigmas[1]:.2f} m across it, {sigmas[0]:.2f} "
+    f"along.",
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="04-streak"
-# The streak lies **across** the way: $\sigma$ is {= sigmas[1]:.2f =} m to the side and
-# {= sigmas[0]:.2f =} m ahead. An error of the heading is levered by the distance.
+# The streak lies **across** the path: $\sigma$ is {= sigmas[1]:.2f =} m to the side and
+# {= sigmas[0]:.2f =} m ahead. The distance works like a lever on an error of the heading.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### A tangent
 #
-# Call the motion $f$. It is no matrix, but our errors are small, and seen from near a smooth function
-# looks like its tangent. With the error $\tilde x = x - \hat x$,
+# Call the motion $f$. It is not linear, but our errors are small, and seen from close up a smooth
+# function looks like its tangent. With the error $\tilde x = x - \hat x$,
 #
 # $$f(\hat x + \tilde x) \approx f(\hat x) + A\,\tilde x. \tag{04.1}$$
 #
@@ -110,7 +111,7 @@ A_here.round(3)
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # The first two columns say that an error of the place stays what it is. The third belongs to the
 # heading: for each radian that it is off, the end is off by {= A_here[0, 2]:.2f =} m in $x$ and by
-# {= A_here[1, 2]:.2f =} m in $y$. That is across the way, and 3 m long.
+# {= A_here[1, 2]:.2f =} m in $y$. That is across the path, and 3 m long.
 
 # %% slideshow={"slide_type": "subslide"}
 ellipse = {"A P Aᵀ, 95 %": A_here @ P @ A_here.T}
@@ -118,7 +119,7 @@ fig, _ = views.cloud(ends, ellipse, "Foretold by one matrix", (8, 5), [way], cen
 foretold = share_inside(Belief(end, A_here @ P @ A_here.T), ends)
 views.show(
     fig,
-    f"The same streak and the ellipse A P Aᵀ round the believed end; {foretold:.0%} lie inside.",
+    f"The same streak and the ellipse A P Aᵀ round the believed end; {100 * foretold:.0f} % lie inside.",
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
@@ -160,8 +161,8 @@ def drive(heading_sigma, distance):
 # %% slideshow={"slide_type": "fragment"} answers="04-bias" tags=["folded"]
 def banana(heading_sigma, distance):
     ends, b = drive(heading_sigma, distance)
-    way = Poses("the way, as believed", [x_hat, b.x])
-    title = f"{share_inside(b, ends):.0%} of the robots are inside the ellipse"
+    way = Poses("the path, as believed", [x_hat, b.x])
+    title = f"{100 * share_inside(b, ends):.0f} % of the robots are inside the ellipse"
     return views.cloud(ends, {"A P Aᵀ, 95 %": b.P}, title, (8, 5), [way], centre=b.x)[0]
 
 
@@ -170,7 +171,7 @@ views.explore(
     lambda heading_sigma, distance: (
         f"End points after {distance:.1f} m, σ of the heading {heading_sigma:.2f} rad: they bend "
         "round the start, the ellipse of the tangent is straight; "
-        f"{share_inside(*drive(heading_sigma, distance)[::-1]):.0%} are inside."
+        f"{100 * share_inside(*drive(heading_sigma, distance)[::-1]):.0f} % are inside."
     ),
     heading_sigma=(0.02, 1.5, 0.6),
     distance=(0.5, 6.0, 3.0),
@@ -186,11 +187,11 @@ print("σ of θ   inside   their average is off f(x̂) by")
 for heading_sigma in (0.1, 0.3, 0.6):
     ends_then, b = drive(heading_sigma, 3.0)
     off = np.hypot(*(ends_then.mean(axis=0) - b.x)[:2])
-    print(f"{heading_sigma:3} rad {share_inside(b, ends_then):8.0%} {off:13.2f} m")
+    print(f"{heading_sigma:3} rad {100 * share_inside(b, ends_then):6.0f} % {off:13.2f} m")
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="04-bias"
-# At 0.6 rad the robots end on average {= off:.2f =} m short of where the filter believes. Nothing in
-# (04.3) tells it so, for a tangent knows nothing of the curve that it touches.
+# At 0.6 rad the robots end on average {= off:.2f =} m short of where the filter believes. Nothing
+# in (04.3) tells it so, because a tangent does not know how its curve bends.
 #
 # **A Jacobian is a promise about small errors.** An EKF must never let its heading get this unsure.
 # Samples (lesson 11) need no tangent, and in the exercise you will do better than (04.3), too.
@@ -238,7 +239,7 @@ A_steps.step("with the step's own Δx and Δy", by_hand, given={dx: f[0] - x, dy
 # $$A = \begin{bmatrix} 1 & 0 & -\Delta y \\ 0 & 1 & \Delta x \\ 0 & 0 & 1 \end{bmatrix} \tag{04.5}$$
 #
 # Here $(\Delta x, \Delta y)$ is the step that the robot made in the world, and $(-\Delta y, \Delta x)$
-# is that step turned by 90°: the streak across the way. You can see it without calculus. If the
+# is that step turned by 90°: the streak across the path. You can see it without calculus. If the
 # heading is off, the whole step swings round its start, and its end moves at right angles to it.
 #
 # **Try** a robot that turns *before* it drives: write $\theta + \Delta\theta$ in the cosine and the
@@ -266,8 +267,9 @@ W
 # The first column, for an error of the distance, points **along** the heading. The second, for an error
 # of the turn, changes the heading only, as the turn comes last.
 #
-# A look at the units finds many a mistake. $C$ holds the *variances* of $d$ and of $\Delta\theta$, in m²
-# and rad². $W$ carries them to the pose, so that $Q$ has m² in its upper left block and rad² in its corner.
+# A look at the units finds many mistakes. $C$ holds the *variances* of $d$ and of $\Delta\theta$,
+# in m² and rad². $W$ carries them to the pose, so that $Q$ has m² in its upper left block and rad²
+# in its corner.
 
 
 # %% slideshow={"slide_type": "subslide"}
@@ -278,7 +280,8 @@ def wheels(distance_error, heading_sigma):
     trusted = A_here @ P @ A_here.T
     claims = {"A P Aᵀ + Q": trusted + noise.Q(jacobians.W_odometry(x_hat, u), C)}
     claims |= {"A P Aᵀ, wheels trusted": trusted}
-    title = f"{share_inside(Belief(end, claims['A P Aᵀ + Q']), ends):.0%} inside the solid ellipse"
+    inside = share_inside(Belief(end, claims["A P Aᵀ + Q"]), ends)
+    title = f"{100 * inside:.0f} % inside the solid ellipse"
     return views.cloud(ends, claims, title, (8, 5), [way], centre=end)[0]
 
 
@@ -286,8 +289,9 @@ def wheels(distance_error, heading_sigma):
 views.explore(
     wheels,
     lambda distance_error, heading_sigma: (
-        f"End points with wheels off by {distance_error:.0%} of the way and a heading off by "
-        f"{heading_sigma:.2f} rad. The first widens the cloud along the way, the second across it; "
+        f"End points with wheels off by {100 * distance_error:.0f} % of the path and a heading off by "
+        f"{heading_sigma:.2f} rad. The first widens the cloud along the path, the second across "
+        f"it; "
         "the solid ellipse follows both, the dashed one only the second."
     ),
     distance_error=(0.0, 0.2, 0.1),
@@ -296,7 +300,7 @@ views.explore(
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # With wheels that err by 10 % of the distance, the streak has become nearly round. $A$ widens it across the
-# way, $W$ along it: two errors at right angles. A filter that trusts its wheels believes in the dashed
+# path, $W$ along it: two errors at right angles. A filter that trusts its wheels believes in the dashed
 # ellipse. Set either slider to zero to see the other error alone.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=7
@@ -314,9 +318,9 @@ views.explore(
 # measurement. Once more that is the Jacobian.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* Ask what atan2 has that the arctangent of the quotient has not. Then do the next
-# derivation with the body: look at a student, step to your left, and let the class say where that student
-# has gone in your view.
+# *For the lecturer:* Ask what atan2 can tell that the arctangent of the quotient cannot. Then do
+# the next derivation with the body: look at a student, step to your left, and let the class say
+# where that student has gone in your view.
 
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
@@ -342,9 +346,10 @@ H_steps.step("the root is r again: give it its name", in_r, given={r: root})
 # -\dfrac{p_x - x}{r} & -\dfrac{p_y - y}{r} & 0 \\[2ex]
 # \dfrac{p_y - y}{r^2} & -\dfrac{p_x - x}{r^2} & -1 \end{bmatrix} \tag{04.9}$$
 #
-# The roman subscript stands for the robot. The row of the range is the unit vector that points from the
-# landmark to the robot: a step that way is the whole change of the range, a turn changes nothing. In the
-# row of the bearing, the $-1$ says that whoever turns left sees the whole world turn right.
+# The roman subscript stands for the robot. The row of the range is the unit vector that points from
+# the landmark to the robot: a step in this direction changes the range by its full length, and a
+# turn does not change it. In the row of the bearing, the $-1$ says that whoever turns left sees the
+# whole world turn right.
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
@@ -456,12 +461,13 @@ for name, bearing in {"subtracted": v[1], "wrapped": wrap(v[1])}.items():
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="04-wrap"
 # Subtracted, the innovation throws the robot almost once round; wrapped, it moves the heading by
-# {= abs(np.degrees(correction[2])):.1f =}°. So every filter that works has
+# {= abs(np.degrees(correction[2])):.1f =}°. So every filter that works wraps the innovation of the
+# bearing,
 #
 # $$v_\beta = \operatorname{wrap}(z_\beta - h_\beta(\hat x, p)) \in (-\pi, \pi], \tag{04.12}$$
 #
-# though no derivation says it: slopes know nothing of the jump. And all angles are in **radians**, for
-# only then is the slope of the sine a cosine.
+# although no derivation asks for it, since a slope does not see the jump. And all angles are in
+# **radians**, because only then is the slope of the sine a cosine.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* This fault shows only when a landmark passes behind the robot; tests with everything
@@ -507,10 +513,10 @@ g = sp.Matrix([x + r * sp.cos(theta + beta), y + r * sp.sin(theta + beta)])  # t
 # goes along; turn it, and the end swings sideways, as the step did in (04.5).
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# How wrong is a sight? The range of our lidar errs by a share $k$ of itself, the bearing by the same
-# $\sigma_\beta$ at every range. A covariance holds the *squares*:
+# How wrong is a sight? As in lesson 02, the range errs by a share $c_1$ of itself, and the bearing
+# by the same $\sigma_\beta$ at every range. A covariance holds the *squares*:
 #
-# $$R = \begin{bmatrix} (k\,r)^2 & 0 \\ 0 & \sigma_\beta^2 \end{bmatrix} \tag{04.15}$$
+# $$R = \begin{bmatrix} (c_1\,r)^2 & 0 \\ 0 & \sigma_\beta^2 \end{bmatrix} \tag{04.15}$$
 
 # %% slideshow={"slide_type": "subslide"}
 ask(
@@ -537,7 +543,9 @@ def first_sight(landmark_range, heading_sigma):
     J_r, J_z = jacobians.J_xr(x_hat, z), jacobians.J_z(x_hat, z)
     P_nn, p = small_errors.new_landmark(P, J_r, J_z, R), models.g(x_hat, z)
     line = Poses("the line of sight", [x_hat, [*p, 1.2]])
-    title = f"{np.mean(nees(marks - p, P_nn) < 5.99):.0%} of the places are inside the ellipse"
+    title = (
+        f"{100 * np.mean(nees(marks - p, P_nn) < 5.99):.0f} % of the places are inside the ellipse"
+    )
     return views.cloud(marks, {"P_nn of (04.17), 95 %": P_nn}, title, (8, 5), [line], centre=p)[0]
 
 
@@ -612,9 +620,10 @@ print("P_ni =", E(p_n * p_i.T))
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=3
 # ## Trust nothing: three ways to the same matrix
 #
-# A derivation can be mistyped, a program can be mistyped, and differences depend on their step size. That
-# all three go wrong in the same way is hardly possible. So at one pose with nothing special about it we
-# hold three against each other: the derivation, the code of `slamlab`, and `slopes` of the model itself.
+# A derivation can be mistyped, a program can be mistyped, and differences depend on their step
+# size. It is hardly possible that all three go wrong in the same way. So, at one pose with nothing
+# special about it, we compare three matrices: the one derived, the one that the code of `slamlab`
+# computes, and the `slopes` of the model itself.
 
 # %% slideshow={"slide_type": "fragment"}
 at = {x: 1.2, y: -0.7, theta: 0.9, p_x: -1.5, p_y: 2.2, d: 1.3, dtheta: 0.4, r: 3.1, beta: 1.1}
@@ -704,13 +713,13 @@ views.explore(
 (right, _), (wrong, believed), (forgiven, _) = last(1, 3), last(-1, 3), last(0.5, 3)
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="04-sign"
-# With the wrong sign the median error is {= 100 * wrong:.1f =} cm after 20 sights, with the right $H$
-# {= 100 * right:.1f =} cm. And the filter believes in {= 100 * believed:.1f =} cm: it is sure of
-# something wrong, for no innovation enters $P$ (lesson 03).
+# With the wrong sign the median error is {= 100 * wrong:.1f =} cm after 20 sights, with the right
+# $H$ {= 100 * right:.1f =} cm. And the filter believes in {= 100 * believed:.1f =} cm: it is sure
+# of something wrong, because no innovation enters $P$ (lesson 03).
 #
-# Move the factor. At one half the error is {= 100 * forgiven:.1f =} cm, nearly as good as right: the
-# next sight mends what the last one missed. A wrong *size* may be forgiven; a wrong *sign* sends the robot the
-# wrong way. Neither can be read off the believed $\sigma$. Only a test finds it.
+# Move the factor. At one half the error is {= 100 * forgiven:.1f =} cm, nearly as good as right:
+# the next sight mends what the last one missed. A wrong *size* may be forgiven; a wrong *sign*
+# sends the robot the wrong way. Neither shows in the believed $\sigma$. Only a test finds them.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Literature
@@ -739,9 +748,9 @@ views.explore(
 #
 # The sections below this one are optional.
 #
-# **Exercise:** [04 · Models and Jacobians](../exercises/ex04_models_and_jacobians.ipynb). You write $H$ and
-# the Jacobians of a new landmark, derive that of a camera which is in no book, and beat the tangent where it
-# fails. The models judge you, not a stored answer.
+# **Exercise:** [04 · Models and Jacobians](../exercises/ex04_models_and_jacobians.ipynb). You write
+# $H$ and the Jacobians of a new landmark, derive the Jacobian of a camera that is in no book, and
+# beat the tangent where it fails. The models judge you, not a stored answer.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Deeper: a robot that steers
@@ -766,8 +775,8 @@ f_steered = sp.Matrix([X_ahead, Y_ahead, theta + T * V / B * sp.sin(gamma)])
 )
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
-# Nothing: it is (04.5) again. Whatever drives a robot, an error of its heading swings the step that it
-# makes. Only $W$ differs, for the noise is in $V$ and $\gamma$ now:
+# Nothing: it is (04.5) again. Whatever drives a robot, an error of its heading swings the step that
+# it makes. Only $W$ differs, because the noise is now in $V$ and $\gamma$:
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 W_steered = f_steered.jacobian([V, gamma])
@@ -799,10 +808,10 @@ print(sp.simplify(H_r.subs(placed) + H_p.subs(placed) * g.jacobian(pose)))
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## In print
 #
-# Optional: what two theses and a note print of this lesson's formulas. They are good theses, read by
-# committees; every text of this size has such slips. The machine subtracts what is derived from what is
-# printed. In words we say what the difference does to a robot, since a slip that harms nobody is a
-# spelling mistake.
+# Optional: how two theses and a note print this lesson's formulas. They are good theses, and
+# committees have read them; every text of this size has such slips. The machine subtracts what is
+# derived from what is printed. We then say in words what the difference does to a robot, since a
+# slip that harms nobody is only a spelling mistake.
 
 
 # %% slideshow={"slide_type": "fragment"}
@@ -871,7 +880,7 @@ sigma_claimed = np.sqrt(0.05**2 + (3.0 * 0.1) ** 2)  # (12) with A of §4.1, 3 m
 # ### In print: noise
 
 # %% slideshow={"slide_type": "fragment"} tags=["folded", "nbval-check-output"]
-c, k, dt = sp.symbols("c k Δt", positive=True)
+c, c_1, dt = sp.symbols("c c_1 Δt", positive=True)
 C_8 = sp.diag(c * dx**2, c * dy**2, c * dt**2)
 W_6 = sp.Matrix([dt * sp.cos(theta), dt * sp.sin(theta), dtheta])
 try:
@@ -879,11 +888,11 @@ try:
 except sp.ShapeError:
     print("Smolec (8), Q: refused,", W_6.shape, "times", C_8.shape)
 meant = sp.Matrix([Dx, Dy, dtheta])
-Q_8, Q = c * meant * meant.T, W * sp.diag(k, c) * W.T
+Q_8, Q = c * meant * meant.T, W * sp.diag(c_1, c) * W.T
 print("rank of what (8) means:", Q_8.rank(), " of W C Wᵀ:", Q.rank())
 print("its variance of the heading, driving straight on:", Q_8[2, 2].subs(dtheta, 0))
 b, s = sp.symbols("b sigma_beta", positive=True)
-compare("Smolec (9), R", sp.diag(r * c, b * beta), sp.diag((k * r) ** 2, s**2))
+compare("Smolec (9), R", sp.diag(r * c, b * beta), sp.diag((c_1 * r) ** 2, s**2))
 C_step = noise.C_odometry([0.1, 0], 0.05, 0.05, turn_per_metre=0.05)
 true_sigma = np.degrees(np.sqrt(50 * C_step[1, 1]))  # 50 steps of 10 cm
 

@@ -11,9 +11,10 @@
 # *Key:* a sight is easy to use as long as only one of the two, pose or landmark, is unknown.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* There are two halves of some 20 minutes each and a finale. If time is short, keep
-# "What an innovation depends on" and the finale, for lesson 06 stands on these; the exercise repeats
-# the rest. Good questions for a poll of the class: the first, the one on one landmark, and the last.
+# *For the lecturer:* There are two halves of some 20 minutes each and a finale. If time is short,
+# keep "What an innovation depends on" and the finale, because lesson 06 builds on these; the
+# exercise repeats the rest. Good questions for a poll of the class: the first, the one on one
+# landmark, and the last.
 
 # %% slideshow={"slide_type": "skip"} tags=["folded"]
 from dataclasses import replace
@@ -62,8 +63,8 @@ gap = np.hypot(*(wheels - run.truth.poses)[-1, :2])
 views.show(fig, f"The true lap closes; the wheels' lap ends {gap:.1f} m beside it.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# The true lap closes. By the wheels alone it ends {= gap:.1f =} m from where the robot really is, since
-# each small error of a turn bends the whole way after it.
+# The true lap closes. By the wheels alone it ends {= gap:.1f =} m from where the robot really is,
+# since each small error of a turn bends the whole path after it.
 #
 # The landmarks can help. But a sight $z$, a range and a bearing, only says where the landmark is *as
 # seen from the robot*. It ties two unknown things together.
@@ -243,10 +244,10 @@ views.show(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="05-largest"
-# Without a map the ellipses swell to {= largest[0]:.2f =} m on the far side of the lap. (On the way home
-# they shrink again: an error of the heading at the start turns the whole lap about its start.) With
-# the map the largest after the start measures {= largest[1]:.2f =} m, in a stretch where no landmark is
-# near, and the last one {= spread(P_poses)[-1]:.2f =} m.
+# Without a map the ellipses swell to {= largest[0]:.2f =} m on the far side of the lap. (On the way
+# home they shrink again: an error of the heading at the start turns the whole lap about its start.)
+# With the map the largest ellipse after the start measures {= largest[1]:.2f =} m, in a stretch
+# where no landmark is near, and the last one {= spread(P_poses)[-1]:.2f =} m.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=3
 # ## How much of a map is needed?
@@ -282,9 +283,10 @@ views.explore(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# With the upper four of the eight landmarks in the map the robot's covariance rises and falls: it grows at
-# the lower right, where nothing known is in sight, and shrinks at the first landmark of the map. Keep in mind
-# that the covariance of a *robot* may grow. A landmark's will turn out never to do so.
+# With the upper four of the eight landmarks in the map the robot's covariance rises and falls: it
+# grows at the lower right, where nothing known is in sight, and shrinks at the first landmark of
+# the map. Keep in mind that the covariance of a *robot* may grow. That of a landmark never does, as
+# the second half will show.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=6
 # ## What one landmark cannot tell
@@ -450,13 +452,14 @@ off = {metres: nees_off_by(metres).mean() for metres in (0.05, 0.3)}
 # **Nobody has an exact map.** So landmarks need covariances, too, and that is the other half.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
-# A robot cannot compute NEES, for it does not know the truth. It can do something else: hold each
-# innovation $v$ against its covariance $S$. In (05.5) both are at hand. A $v$ that is far larger than $S$
+# A robot cannot compute NEES, because it does not know the truth. But it can compare each
+# innovation $v$ with its covariance $S$, and (05.5) has both. A $v$ that is far larger than $S$
 # allows says that something is wrong: the pose, the map, or the sight itself.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* Someone will propose a larger $R$. It helps up to a point. But $R$ stands for noise that
-# is drawn anew at each sight: thirty sights average it away, and they do not average a wrong map away.
+# *For the lecturer:* Someone will propose a larger $R$. It helps up to a point. But $R$ stands for
+# noise that is drawn anew at each sight: thirty sights average this noise away, but not the error
+# of a wrong map.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=4
 # ## Second half: where are they, if I know where I am?
@@ -468,7 +471,7 @@ off = {metres: nees_off_by(metres).mean() for metres in (0.05, 0.3)}
 # $$\hat p_i = g(x, z), \qquad P_{ii} = J_z R J_z^{\mathsf T}. \tag{05.8}$$
 #
 # At every later sight (05.5) corrects it, with $H_{\mathrm p}$ and $P_{ii}$ for $H_{\mathrm r}$ and
-# $P_{\mathrm{rr}}$. There is nothing to predict, for landmarks do not move.
+# $P_{\mathrm{rr}}$. There is nothing to predict, because landmarks do not move.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # $N$ landmarks are $2N$ numbers. Do we need one filter with a covariance of $2N \times 2N$?
@@ -587,7 +590,8 @@ fig, ax = views.growth(
 views.show(fig, f"The squared errors fall as one over k, over {looks[-1]} sights, on the line.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# The errors of 100 robots follow a line that falls as $1/k$. From one place, $k$ sights leave
+# The mean squared errors of 100 robots follow a line that falls as $1/k$. From one place, $k$
+# sights leave
 #
 # $$P_{ii} \approx \tfrac{1}{k}\, J_z R J_z^{\mathsf T}, \tag{05.10}$$
 #
@@ -717,10 +721,11 @@ for name, errors in rms.items():
     print(f"{name:33} median error {np.median(errors):.2f} m, {wins}")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# The poses themselves are mostly better than the wheels'. What is wrong is the covariance, and whoever
-# relies on it, to recognise a landmark or to avoid a wall, is misled. As for the errors themselves, the careful scheme does
-# better than the pretending one in {= np.sum(careful_rms < pretending_rms) =} of {= RUNS =} runs, and one
-# filter for both better than the careful scheme in {= np.sum(together_rms < careful_rms) =}.
+# The poses themselves are mostly better than the wheels'. What is wrong is the covariance, and a
+# program that relies on it, to recognise a landmark or to avoid a wall, is misled. As for the
+# errors themselves, the careful scheme does better than the pretending one in
+# {= np.sum(careful_rms < pretending_rms) =} of {= RUNS =} runs, and one filter for both better than
+# the careful scheme in {= np.sum(together_rms < careful_rms) =}.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* Let the careful student win first; the objection is fair, and the reason why it does not
@@ -730,9 +735,9 @@ for name, errors in rms.items():
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Why care is not enough
 #
-# Hold (05.11) against (05.2): the two terms with $P_{\mathrm ri}$ are gone, the covariance *between* robot and
-# landmark. It is not small. The robot placed the landmark from its own pose, so the error that the pose had then is
-# in the landmark as well.
+# Compare (05.11) with (05.2): the two terms with $P_{\mathrm ri}$, the covariance *between* robot
+# and landmark, are gone. This covariance is not small. The robot placed the landmark from its own
+# pose, so the error that the pose had then is in the landmark as well.
 #
 # When the robot sees the landmark again, the shared error cancels and the innovation is small. One filter
 # expects that, knowing $P_{\mathrm ri}$, and learns little. Two filters take it each time for a
@@ -831,8 +836,8 @@ print("largest entry of all cross blocks:", np.abs(P_map[~own]).max())
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## In print
 #
-# Optional: what the MAK thesis prints of this lesson's formulas, if our copy has its subscripts right. Its
-# sections 4.1 and 4.2, the two halves, hold.
+# Optional: how the MAK thesis prints this lesson's formulas, if our copy has its subscripts right.
+# We found nothing wrong in its sections 4.1 and 4.2, which are the two halves.
 #
 # | place | printed | right | harm |
 # | --- | --- | --- | --- |

@@ -128,12 +128,14 @@ sigma_seen = innovations(P_doubt)[:, 1].std()
 sigma_apart, sigma_together = (np.sqrt(S[1, 1]) for S in expected(P_doubt))
 
 # %% [markdown] slideshow={"slide_type": "subslide"} answers="06-second"
-# The bearings of the 1000 robots scatter by {= sigma_seen:.3f =} rad. The filter that keeps
-# $P_{\mathrm ri}$ expects {= sigma_together:.3f =} rad, the other one {= sigma_apart:.3f =}. Move the sliders:
-# however lost the robots are, their innovations stay as small, since each landmark is lost *with* its robot.
+# The innovations of the 1000 robots' bearings scatter by {= sigma_seen:.3f =} rad. The filter that
+# keeps $P_{\mathrm ri}$ expects {= sigma_together:.3f =} rad, the other one {= sigma_apart:.3f =}.
+# Move the sliders: however wrong the robots are, their innovations stay as small, because each
+# landmark is misplaced *with* its robot.
 #
-# The filter without $P_{\mathrm ri}$ gets an innovation far smaller than it feared, and concludes that its pose
-# must be good. It has learned nothing of the kind. That is what became of lesson 05's careful student.
+# The filter without $P_{\mathrm ri}$ gets an innovation far smaller than it expected, and concludes
+# that its pose must be good. It has learned nothing of the kind. That is what became of lesson 05's
+# careful student.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* Say it with a boat. You are lost at sea, you throw a buoy overboard and measure how
@@ -223,8 +225,8 @@ changed = np.sum(before != mak.P)
 print(f"100 landmarks: a drive changes {changed} of the {before.size} numbers in P")
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="06-drive"
-# These are the 9 of the corner and 8 for each landmark, a stripe along two edges. A drive costs a time that grows
-# with $N$, not with $N^2$.
+# These are the 9 of the corner and 8 for each landmark, in a stripe along two edges. So the time
+# that a drive costs grows with $N$, not with $N^2$.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=7
 # ## Augment: a landmark is born
@@ -233,14 +235,14 @@ print(f"100 landmarks: a drive changes {changed} of the {before.size} numbers in
 #
 # $$p_n = g(x_{\mathrm r}, z). \tag{06.4}$$
 #
-# Two errors go into it: that of the pose, through the Jacobian $J_{\mathrm r}$ of $g$, and that of the
-# sight, through $J_z$. Nobody else's estimate changes.
+# Two errors go into it: that of the pose, through the Jacobian $J_{\mathrm r}$ of $g$, and that of
+# the sight, through $J_z$. No other estimate changes.
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
     "06-strangers",
-    "The robot knows landmark $i$ and now places landmark $n$. No sight ever held the two at "
-    "once. Is $P_{ni}$, the covariance of their errors, zero?",
+    "The robot knows landmark $i$ and now places landmark $n$. No single sight ever showed both. "
+    "Is $P_{ni}$, the covariance of their errors, zero?",
     {
         "yes: nothing was measured between them": "no measurement is needed: the robot's error is "
         "in both of them.",
@@ -347,9 +349,10 @@ views.show(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# Landmark $a$ was placed from an exact pose. The only error in it is the sensor's, so it is related to nobody.
-# Driving colours the robot's own block, because its heading and its place err together. Then $b$ is born as a
-# relative of the robot, and still a stranger to $a$: the robot has nothing of $a$'s error to hand on.
+# Landmark $a$ was placed from an exact pose. The only error in it is the sensor's, which it shares
+# with nothing else. Driving colours the robot's own block, because its heading and its place err
+# together. Then $b$ is born as a relative of the robot, and still a stranger to $a$: the robot has
+# nothing of $a$'s error to hand on.
 #
 # What has to happen before the last white blocks get a colour?
 
@@ -392,7 +395,7 @@ ask(
 #
 # $$x \leftarrow x + K v, \qquad P \leftarrow P - K S K^{\mathsf T}. \tag{06.9}$$
 #
-# Angles are wrapped, as ever: the bearing in $v$, and the heading in $x$.
+# Angles are wrapped, as always: the bearing in $v$, and the heading in $x$.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* Three things usually go wrong when students write this. The bearing in $v$ is not wrapped; the
@@ -440,9 +443,9 @@ views.show(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="06-unseen"
-# Nobody looked at $b$, and yet it moved by {= far["b"]:.0f =} cm and grew surer. It had been placed by the robot, and
-# the robot has learned how wrong it was. $a$ moved by {= far["a"]:.1f =} cm only, for it was the sure one: the
-# information went from $a$ to whoever needed it.
+# Nobody looked at $b$, and yet it moved by {= far["b"]:.0f =} cm and grew surer. It had been placed
+# by the robot, and the robot has learned how wrong it was. $a$ moved by {= far["a"]:.1f =} cm only,
+# because it was known well already: the information went from $a$ to those that needed it.
 
 # %% slideshow={"slide_type": "subslide"} answers="06-unseen"
 pictures = {"before a is seen again": correlation(P_was), "after": correlation(story.P)}
@@ -483,8 +486,8 @@ result = run(source, MakSlam(source.robot, source.sensor), keep)
 # %% slideshow={"slide_type": "subslide"}
 ask(
     "06-drift",
-    "The robot starts exactly known, and drives round once among landmarks it has never seen. How does its "
-    "error of position go on until it comes back to the first ones?",
+    "The robot starts exactly known, and drives round once among landmarks it has never seen. How "
+    "does its position error develop until it comes back to the first ones?",
     {
         "it stays small: there is always a landmark in sight": "but each was placed by the robot itself. "
         "A map of its own making cannot tell it where it is.",
@@ -529,9 +532,10 @@ views.show(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="06-drift"
-# While all landmarks are new, the filter drifts: a map of its own making cannot tell the robot where it is. In this
-# run its error reaches {= own.max():.1f =} m. In {= np.sum(by_filter < by_wheels) =} of 20 such runs it drifts less
-# than the wheels. It *knows* that it drifts, for its σ grows along with its error. And then, at step
+# While all landmarks are new, the filter drifts: a map of its own making cannot tell the robot
+# where it is. In this run its error reaches {= own.max():.1f =} m. In
+# {= np.sum(by_filter < by_wheels) =} of 20 such runs it drifts less than the wheels. It *knows*
+# that it drifts, because its σ grows along with its error. And then, at step
 # {= own.argmax() + 1 =}, something happens that odometry has no part in.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=6
@@ -660,8 +664,9 @@ early, late = rho[3:13, 3:13].mean(), rho[-10:, -10:].mean()
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=8
 # ## How far it sees, how well it counts
 #
-# Does the filter tell the truth about itself? NEES says so: it is 3 on average where $P$ is right, and larger where
-# the filter is too sure. In the runs so far, the robot sees 2.5 m far, and its turns err by 0.7° a second.
+# Does the filter tell the truth about itself? NEES is 3 on average where $P$ is right, and larger
+# where the filter is too sure. In the runs so far, the robot sees 2.5 m far, and its turns err by
+# 0.7° a second.
 #
 # We now let it see less far, and give it worse wheels. The filter is told of both, exactly.
 
@@ -790,14 +795,16 @@ print(f"mean NEES: Jacobians at the estimate {nees_with('standard'):.1f}, ", end
 print(f"at the truth {nees_with('ideal'):.1f}")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# It does not help here: over errors as large as this no straight line will do, wherever it touches the curve. What
-# helps is to keep the errors small. A farther sight does so in two ways, for more landmarks hold the
-# heading, and the loop closes earlier. Lesson 07 shows a case in which the place of the Jacobians does matter.
+# It does not help here; it makes things worse. Over errors as large as this no straight line will
+# do, wherever it touches the curve. What helps is to keep the errors small. Seeing farther does so
+# in two ways: more landmarks hold the heading, and the loop closes earlier. Lesson 07 shows a case
+# in which the place of the Jacobians does matter.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* The steps of a run hang together, so an excursion beyond the band is one event, not ten.
-# `python -m slamlab.studies.consistency` drives a hundred runs of seven rounds each, with standard, first-estimates
-# and ideal Jacobians on the same readings, and writes the table.
+# *For the lecturer:* Neighbouring steps of a run share their errors, so an excursion beyond the
+# band is one event, not ten. `python -m slamlab.studies.consistency` drives a hundred runs of seven
+# rounds each, with standard, first-estimates and ideal Jacobians on the same readings, and writes
+# the table.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=3
 # ## The order matters
@@ -810,12 +817,13 @@ ask(
     {
         "nothing: in the end all three steps are done": "the sight was made *after* the drive; it is placed from "
         "a pose that the robot had left.",
-        "the errors average out over many sights": "the displacement is the same for each landmark, a step "
-        "backwards along the way: it is no noise.",
-        "landmarks land a step behind, and $P$ knows nothing of it": "the filter then bends the robot to a map "
+        "the errors average out over many sights": "the displacement is the same for each "
+        "landmark, a step backwards along the path, and so it is no noise.",
+        "landmarks end up a step behind, and $P$ does not know it": "the filter then bends the "
+        "robot to a map "
         "that it believes too much.",
     },
-    right="landmarks land a step behind, and $P$ knows nothing of it",
+    right="landmarks end up a step behind, and $P$ does not know it",
 )
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="06-order"
@@ -910,8 +918,8 @@ for name, rows in parts.items():
     print(f"{name:5} moves {100 * moved:.1f} cm, σ from {100 * was:.1f} to {100 * is_now:.1f} cm")
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
-# The robot moves as well, though nobody saw anything. The more precise the news, the smaller is its $R$. If the
-# news is certain, $R$ is zero, and that will do as long as $S$ can be inverted.
+# The robot moves as well, though nobody saw anything. The more precise the news, the smaller its
+# $R$. If the news is certain, $R$ is zero, and that will do as long as $S$ can be inverted.
 #
 # A landmark can also leave: a chair may have been moved. Its rows and columns of $x$ and $P$ are struck out, and
 # that is all. Nobody else changes, and what the landmark once taught the others stays with them.
@@ -943,8 +951,9 @@ print("left:", story.ids, " P of robot and b unchanged:", np.array_equal(story.P
 # You can build EKF-SLAM from three steps, name every block of its covariance and who made it, watch a loop close, and
 # tell by NEES when the filter is too sure of itself.
 #
-# **What comes next:** [lesson 07](07_correlations.ipynb) looks at the white and the coloured blocks: why correlations
-# cannot be dropped, what they cost, and ways round that cost.
+# **What comes next:** [lesson 07](07_correlations.ipynb) looks at the white and the coloured
+# blocks: why correlations cannot be dropped, what they cost, and how some of that cost can be
+# avoided.
 #
 # The sections below this one are optional.
 #
@@ -1004,10 +1013,11 @@ print(f"P − B Bᵀ is the new P: {np.allclose(mak.P, P_then - step.B @ step.B.
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Deeper: a calm display
 #
-# The EKF note adds a step: after the update, a recursive filter smooths what is *shown*. Its formula is lost in our
-# copy. The plainest one keeps a share $\lambda$ of the old gap between the shown pose $s$ and the estimate:
+# The EKF note adds a step: after the update, a recursive filter smooths what is *shown*. Its
+# formula is lost in our copy. The plainest one keeps a share $\lambda$ of the old gap between the
+# pose that is shown and the estimate:
 #
-# $$s \leftarrow s \oplus o, \qquad s \leftarrow \hat x + \lambda\,(s - \hat x), \tag{06.10}$$
+# $$x_{\text{shown}} \leftarrow x_{\text{shown}} \oplus o, \qquad x_{\text{shown}} \leftarrow \hat x + \lambda\,(x_{\text{shown}} - \hat x), \tag{06.10}$$
 #
 # where $o$ is the motion told by the wheels. A landmark stands still, so it has only the second half. `MakSlam`
 # offers both. Is what is shown more accurate for some $\lambda > 0$, or only calmer?
@@ -1034,9 +1044,9 @@ for share, (error, jump, landmark) in smoothed.items():
     print(f"landmarks off by {landmark:.1f} cm")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# It is calmer, and more accurate in none of these. The estimate has made use of every measurement so far, and
-# mixing the old gap into it brings back what the last one has just refuted. For a display the calm may be worth
-# that; a controller should get the estimate.
+# What is shown is calmer, but in none of these cases more accurate. The estimate has made use of
+# every measurement so far, and mixing the old gap into it brings back what the last one has just
+# refuted. For a display the calm may be worth that; a controller should get the estimate.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Deeper: without a notebook
@@ -1055,8 +1065,9 @@ print(subprocess.run(command + words, capture_output=True, text=True).stdout)
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## In print
 #
-# Optional: what our two sources print of this lesson's formulas. (Smolec's program stands in figures only. What it
-# does is told by line numbers and prose, so the last row may do it an injustice.)
+# Optional: how our two sources print this lesson's formulas. (Smolec's program is printed in
+# figures only. We know what it does from line numbers and prose, so the last row may do it an
+# injustice.)
 #
 # | place | printed | right | harm |
 # | --- | --- | --- | --- |

@@ -2,7 +2,8 @@
 # # 07 · Correlations
 #
 # **You will be able to** say block by block where the correlations of a map come from, what breaks
-# when they are dropped, what they cost, and which ways round that cost give nothing away.
+# when they are dropped, what they cost, and how some of that cost can be avoided without losing
+# anything.
 #
 # **90 minutes**, in two parts of 45: where correlations come from, and what they are good for.
 # **Before:** lesson [06](06_ekf_slam.ipynb), which builds the filter, and NEES from lesson
@@ -66,7 +67,7 @@ ask(
         "all three": "each sighting has noise of its own, but it corrects robot and landmark by one "
         "and the same innovation.",
         "only the one between the two landmarks": "nobody measured from one to the other; still, "
-        "both now hang on the same robot.",
+        "both now depend on the same robot.",
         "none": "the robot carries what it learned at landmark 1 over to landmark 2.",
     },
     right="none",
@@ -120,7 +121,7 @@ update = (
 update
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# So all of it hangs on the column $P H^{\mathsf T}$ that we have just looked at:
+# So everything depends on the column $P H^{\mathsf T}$ that we have just looked at:
 #
 # $$P \leftarrow P - P H^{\mathsf T} S^{-1} H P \tag{07.3}$$
 
@@ -173,8 +174,8 @@ sighting(P, seen)
 # P_{\mathrm ri} \leftarrow A P_{\mathrm ri}, \qquad P_{ij} \leftarrow P_{ij} \tag{07.5}$$
 #
 # The numbers of the robot's row change, but a zero block stays zero, and the map's blocks do not
-# change at all. So $P$ has the pattern that the first sighting has left. (The letters now mean the
-# blocks as they have become.) Who learns from the second?
+# change at all. So $P$ has the pattern that the first sighting has left. (From here on, the letters
+# stand for the blocks as they are now.) Who learns from the second?
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 P_r1 = of("P_r1", 3, 2)
@@ -245,8 +246,8 @@ for robot_sigma, drive_sigma in ((0.02, 0.0), (0.3, 0.0), (0.3, 0.3)):
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # The filter agrees with (07.7). The worse the robot knows where it is, compared with what its
-# sensor adds, the more do its landmarks err together. A robot that knows its place makes a map
-# without correlations: that was lesson 05's second half.
+# sensor adds, the more its landmarks err together. A robot that knows its place makes a map without
+# correlations: that was lesson 05's second half.
 
 
 # %% slideshow={"slide_type": "subslide"} answers="07-blocks" tags=["folded"]
@@ -274,8 +275,8 @@ views.explore(
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="07-blocks"
 # White is zero, red and blue are strong. The corner of the two landmarks fills last. Make the robot
-# surer, and it pales; let the robot drive badly in between, and it pales as well, for landmark 2
-# then errs mostly by what happened on the way.
+# surer, and it pales; let the robot drive badly in between, and it pales as well, because landmark
+# 2 then errs mostly by what happened on the way.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=9
 # ## A whole loop
@@ -301,8 +302,8 @@ ask(
     "At the end of the lap the robot meets landmark 0 again, the first it ever saw. Landmark 9 "
     "stands at the far end of the loop, out of sight. **What becomes of its ellipse?**",
     {
-        "nothing, until it is seen again": "so it would be if the robot and landmark 9 shared no "
-        "error; but it was this robot that placed it.",
+        "nothing, until it is seen again": "that would be right if the robot and landmark 9 shared "
+        "no error; but it was this robot that placed it.",
         "it shrinks at once": "the robot learns by how much it was wrong, and so by how much it was "
         "wrong when it placed landmark 9.",
         "it grows, as the map is torn": "the filter moves the map as a whole, and it never loses "
@@ -339,8 +340,8 @@ views.explore(
 # The true way is black, the estimate blue. A landmark's colour is its correlation with the one in
 # the square, whose rows and columns are framed on the right (of the 2 × 2 block, the mean of x with
 # x and y with y). Just before the loop closes, 5 and its neighbours are red: they err *together*.
-# Number 0, seen from the start, errs alone. Now press ▶. At one look at number 0 the robot jumps to
-# its place, and what it had misplaced moves along.
+# Number 0, seen from the start, errs alone. Now press ▶. At a single look at number 0 the robot
+# jumps back to where it is, and what it had misplaced moves along.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* Play it twice, once looking at the map, once at the matrix. Then mark number 12,
@@ -375,8 +376,8 @@ for second_of_run in (again - 1, again, again + 4, 96):
 #
 # $$\tilde p_i = \delta \begin{pmatrix} -y_i \\ x_i \end{pmatrix}. \tag{07.8}$$
 #
-# The farther out, the more. So one unknown angle, with the variance $\sigma_\delta^2$, makes all
-# these covariances:
+# The farther out it stands, the more it moves. So one unknown angle, with the variance
+# $\sigma_\delta^2$, makes all these covariances:
 #
 # $$E[\tilde x_i \tilde x_j] = \sigma_\delta^2\, y_i y_j, \qquad
 # E[\tilde x_i \tilde y_j] = -\sigma_\delta^2\, y_i x_j. \tag{07.9}$$
@@ -409,8 +410,8 @@ print(f"of all the map's variance, {shifts:.0%} is displacement and {turn:.0%} a
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="07-sign"
 # Just before the loop closes, {= 100 * (shifts + turn):.0f =} % of the map's variance is that of a
-# stiff plate that is pushed about on a table. Only the rest bends the map. So the *shape* of the map
-# is known better than its place. We shall meet this twice again.
+# stiff plate that is pushed about on a table. Only the rest bends the map. So the *shape* of the
+# map is known better than its place. We shall meet this again, twice.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* This is a good place for the break. A sheet of paper on the desk, pushed and
@@ -446,8 +447,8 @@ ask(
     "an honest filter) **on a lap of the loop?**",
     {
         "near 3: they were small anyway": "just before the loop closed, many were near 1.",
-        "below 3: it knows less, so it claims less": "it knows less, indeed. But does it know that "
-        "it knows less?",
+        "below 3: it knows less, so it claims less": "it does know less. But it takes each "
+        "sighting for fresh news, so it does not know that it knows less.",
         "far above 3: it is too sure": "it takes each sighting for news, even where it hears its own "
         "error come back.",
     },
@@ -532,7 +533,7 @@ views.show(
 # ## The map's certainty never falls
 #
 # While the robot drives blind, it becomes less certain. What do the landmarks do meanwhile, and the
-# ways between them? The vector from landmark $i$ to landmark $j$ has the covariance
+# vectors between them? The vector from landmark $i$ to landmark $j$ has the covariance
 #
 # $$\Delta p_{ij} = p_j - p_i, \qquad \Delta P_{ij} = P_{ii} - P_{ij} - P_{ji} + P_{jj}. \tag{07.10}$$
 
@@ -599,8 +600,8 @@ views.show(
 # $$P_{\mathrm{map}} \leftarrow P_{\mathrm{map}} - B B^{\mathsf T}, \qquad B = K_{\mathrm{map}}\,
 # S^{1/2}. \tag{07.11}$$
 #
-# No variance grows by this, in no direction; nor does any determinant (the proof stands under
-# *Deeper*). We check at every step, for every landmark and up to 120 pairs:
+# No variance grows by this, in any direction, and neither does any determinant (the proof stands
+# under *Deeper*). We check at every step, for every landmark and up to 120 pairs:
 
 # %% slideshow={"slide_type": "fragment"} tags=["folded", "nbval-check-output"] answers="07-grow"
 largest, det = (
@@ -621,7 +622,7 @@ for name, ratios in largest.items():
     print(f"{name}: largest det after / det before = {max(ratios):.6f}")
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="07-grow"
-# None is above 1 but the robot's. This is a law of the filter, whatever its Jacobians are. The filter
+# Only the robot's is above 1. This is a law of the filter, whatever its Jacobians are. The filter
 # that forgot its cross blocks obeys it as well, landmark by landmark, and was wrong all the time:
 # **certainty that never falls is no proof of being right.**
 
@@ -642,9 +643,9 @@ ask(
     right=20,
     tolerance=2,
     unit="cm",
-    reason="no sighting ever tells where the start was, and every landmark hangs on it.",
+    reason="no sighting ever tells where the start was, and every landmark depends on it.",
     wrong={
-        0: "the ways between the landmarks become exact; but where is all of it?",
+        0: "the vectors between the landmarks become exact; but where is the whole?",
         10: "averaging helps against noise that is drawn anew; the start's error is drawn once.",
         28: "that is both axes together; the question is about each.",
     },
@@ -705,13 +706,14 @@ for name, mak in (("compass", compass_map), ("no compass", turned_map)):
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="07-limit"
 # Without a compass one more thing stays unknown: **how the map is turned against the start**. The
-# heading at the start is exact here, by decree; but the robot had turned, with noise, before it
-# placed most of its landmarks, and no later sighting tells that turn from one of the whole map. The
-# shape is exact in the end all the same: hardly anything is left but displacement and turn.
+# heading at the start is exact here, because we said so. But the robot had turned, with noise,
+# before it placed most of its landmarks, and no later sighting can tell that turn from a turn of
+# the whole map. The shape becomes well known all the same: hardly anything is left but displacement
+# and turn.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* The classic proof is about a linear system, in which headings are known. Ask what
-# of a map is exact in the end without a compass: distances and angles.
+# *For the lecturer:* The classic proof is about a linear system, in which headings are known. Ask
+# which parts of a map can become exact without a compass: distances and angles.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=4
 # ## The price
@@ -731,10 +733,10 @@ ask(
     tolerance=0.4,
     reason="P has twice as many rows, each of them twice as long, and every number changes.",
     wrong={
-        2: "so it is for the state x; P has a row and a column for each of its entries.",
+        2: "that is right for the state x, but P has a row and a column for each of its entries.",
         8: "the cube would be the cost of inverting P; what is inverted is S, whose size is that of "
         "the sighting.",
-        1: "so it would be if landmarks were independent, as in lesson 05.",
+        1: "that would be right if landmarks were independent, as in lesson 05.",
     },
 )
 
@@ -818,8 +820,8 @@ print(f"largest difference of any number in x and P: {off:.9f}")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # It costs nothing. The *compressed* EKF drops no correlation, it only waits, and pays for the whole
-# map once a region instead of once a step. (The exercise asks for less: what can the others be told
-# if only the *outcome* of the work in the corner is known?)
+# map once per region instead of once per step. (The exercise asks for less: what can the others be
+# told if only the *outcome* of the work in the corner is known?)
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=3
 # ## A way out: small maps, joined
@@ -847,9 +849,10 @@ claimed = 100 * np.sqrt(np.mean(np.trace(one.filter.blocks()[2], axis1=1, axis2=
 print(f"from one large filter {apart:.1f} cm apart (rms), which itself claims ±{claimed:.1f} cm")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# The result is not the same to the last digit, for the Jacobians are taken elsewhere. Here the
-# difference is {= 100 * apart / claimed:.0f =} % of what the large filter claims to know. A sighting
-# costs the square of a *small* map; joining costs $N^2$, once a map.
+# The result is not the same to the last digit, because the Jacobians are taken at other estimates.
+# Here the difference is {= 100 * apart / claimed:.0f =} % of what the large filter claims to know.
+# A sighting then costs a time that grows with the square of a *small* map; joining costs $N^2$, but
+# only once for each map.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=3
 # ## A way out: a relative map
@@ -868,9 +871,10 @@ for name, covariance in (("landmarks", P_end), ("vectors", D @ P_end @ D.T)):
     print(f"{name}: mean |ρ| of those that are no neighbours: {rho[far].mean():.2f}")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# There is less, but not none: without a compass all vectors share the turn of the map. Distances and
-# angles do not even share that. Dropping what is left does less harm than dropping $P_{ij}$. But
-# it *is* dropped, and the vectors round a closed loop no longer add up to zero unless one sees to it.
+# They share less, but not nothing: without a compass all vectors share the turn of the map.
+# Distances and angles do not even share that. Dropping what is left should do less harm than
+# dropping $P_{ij}$, because it is less. But it *is* dropped, and the vectors round a closed loop no
+# longer add up to zero unless the program makes them do so.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## What even the full filter gets wrong
@@ -883,8 +887,8 @@ for name, covariance in (("landmarks", P_end), ("vectors", D @ P_end @ D.T)):
 # \tag{07.16}$$
 #
 # With three landmarks the state has nine numbers. If robot and landmarks are shifted together along
-# x or y, or turned together, every sighting stays the same. About these three directions nothing may
-# ever be learnt, so the rank of $O$ must be 6.
+# x or y, or turned together, every sighting stays the same. About these three directions nothing
+# can ever be learned, so the rank of $O$ must be 6.
 
 # %% slideshow={"slide_type": "subslide"}
 ask(
@@ -973,10 +977,12 @@ Markdown("\n".join(lines))
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # At a single step, 95 % of the averages of an honest filter over {= study["seeds"][1] + 1 =} runs
-# lie between {= study["band_95"][0]:.2f =} and {= study["band_95"][1]:.2f =}. With good wheels the three filters are close together. With noisy ones
-# the standard filter's NEES is {= noisy_nees:.1f =}, and its heading and its map are the worst: it is
-# surer, *and* farther off. First estimates come close to the ideal. Even the ideal filter leaves the
-# band at some steps, for it, too, puts straight lines in place of bent models (lesson 04).
+# lie between {= study["band_95"][0]:.2f =} and {= study["band_95"][1]:.2f =}. With good wheels the
+# three filters are close together, and the standard one is a little worse. With noisy ones the
+# standard filter's NEES is {= noisy_nees:.1f =}, and its heading and its map are the worst: it is
+# surer, *and* farther off. First estimates come close to the ideal in heading and map, but are
+# above the band at about twice as many steps as it. Even the ideal filter leaves the band at some
+# steps, because it, too, puts straight lines in place of curved models (lesson 04).
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
 noisy = Loop(v_sigma=0.05, omega_sigma=0.05)
@@ -1026,8 +1032,8 @@ for name in ("ideal", "first estimates", "standard"):
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Deeper: why no determinant of the map grows
 #
-# Let $M$ be some rows of the map's covariance, before a sighting, and $M - B B^{\mathsf T}$ after it,
-# as in (07.11). A covariance is left, so $B$ may be written $B = M^{1/2} C$, and
+# Let $M$ be some rows of the map's covariance, before a sighting, and $M - B B^{\mathsf T}$ after
+# it, as in (07.11). What remains is a covariance, so $B$ can be written as $B = M^{1/2} C$, and
 #
 # $$\det(M - B B^{\mathsf T}) = \det M \cdot \det(I - C C^{\mathsf T}), \tag{07.17}$$
 #

@@ -36,12 +36,12 @@ from slamlab.project.world_families import FAMILIES, Family
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=7
 # ## Whose frame?
 #
-# Here is a building that has been drawn by chance, with furniture, and a drive through it. We know the
-# truth, for it is a simulation. A SLAM answers with poses; how good are they?
+# Here is a building that has been drawn at random, with furniture, and a drive through it. We know
+# the truth, because it is a simulation. A SLAM answers with poses; how good are they?
 #
-# The first idea is to take the mean distance between where the robot was and where the SLAM says it was.
-# Let us try it on a SLAM that makes a single mistake: it misjudges *one* turn by a few degrees, and all
-# else it does right.
+# The first idea is to take the mean distance between where the robot was and where the SLAM says it
+# was. Let us try it on a SLAM that makes a single mistake: it misjudges *one* turn by a few
+# degrees, and does everything else right.
 
 # %% slideshow={"slide_type": "fragment"}
 world = draw_world(FAMILIES["plain"], np.random.default_rng([16, 0]), 30.0)
@@ -52,8 +52,8 @@ print(f"{len(world)} readings, {metres[-1]:.0f} m of way, {len(walls.rows)} wall
 # %% slideshow={"slide_type": "fragment"}
 ask(
     "16-once",
-    "One SLAM misjudges its very first turn by 10°, another one its very last turn by 10°. All else is "
-    "right. **Which of the two is the better SLAM?**",
+    "One SLAM misjudges its very first turn by 10°, another one its very last turn by 10°. "
+    "Everything else is right. **Which of the two is the better SLAM?**",
     {
         "the second: its poses are nearer to the truth": "they are, since there is hardly any way left on "
         "which the mistake could show. That is luck of the drive, not skill.",
@@ -114,23 +114,24 @@ views.explore(
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Relations
 #
-# A SLAM chooses its own frame, and a mistake turns all of that frame. So we compare no poses. We compare
-# **relations**: where pose $x_j$ lies as seen from pose $x_i$. The error of a relation is what is left when
-# the true one is undone; a star marks the truth:
+# A SLAM chooses its own frame, and a mistake turns all of that frame. So we do not compare poses.
+# We compare **relations**: where pose $x_j$ lies as seen from pose $x_i$. The error of a relation
+# is what is left when the true one is undone; a star marks the truth:
 #
 # $$e_{ij} = \ominus\left(\ominus x^*_i \oplus x^*_j\right) \oplus \left(\ominus x_i \oplus x_j\right).
 # \tag{16.1}$$
 #
-# The two poses are a certain way apart, such as 5 m, and we take the mean length of $e_{ij}$'s position
-# over all such pairs. One wrong turn spoils only the pairs that have it between them.
+# The two poses are a certain distance apart, measured along the drive, such as 5 m, and we take the
+# mean length of $e_{ij}$'s position over all such pairs. One wrong turn spoils only the pairs that
+# have it between them.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=6
 # ## Short, middle, long
 #
-# How far apart should the two poses be? Each distance asks something else. We let the package's own
-# estimators drive through five such buildings: the wheels alone; `plain`, the ICP of lesson 13 without its
-# care; `icp`, with it; and `graph`, with and without loops. Each is handed one reading after the other,
-# as yours will be.
+# How far apart should the two poses be? Each distance asks a different question. We let the
+# package's own estimators drive through five such buildings: the wheels alone; `plain`, the ICP of
+# lesson 13 without its safeguards; `icp`, with them; and `graph`, with and without loops. Each is
+# handed one reading after the other, as yours will be.
 
 # %% slideshow={"slide_type": "fragment"}
 SMALL = Family("small", plans=(("crrc", "crc"),))  # four rooms at most
@@ -187,22 +188,25 @@ views.show(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="16-lengths"
-# Over 1 m the two differ by {= 1000 * abs(errors["no loops"][1] - errors["graph"][1]):.1f =} mm, over
-# 20 m by {= 1000 * (errors["no loops"][-1] - errors["graph"][-1]):.0f =} mm. A short piece shows the
-# noise of a match, a long one shows drift, and whether loops are closed. The project takes 1, 5 and 20 m, all
-# alike. Since a difficult drive is difficult for all, it counts by which *factor* your errors are smaller than
-# those of the wheels on the same drive.
+# Over 1 m the two differ by {= 1000 * abs(errors["no loops"][1] - errors["graph"][1]):.1f =} mm,
+# over 20 m by {= 1000 * (errors["no loops"][-1] - errors["graph"][-1]):.0f =} mm. A short piece
+# shows the noise of a match, a long one shows drift, and whether loops are closed. The project
+# takes 1, 5 and 20 m, with equal weight. Since a difficult drive is difficult for everyone, what
+# counts is the *factor* by which your errors are smaller than those of the wheels on the same
+# drive.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## Is the map right?
 #
-# A map is a heap of points. Two things may be wrong with it: walls that the robot has seen are missing,
-# and there are points where no wall is. The map score holds one against the other:
+# A map is a heap of points. Two things may be wrong with it: walls that the robot has seen are
+# missing, and there are points where no wall is. The map score takes the share of the walls that
+# are in the map, and subtracts the share of the points that lie on no wall:
 #
 # $$\text{score} = \frac{\text{walls with a point within 5 cm}}{\text{walls that were seen}}
 # - \frac{\text{points more than 15 cm off all walls}}{\text{points}}. \tag{16.2}$$
 #
-# Walls are counted every 10 cm, points one in each cell of 5 cm, so that copies of a point do not count.
+# Walls are counted every 10 cm, and at most one point in each cell of 5 cm, so that copies of a
+# point do not count.
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
@@ -239,12 +243,13 @@ for name, points in maps.items():
     print(f"{name:25} {map_score(points, seen, all_walls):5.2f}")
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="16-map"
-# A flood of points is worth {= map_score(maps["a point everywhere"], seen, all_walls):.2f =}, a map that was
-# drawn by `graph` {= map_score(maps["graph, laid on the truth"], seen, all_walls):.2f =}. Ten centimetres cost
-# half: walls that run along the shift keep their points, the others lose them. In the project a map counts no
-# more than the trajectory that it is drawn along, so floods gain nothing there. Before it is scored, a map is laid
-# on the truth by the rigid motion that brings the *trajectory* nearest to the true one, for a frame is
-# nobody's merit and nobody's fault.
+# A flood of points is worth {= map_score(maps["a point everywhere"], seen, all_walls):.2f =}, a map
+# that was drawn by `graph` {= map_score(maps["graph, laid on the truth"], seen, all_walls):.2f =}.
+# Ten centimetres cost half: walls that run along the shift keep their points, the others lose them.
+# In the project a map counts no more than the trajectory that it is drawn along, so floods gain
+# nothing there. Before it is scored, a map is laid on the truth by the rigid motion that brings the
+# *trajectory* nearest to the true one, because the choice of a frame is nobody's merit and nobody's
+# fault.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=7
 # ## Do you know how sure you are?
@@ -267,7 +272,7 @@ ask(
     reason="half of σ is a quarter of the variance. Its inverse is four times as large, and 4 · 3 = 12.",
     wrong={
         6: "twice the NEES would be half of the variance. You halved σ.",
-        1.5: "who claims less doubt is *over*confident, and that makes NEES larger.",
+        1.5: "to claim less doubt is to be *over*confident, and that makes NEES larger.",
         3: "that is the mean for a claim that is true.",
     },
 )
@@ -295,22 +300,24 @@ views.explore(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="16-half"
-# A claim costs nothing while σ is stated at most {= np.sqrt(NEES_BAND[1] / 3):.1f =} times too small, or
-# {= np.sqrt(3 / NEES_BAND[0]):.1f =} times too large. The band is wide, from {= NEES_BAND[0]:.2f =} to
-# {= NEES_BAND[1]:.1f =}, because neighbouring errors of a drive are alike: a drive tells little more than one draw, and 95 of 100 draws
-# of a χ² with three degrees of freedom lie there. Who claims nothing loses nothing. Who claims to be exact
-# pays 20 points.
+# A claim costs nothing while σ is stated at most {= np.sqrt(NEES_BAND[1] / 3):.1f =} times too
+# small, or {= np.sqrt(3 / NEES_BAND[0]):.1f =} times too large. The band is wide, from
+# {= NEES_BAND[0]:.2f =} to {= NEES_BAND[1]:.1f =}, because neighbouring errors of a drive are
+# alike: a drive tells little more than one draw, and 95 of 100 draws of a χ² with three degrees of
+# freedom lie there. If you claim nothing, you lose nothing. If you claim to be exact, you lose 20
+# points.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Where honest doubt comes from
 #
 # - While only the wheels speak, $P$ grows with each step, as in lesson 04.
-# - A matched scan makes the *step* certain, and not the pose: its doubt is added to that of the pose before.
+# - A matched scan makes the *step* certain, but not the pose: the step's doubt is added to that of
+#   the pose before.
 # - Neighbouring points of a scan share their errors. A hundred points that err alike are worth one.
 # - A loop makes the pose as sure as the old pose was, and the match between them.
 #
-# When you have a formula, compare it with your errors in practice worlds, and scale it until NEES is 3. That
-# is no shame: it is calibration.
+# When you have a formula, compare it with your errors in practice worlds, and scale it until NEES
+# is 3. This is not cheating: it is calibration.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=9
 # ## Two versions, the same worlds
@@ -364,9 +371,10 @@ views.show(
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="16-paired"
 # The first two intervals are wide, and they overlap. Yet without loops the errors are larger by a
-# factor between {= intervals["ratio"][0]:.1f =} and {= intervals["ratio"][1]:.1f =}, far from 1. We took
-# logarithms, since errors differ by factors, and we drew the buildings with replacement, *the same ones for
-# both*. This is the **paired bootstrap**, and by it the ranks of a contest are told apart.
+# factor between {= intervals["ratio"][0]:.1f =} and {= intervals["ratio"][1]:.1f =}, far from 1. We
+# took logarithms, since errors differ by factors, and we drew the buildings with replacement, *the
+# same ones for both*. This is the **paired bootstrap**, and a contest uses it to tell its ranks
+# apart.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* Draw two lists of five numbers at the board, and cover the lines between them. Ask for a
@@ -390,12 +398,14 @@ for name in NAMES:
     )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# Read it from above. A matcher that pairs every point, `plain`, is worse than the wheels: these
-# buildings have doors, and what only one of two scans has seen must not be paired. With that care, `icp`, the
-# errors over 20 m fall from {= np.mean(e["odometry"]):.1f =} m to {= np.mean(e["icp"]):.2f =} m. Loops take away
-# more than half of what `graph` has left without them, and hardly show over 1 m. A part that shows nowhere can go: it costs time, and one day it will break.
+# Read it from top to bottom. A matcher that pairs every point, `plain`, is worse than the wheels:
+# these buildings have doors, and what only one of two scans has seen must not be paired. With its
+# safeguards, as in `icp`, matching brings the errors over 20 m down from the
+# {= np.mean(e["odometry"]):.1f =} m of the wheels to {= np.mean(e["icp"]):.2f =} m. Loops take away
+# more than half of what `graph` has left without them, and hardly show over 1 m. A part that shows
+# nowhere can go: it costs time, and one day it will break.
 #
-# Do decide *before* you look which worlds and which number will tell.
+# Decide *before* you look which worlds and which number will settle the question.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=6
 # ## The best of many
@@ -457,11 +467,13 @@ views.explore(
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Worlds that nobody has seen
 #
-# - Choose by some practice worlds, say `seed=1`, as often as you like. Then tell the score in others, once.
-# - A contest draws its worlds from bits that nobody knows before. Their hash is told, so that nobody
-#   can choose them afterwards either.
-# - A board that is open for weeks can be climbed by luck: hand in fifty versions, and keep the best. The
-#   **Ladder** shows a new score only where it is better by more than luck, and else the old one.
+# - Choose by some practice worlds, say `seed=1`, as often as you like. Then measure the score in
+#   others, once.
+# - A contest draws its worlds from bits that nobody knows beforehand. A hash of these bits is
+#   published first, so that nobody can choose them afterwards either.
+# - A board that is open for weeks can be climbed by luck: hand in fifty versions, and keep the
+#   best. The **Ladder** shows a new score only where it is better by more than luck, and otherwise
+#   the old one.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## What to try first
@@ -491,9 +503,10 @@ views.explore(
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Carried away
 #
-# The odometry tells nothing of it, but the scan does. In five buildings of the family `kidnapped` less than a fifth
-# of the first scan after the jump fitted where the wheels led. In ten other buildings, with people or lost scans in
-# them, more than a third of every scan fitted, unless scans had been lost just before.
+# The odometry does not notice it, but the scan does. In five buildings of the family `kidnapped`
+# less than a fifth of the first scan after the jump fitted where the wheels led. In ten other
+# buildings, with people or lost scans in them, more than a third of every scan fitted, unless scans
+# had been lost just before.
 #
 # The project's solution begins a second map at such a scan. It tries each new keyframe at all places of the
 # first map, in 24 directions, and when two keyframes in a row have been found at places that agree, it joins the maps. In
@@ -502,8 +515,9 @@ views.explore(
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=1
 # ## What you can do now
 #
-# Say how good a SLAM is, over short pieces and long ones, by its map and by its word about itself; compare two
-# versions fairly; find the part that helps; and not be fooled by the best of many.
+# You can say how good a SLAM is, over short pieces and long ones, by its map and by what it says
+# about its own errors; compare two versions fairly; find the part that helps; and avoid being
+# fooled by the best of many.
 #
 # **Literature.** R. Kümmerle and others, "On measuring the accuracy of SLAM algorithms", Autonomous Robots, 2009:
 # relations. A. Geiger, P. Lenz, R. Urtasun, "Are we ready for autonomous driving?", CVPR 2012: errors over lengths,
@@ -511,5 +525,5 @@ views.explore(
 # M. Hardt, "The Ladder: a reliable leaderboard for machine learning competitions", ICML 2015. Read Kümmerle
 # next.
 #
-# **What comes next:** [the project](../exercises/ex16_your_own_slam.ipynb). A class that drives already, three
-# milestones, and worlds that nobody has seen.
+# **What comes next:** [the project](../exercises/ex16_your_own_slam.ipynb). You start from a class
+# that already drives, pass three milestones, and end in worlds that nobody has seen.

@@ -69,6 +69,29 @@ class Question:
         self._told.update({"text/html": shown, "text/plain": said}, raw=True)
 
 
+def by_letters(choices):
+    """The choices of a question by their letters; dict."""
+    return dict(zip("ABCDEFGH", choices, strict=False))
+
+
+def wording(text, choices=None):
+    """What a question shows: its text and, below it, its choices by their letters.
+
+    Parameters
+    ----------
+    text : str, Markdown
+    choices : iterable of str, or None where a number is asked for
+
+    Returns
+    -------
+    str, Markdown
+    """
+    if choices is None:
+        return text
+    listed = "".join(f"\n- **{letter}** {choice}" for letter, choice in by_letters(choices).items())
+    return f"{text}\n{listed}"
+
+
 def ask_choice(id, text, choices, right):
     """Ask a question with choices: a button each.
 
@@ -89,12 +112,11 @@ def ask_choice(id, text, choices, right):
     """
     if len(choices) < 2 or right not in choices:
         raise ValueError(f"{id}: give two choices or more, the right one among them")
-    letters = dict(zip("ABCDEFGH", choices, strict=False))
-    listed = "".join(f"\n- **{letter}** {choice}" for letter, choice in letters.items())
+    letters = by_letters(choices)
     reasons = {
         letter: Answer(choice == right, choices[choice]) for letter, choice in letters.items()
     }
-    question = Question(id, f"{text}\n{listed}", reasons.__getitem__)
+    question = Question(id, wording(text, choices), reasons.__getitem__)
     buttons = []
     for letter, choice in letters.items():
         button = ipywidgets.Button(

@@ -66,15 +66,16 @@ def Q(W, C):
 def R(r, range_error, bearing_sigma, range_sigma=0.0, range_curvature=0.0):
     """Measurement noise covariance of a range and bearing, growing with range (Smolec (9), mended).
 
-    R = diag((k r)² + σ_0² + (c r²)², σ_β²): variances, not standard deviations. Equation (04.15).
+    R = diag((c_1 r)² + σ_0² + (c_2 r²)², σ_β²): variances, not standard deviations.
+    Equation (04.15).
 
     Parameters
     ----------
     r : float, range [m]
-    range_error : float k, standard deviation as a share of the range [1]
+    range_error : float c_1, standard deviation as a share of the range [1]
     bearing_sigma : float σ_β [rad]
     range_sigma : float σ_0, standard deviation at range zero [m]
-    range_curvature : float c, standard deviation per range squared [1/m]
+    range_curvature : float c_2, standard deviation per range squared [1/m]
 
     Returns
     -------

@@ -216,6 +216,7 @@ def test_what_an_exercise_may_not_hold_is_told_with_its_line(root, cell, says):
         ('# %% name="a b"\nprint(1)', "'a b' is no name"),
         ('# %% name="a"\nprint(1)\n\n# %% name="a"\nprint(2)', "'a' stands already in line 8"),
         ("# %%\nprint(1);", "a semicolon"),
+        ("# %% [markdown]\n# It is 38% of all.", "a space stands before %"),
         ("# %%\n%matplotlib inline", "no plain Python"),
         ('# %%\nstyle = {"color": "red"}', "the colour 'red' is typed"),
         ("# %%\n" + "x = 1\n" * 31, "31 lines of code"),
@@ -366,6 +367,12 @@ def test_values_in_prose_are_computed_where_they_stand_and_kept_without_running(
     write(root, VALUE.replace("It is", "So it is"))
     tool.build(path, root=root)
     assert stored(root).cells[3].source == "So it is −2.5, or 6.25."
+
+
+def test_a_value_in_per_cent_is_written_as_the_text_writes_it(root):
+    path = write(root, VALUE.replace("total ** 2:.2f", "-total / 10:.0%"))
+    tool.build(path, root=root)
+    assert stored(root).cells[3].source == "It is −2.5, or 25 %."
 
 
 def test_a_new_value_makes_the_notebook_run_and_differ_until_then(root):

@@ -9,6 +9,7 @@ from course import asking
 from course.derive import FOLDERS
 from course.source import ROOT, read
 from slamlab.checks import ask
+from slamlab.checks.questions import wording
 from slamlab.checks.stored_questions import stored_question
 from slamlab.coursework.progress_file import NAME
 from tests.notebooks import EXERCISES, LESSONS, name
@@ -46,9 +47,14 @@ def test_what_a_source_asks_in_full_is_what_its_notebooks_ask(path):
         assert stored_question(told.pop("id")) == told
     for folder in FOLDERS[source.kind]:
         notebook = nbformat.read(ROOT / folder / source.file, as_version=4)
-        asked = [cell.source for cell in notebook.cells if asking.asks(cell.source)]
-        assert len(asked) == len(found)
-        assert all(set(asking.asked(code)) <= {"id", "unit"} for code in asked)
+        asking_cells = [cell for cell in notebook.cells if asking.asks(cell.source)]
+        assert len(asking_cells) == len(found)
+        for cell, told in zip(asking_cells, found, strict=True):
+            assert set(asking.asked(cell.source)) <= {"id", "unit"}
+            shown = [each.data for each in cell.outputs if "text/markdown" in each.get("data", {})]
+            words = wording(told["text"], told.get("choices"))
+            assert all(data["text/markdown"] == data["text/plain"] == words for data in shown)
+            assert len(shown) == (folder != "exercises")  # those are handed out without outputs
 
 
 @pytest.mark.parametrize("path", EXERCISES, ids=name)

@@ -178,9 +178,9 @@ WARY = Task(
     diagnoses=(
         Diagnosis(
             "shut-out",
-            "Some drives are lost and do not know it: their errors are far larger than P says. Who "
-            "refuses measurements because they do not fit the belief, and stays as sure of it as "
-            "before, refuses the right ones for ever once the belief is wrong.",
+            "Some drives are lost and do not know it: their errors are far larger than P says. A "
+            "filter that refuses measurements because they do not fit its belief, and stays as "
+            "sure of it as before, refuses the right ones for ever once that belief is wrong.",
             lambda i, o: _better(i, o) and (nees_of(i, o) > SHUT).mean() > 0.02,
         ),
         Diagnosis(

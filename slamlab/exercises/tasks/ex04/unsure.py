@@ -237,7 +237,7 @@ TASK = Task(
         Law(
             "every-drive",
             1,
-            f"in no drive you lose more than {LIMITS[2]:g} nat",
+            f"in no drive do you lose more than {LIMITS[2]:g} nat",
             lambda inputs, outputs: lost(inputs, outputs) <= LIMITS[2],
             why=_why,
             asks="Given the heading, all the rest is Gaussian and straight. What is left to "

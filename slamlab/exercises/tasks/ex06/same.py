@@ -96,7 +96,8 @@ SAME = Task(
             2,
             "P is what is still unknown when both are known to be one",
             lambda inputs: {"P": want(inputs)["P"]},
-            asks="Is the landmark that stays as unsure as before? And the robot, and the others?",
+            asks="Is the landmark that remains still as unsure as before? And the robot, and the "
+            "others?",
             step=_on_the_way,
         ),
     ),

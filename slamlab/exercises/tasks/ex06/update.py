@@ -126,7 +126,8 @@ UPDATE = Task(
             2,
             "P holds what belief and sight know together: its inverse is P⁻¹ + Hᵀ R⁻¹ H",
             lambda inputs: {"P": want(inputs)["P"]},
-            asks="Which blocks of K S Kᵀ are zero, and what has that to say of landmarks not seen?",
+            asks="Which blocks of K S Kᵀ are zero, and what does that say about landmarks that are "
+            "not seen?",
             step=_on_the_way,
         ),
     ),

@@ -170,10 +170,11 @@ MORNINGS = Task(
         Law(
             "ways",
             1,
-            "the error is fair, and NEES of the ways from door to door, for each way, is between "
+            "the error is fair, and NEES of the distances from door to door, for each of them, is "
+            "between "
             f"{WAYS[0]} and {WAYS[1]}",
             _honest(_nees_ways, *WAYS),
-            why=_honest_why(_nees_ways, "the ways from door to door"),
+            why=_honest_why(_nees_ways, "the distances from door to door"),
             asks="Neighbouring doors err together. Does your P say so?",
         ),
         Law(

@@ -48,7 +48,7 @@ BETTER = Law(
     "at the end the poses are at most half as far off as those of the wheels",
     _better,
     why=_why,
-    asks="What does a scan show that stays where it is while the robot drives on?",
+    asks="What in a scan stays where it is while the robot drives on?",
 )
 CORRIDOR = Task(
     id="16-corridor",

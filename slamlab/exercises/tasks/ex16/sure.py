@@ -103,7 +103,8 @@ SURE = Task(
         ),
         Diagnosis(
             "too-modest",
-            "The errors are far smaller than the covariance says: who sees walls knows more.",
+            "The errors are far smaller than the covariance says: a robot that sees walls knows "
+            "more.",
             lambda i, o: mean_nees(i, o) <= LOW,
         ),
         Diagnosis(
