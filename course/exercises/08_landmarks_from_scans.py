@@ -295,7 +295,8 @@ def find_pillar(points, band, largest, needed, tries, rng):
 check("08-pillar")
 
 # %% [markdown]
-# Here is a pillar of 40 cm before a wall, with some clutter. The wall has more readings than the pillar has.
+# Here is a pillar of 40 cm in front of a wall, with some clutter. The wall has more readings than
+# the pillar has.
 
 
 # %%
@@ -345,9 +346,10 @@ ask(
 )
 
 # %% [markdown]
-# **Your task.** Give each reading the number of its wall. Readings of one wall get the same number, those of another
-# wall another one, and clutter gets −1. All readings of one *straight line* are of one wall, even where something
-# stands before its middle. Which numbers you use does not matter, as long as they are whole and 0 or more.
+# **Your task.** Give each reading the number of its wall. Readings of one wall get the same number,
+# those of another wall another one, and clutter gets −1. All readings of one *straight line* are of
+# one wall, even where something stands in front of its middle. Which numbers you use does not
+# matter, as long as they are whole and 0 or more.
 #
 # Any method will do. The readings `points` are one turn of a lidar that stands at the origin. They come in the order
 # of their bearing, so the last one is the neighbour of the first. Each range errs by `share` of itself ($1\sigma$,

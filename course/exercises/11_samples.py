@@ -225,9 +225,9 @@ def _():
 # Two samples made the same drive, but one drew it from a narrow hill, the other from a hill four times as wide: may the two weigh the
 # same?
 #
-# **Your task.** The given weights are positive and hold everything that was seen. Multiply them by what (11.4) asks for
-# here, and let them sum to one. Some samples may lie so many $\sigma$ off that no density of theirs can be held in a
-# float.
+# **Your task.** The given weights are positive and hold everything that was seen. Multiply them by
+# what (11.4) asks for here, and let them sum to one. Some samples may lie so many $\sigma$ off that
+# their densities are too small for a float.
 
 
 # %%

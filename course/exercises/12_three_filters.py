@@ -391,10 +391,10 @@ ask(
 # %% [markdown]
 # What tells these places apart, and when?
 #
-# **Your task.** Write a filter that notices the lift and finds itself again. It is given the pose at the
-# start, which is exact, the motions that the wheels tell, and the scans, one after each motion. Any
-# method goes: try again from many poses, follow several at once, weigh samples, look back. All scans are
-# given, so a pose may also be told by what was seen later.
+# **Your task.** Write a filter that notices the lift and finds itself again. It is given the pose
+# at the start, which is exact, the motions that the wheels tell, and the scans, one after each
+# motion. Any method is allowed: try again from many poses, follow several at once, weigh samples,
+# look back. All scans are given, so a pose may also be told by what was seen later.
 #
 # The check lets your filter follow 24 drives of 30 readings in six halls. A reading strays if the
 # position is off by more than 0.3 m. As long as nobody lifts the robot, hardly any reading may stray.

@@ -7,10 +7,11 @@
 #
 # **60 minutes. Before:** lesson [13 · Scan matching](../notebooks/13_scan_matching.ipynb).
 #
-# Replace each `raise NotImplementedError(...)` by your code, run the cell, and run the check below it, as often as you like. A
-# check tries random clouds. It says which law is broken and by which input, and what the mistake is, if it knows it. Tasks 1
-# to 3 build ICP. Task 4 takes the step across walls to a case that the lesson has not treated. Task 5 is open: any method
-# goes, and better ones earn more.
+# Replace each `raise NotImplementedError(...)` by your code, run the cell, and run the check below
+# it, as often as you like. A check tries random clouds. It says which law is broken, by which
+# input, and, if it recognises the mistake, what the mistake is. Tasks 1 to 3 build ICP. Task 4
+# takes the step across walls to a case that the lesson has not treated. Task 5 is open: any method
+# is allowed, and better ones earn more.
 #
 # All lengths are in metres and all angles in radians. A cloud is an array `(n, 2)`, one point a row. A motion is the homogeneous
 # matrix
@@ -290,9 +291,10 @@ def _():
 #
 # In a bare corridor all normals point across. Will you have to invert a singular matrix? And what if there is no pair at all?
 #
-# Normals have the length 1; to which side of its wall one points means nothing. All $\sigma_i$ are positive, and $Q$ has an
-# inverse; errors of $x$, $y$ and $\theta$ may be correlated. There may be any number of pairs, also one or none, and coordinates may be
-# whole numbers (`int`).
+# Normals have the length 1; it does not matter to which side of its wall a normal points. All
+# $\sigma_i$ are positive, and $Q$ has an inverse; errors of $x$, $y$ and $\theta$ may be
+# correlated. There may be any number of pairs, also one or none, and coordinates may be whole
+# numbers (`int`).
 
 
 # %% name="line-step"
@@ -356,15 +358,17 @@ def _():
 
 
 # %% [markdown] answers="ex13-side"
-# The doubt of the wheels along the corridor stays exactly as it was, until the wall at its end is seen: no side wall says anything of it, and $P$ says so. You did not have to look
-# for that direction or to name it. Odometry fills in where the walls are silent.
+# The doubt of the wheels along the corridor stays exactly as it was, until the wall at its end is
+# seen: no side wall says anything about it, and $P$ shows this. You did not have to look for that
+# direction or to name it. Odometry fills in what the walls do not tell.
 
 # %% [markdown]
 # ## 5 · Half an overlap and a bad guess (open)
 #
-# A robot with a lidar that sees 240° has turned by 60° to 115°. So it has not seen before about half of what it sees now, and
-# boxes hide much of the rest. Its odometry slipped: the guess is off by 50 cm to 120 cm and by 30° to 90°. ICP goes downhill from
-# where it starts, and from there it goes into the wrong valley.
+# A robot with a lidar that sees 240° has turned by 60° to 115°. So about half of what it sees now
+# it has not seen before, and boxes hide much of the rest. Its odometry slipped: the guess is off by
+# 50 cm to 120 cm and by 30° to 90°. ICP goes downhill from where it starts, and from there it goes
+# into the wrong valley.
 #
 # **Your task.** Solve as many of 16 as you can, by any method. A match is *home* when it is off by less than 20 cm and 5°. There
 # are points for four, for eight and for thirteen that are home, and for nine that are off by less than 1.5 cm and 0.5° only. The ranges err by

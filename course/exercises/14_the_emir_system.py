@@ -128,8 +128,8 @@ def _():
 # %% [markdown]
 # ## 2 · A lidar that the lesson has not seen
 #
-# Of another lidar you have no example, but only what its maker's data sheet says. It sends **packets** of $n$
-# points, with $n$ from 1 to 255. While it takes them it turns on, by less than a full turn:
+# For another lidar you have no example, only what its maker's data sheet says. It sends **packets**
+# of $n$ points, with $n$ from 1 to 255. While it takes them it turns on, by less than a full turn:
 #
 # | byte | meaning |
 # | --- | --- |
@@ -294,9 +294,10 @@ def _():
 # %% [markdown]
 # ## 5 · Drivers that others wrote
 #
-# Your `unwrap` is right, as a check says. Most drivers come from others, and without a check. You do not see
-# their code. All you can do is to hand such a driver readings and to compare what it returns with what it should
-# return. But which readings? A drive ahead and back, as above, finds no more than a third of what can be wrong.
+# A check has told you that your `unwrap` is right. Most drivers are written by others and come
+# without a check. You do not see their code. All you can do is to hand such a driver readings and
+# to compare what it returns with what it should return. But which readings? A drive ahead and back,
+# as above, finds no more than a third of what can be wrong.
 #
 # This is what a **right driver** promises:
 #

@@ -219,8 +219,9 @@ def _():
 
 
 # %% [markdown] answers="ex15-steps"
-# The first step takes $e$ for straight over turns that are far from small, so it only halves $\chi^2$. The second
-# puts nearly all right, and after the third nothing moves. Every turn has got its share.
+# The first step treats $e$ as linear over turns that are far from small, so it only halves
+# $\chi^2$. The second step corrects nearly everything, and after the third nothing moves any more.
+# Every turn has got its share.
 
 
 # %% [markdown]
@@ -233,8 +234,9 @@ def _():
 # $$d = \left(p_j + \mathrm{Rot}(\theta_j)\,a_j\right) - \left(p_i + \mathrm{Rot}(\theta_i)\,a_i\right), \qquad
 # e = \lVert d\rVert - r.$$
 #
-# Such an edge belongs into the same graph as all others. Only its $e$ is now one number, and $J_i$ and $J_j$ are single
-# rows. What does a small motion of pose $i$ do to $d$, and how much of that changes the length of $d$?
+# Such an edge belongs in the same graph as all the others. Only its $e$ is now one number, and
+# $J_i$ and $J_j$ are single rows. What does a small motion of pose $i$ do to $d$, and how much of
+# that changes the length of $d$?
 #
 # One case is easy to check: if a radio sits at the centre of its robot, one entry of $J_i$ is zero. Which one, and
 # why?
@@ -375,8 +377,9 @@ def _():
 # other**: one after the other they take a place for its twin 2.5 m away, as the lesson's two rooms did. Where liars agree,
 # the honest may look like the outliers, and weights alone no longer help.
 #
-# **Your task.** Draw the best map that you can. Any method goes: refuse loops before you trust any, look for loops that
-# support each other, weigh them, or try several beginnings and compare what they cost. A few questions that may lead on:
+# **Your task.** Draw the best map that you can. Any method is allowed: refuse loops before you
+# trust any, look for loops that support each other, weigh them, or try several beginnings and
+# compare what they cost. A few questions that may lead on:
 #
 # - How far may the wheels have drifted between two poses, and which loops claim more than that?
 # - Once one loop is trusted, the doubt about all other poses shrinks. What does this say about the loops that have not been

@@ -8,7 +8,8 @@
 # [04](04_models_and_jacobians.ipynb) (models and their Jacobians) and [06](06_ekf_slam.ipynb) (the
 # filter that will use what we find here).
 #
-# *Key:* a scan holds no landmarks. It holds ranges, and we have to decide what they are of.
+# *Key:* a scan holds no landmarks. It holds ranges, and we have to decide which thing each of them
+# belongs to.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* The lesson answers three questions. Which line fits these points? Which points
@@ -68,17 +69,18 @@ fig, _ = views.side_by_side(shown, size=(10, 5), shared=False)
 views.show(fig, "Left, readings that stand alone before the walls; right, nothing but lines.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# In the left room, some readings stand alone before the walls: these are the legs of tables. On the right there
-# is nothing but lines. A single reading on a wall is never seen again, since the next beam falls beside
-# it; the *wall* is. People walk, and one leg looks like another. Walls, and the corners in which they meet,
-# are all we ask for. This lesson is about them; but first, briefly, legs.
+# In the left room, some readings stand alone in front of the walls: these are table legs. On the
+# right there is nothing but lines. A single reading on a wall is never seen again, since from the
+# next place the beams fall beside it; the *wall* is seen again. People walk about, and one table
+# leg looks like another. So this lesson looks for walls and for the corners where they meet. But
+# first, briefly, the legs.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=4
 # ## Spikes
 #
 # Smolec's thesis on wall SLAM begins with the simplest extractor. Walk along the scan, from beam to
 # beam. Where the range falls by more than a threshold, and soon rises again by as much, something
-# narrow stands before the background.
+# narrow stands in front of the background.
 #
 # The left room has 20 legs. Below is the range over the bearing. Change the threshold, and the number
 # of beams in a turn: can you find all 20, and none where there is no leg?
@@ -115,16 +117,17 @@ counted = {key: len(spikes_in(legs, beams=key)[1]) for key in (400, 100)}
 in_rooms = {jump: len(spikes_in(rooms, jump)[1]) for jump in (0.5, 0.05)}
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
-# With 400 beams and a threshold of 0.5 m, {= counted[400] =} of the 20 legs are marked, and in the rooms
-# {= in_rooms[0.5] =} spikes. A leg that no beam meets is missed, and so is one that stands before another. In a
-# sparse scan of 100 beams {= counted[100] =} legs are left. A lower threshold does not help: at 0.05 m, noise makes
-# dips of its own, {= in_rooms[0.05] =} of them in rooms without a single leg.
+# With 400 beams and a threshold of 0.5 m, {= counted[400] =} of the 20 legs are marked, and in the
+# rooms {= in_rooms[0.5] =} spikes. A leg that no beam meets is missed, and so is a leg that another
+# one hides. In a sparse scan of 100 beams {= counted[100] =} legs are left. A lower threshold does
+# not help: at 0.05 m, noise makes dips of its own, {= in_rooms[0.05] =} of them in rooms without a
+# single leg.
 #
 # And the legs that are found all look alike. To tell them apart we would have to know where we are.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* Ask who could tell the legs apart from the next place. The filter can, by what
-# it expects; that is association, which comes at the end.
+# *For the lecturer:* Ask how one could tell the legs apart when the robot has moved on. The filter
+# can, since it expects each of them somewhere; that is association, which comes at the end.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## Fitting a wall the way school does it
@@ -242,14 +245,15 @@ views.show(
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=7
 # ## A line that may have any direction
 #
-# The slope is what fails: a vertical line has none. So we describe a wall by numbers that every line
-# has. Its **normal** points from the origin straight at the line, in the direction $\alpha$, and $\rho$
-# is how far it is to get there. The line is then all points $p = (p_x, p_y)$ with
+# The slope is what fails: a vertical line has none. So we describe a wall by numbers that every
+# line has. Its **normal** points from the origin straight at the line, in the direction $\alpha$,
+# and $\rho$ is the distance from the origin to the line. The line is then all points
+# $p = (p_x, p_y)$ with
 #
 # $$p_x \cos\alpha + p_y \sin\alpha = \rho. \tag{08.2}$$
 #
-# The left side is how far $p$ lies along the normal. So the distance of *any* point from the line is
-# what is missing or left over:
+# The left side is how far $p$ lies along the normal. So the signed distance of *any* point from the
+# line is the difference of the two sides:
 #
 # $$e = p_x \cos\alpha + p_y \sin\alpha - \rho. \tag{08.3}$$
 #
@@ -295,14 +299,14 @@ least_e = SOME @ [np.cos(least_alpha), np.sin(least_alpha)] - least_rho
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### First the distance
 #
-# Let $\bar p$ be the centroid of the readings, and $\sigma_x^2$, $\sigma_{xy}$, $\sigma_y^2$ their variances and
-# covariance about it. The mean of $e^2$ is made of these alone, since a mean of squares is the variance
-# plus the square of the mean:
+# Let $\bar p$ be the centroid of the readings, and $\sigma_x^2$, $\sigma_{xy}$, $\sigma_y^2$ their
+# variances and covariance about it. These are all that the mean of $e^2$ depends on, since a mean
+# of squares is the variance plus the square of the mean:
 #
 # $$\overline{e^2} = \sigma_x^2 \cos^2\alpha + 2 \sigma_{xy} \sin\alpha\cos\alpha + \sigma_y^2 \sin^2\alpha
 # + \left( \bar p_x \cos\alpha + \bar p_y \sin\alpha - \rho \right)^2. \tag{08.4}$$
 #
-# Only the last term has a $\rho$ in it. It is a square, and we can make it zero:
+# Only the last term depends on $\rho$. It is a square, and we can make it zero:
 #
 # $$\rho = \bar p_x \cos\alpha + \bar p_y \sin\alpha. \tag{08.5}$$
 #
@@ -333,9 +337,9 @@ derive("e^2", left_over, "(08.4) with (08.5)").step("the double angle", wave)
 # Here is the wave for the readings above, and where the package puts its line:
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* What usually goes wrong, in this order: the centroid is not taken off; the crest
-# is taken for the trough, so the line runs across the wall; $\rho$ comes out negative. The exercise has a hint for
-# each. Who knows principal components will see them here.
+# *For the lecturer:* Three things usually go wrong, in this order: the centroid is not subtracted;
+# the crest is taken for the trough, so the line runs across the wall; $\rho$ comes out negative.
+# The exercise has a hint for each. Students who know principal components will recognise them here.
 
 # %% slideshow={"slide_type": "subslide"} tags=["folded", "nbval-check-output"]
 every = np.arange(0, 180.01, 0.05)
@@ -353,8 +357,8 @@ views.show(
 print(f"lowest point {lowest:.2f}°, the package {found_alpha:.2f}°")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# The line stands in the trough. The crest is 90° away: there it would run across the wall. If $\rho$ comes out
-# negative, turn the normal round, and it is positive again.
+# The line stands in the trough. The crest is 90° away: there it would run across the wall. If
+# $\rho$ comes out negative, turn the normal round by 180°, and $\rho$ becomes positive.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=7
 # ## How sure is that line?
@@ -386,9 +390,9 @@ e = sp.Matrix([p_x * c + p_y * s - rho])
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# Here $t$ is where along the wall the point lies, counted from the foot of the normal. The farther out a point
-# lies, the more it says about the direction. Information adds up, reading by reading (03.4), and the covariance
-# is its inverse:
+# Here $t$ says where along the wall the point lies, counted from the foot of the normal. The
+# farther out a point lies, the more it says about the direction. Information adds up, reading by
+# reading (03.4), and the covariance is its inverse:
 #
 # $$R = \Big( \sum_i J_i^{\mathsf T} J_i / \sigma_i^2 \Big)^{-1}, \qquad J_i = [\,-1\;\; t_i\,]. \tag{08.8}$$
 
@@ -450,9 +454,10 @@ sizes = nees(errors, R_each)
 
 # %% [markdown] slideshow={"slide_type": "subslide"} answers="08-streak"
 # The errors form a slanted streak, and the ellipse of (08.8) lies on it. Their correlation is
-# {= np.corrcoef(errors.T)[0, 1]:.2f =}: turn the line a little about the piece of wall that was seen, and its
-# distance from the robot changes as well. Whoever keeps the diagonal of $R$ only throws that away. Move the
-# two angles until the wall is seen evenly to both sides, and the streak stands upright.
+# {= np.corrcoef(errors.T)[0, 1]:.2f =}: turn the line a little about the piece of wall that was
+# seen, and its distance from the robot changes as well. If we kept only the diagonal of $R$, we
+# would throw that away. Move the two angles until the wall is seen evenly to both sides, and the
+# streak stands upright.
 #
 # Is $R$ honest? In units of $R$, the squared errors of {= len(sizes) =} fits are {= sizes.mean():.2f =} on average,
 # where 2 is right.
@@ -462,9 +467,9 @@ sizes = nees(errors, R_each)
 #
 # To fit a wall we need its readings. To know its readings we need the wall. How do we get out of that circle?
 #
-# By guessing. **Guess** a line from a few neighbouring readings. **Count** how many agree with it. If they are
-# enough, **refit** the line to those that agree, and keep it. A good guess is confirmed by many readings, a bad
-# one by few. This is *random sample consensus*, RANSAC.
+# By guessing. **Guess** a line from a few neighbouring readings. **Count** how many agree with it.
+# If enough do, **refit** the line to those that agree, and keep it. Many readings confirm a good
+# guess, and few a bad one. This is *random sample consensus*, RANSAC.
 #
 # Smolec guesses from 25 neighbours, and keeps the line if at least 21 of them lie within 15 mm of it.
 
@@ -541,8 +546,9 @@ views.explore(
 # Widen the band until the first wall passes, and then go back to the doorway. What passes now?
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* Have them find three refusals of different kinds: a corner, a door (two walls in one
-# window), a far wall. The first two are right, the third is the subject of the next slide.
+# *For the lecturer:* Have them find three refusals of different kinds: a corner, a door (two walls
+# in one window), a far wall. The first two refusals are right; the third is the subject of the next
+# slide.
 
 
 # %% slideshow={"slide_type": "subslide"} tags=["folded", "nbval-check-output"] answers="08-far"
@@ -641,21 +647,23 @@ views.show(
 # become {= len(walls) =} walls with {= typical["grown"]:.1f =}°; {= sum(line.ends[:, 1].max() > 4 for line in walls) =} of
 # them is beyond the picture. Neighbouring pieces differ in colour.
 #
-# Three things make growing safe. The refit weighs each reading by its noise. A wall ends where two beams go
-# *through* it; behind something that stands in the way it may go on, for 1.2 m at most. And readings near a
-# corner, which two walls want, tell where both end, but not how they stand: whoever came first would
-# take some of its neighbour's readings, and always on the same side.
+# Three rules make growing safe. The refit weighs each reading by its noise. A wall ends where two
+# beams go *through* it; behind something that stands in the way it may go on, for 1.2 m at most.
+# Readings near a corner could belong to either wall, so they only tell where both walls end, and do
+# not count for the direction of either: the wall that is found first would otherwise take some of
+# its neighbour's readings, always at the same end, and be turned by them.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=6
 # ## How good is it? Measure it
 #
 # A picture convinces nobody. A simulated world knows its walls, so we can judge every metre:
 #
-# - **recall** is the share of the wall that a scan shows, and that was found;
+# - **recall** is the share that was found of all the wall that a scan shows;
 # - **false** is the share of what was found that is no wall.
 #
-# Here is one scan, taken apart with Smolec's numbers. Can you raise the recall by his three numbers alone, and
-# keep the false metres low? What does a denser scan change, and a sparser one?
+# Here is one scan, taken apart with Smolec's numbers. Can you raise the recall by changing these
+# three numbers alone, and keep the false metres low? What does a denser scan change, and a sparser
+# one?
 
 # %% slideshow={"slide_type": "fragment"}
 BY_THE_WALL = np.array([0.3, -1.1, 0.2])
@@ -733,12 +741,14 @@ for name, both in judged.items():
 ROOM = [FURNISHED, *(found_walls.judge_places(worlds.room(), None, 12, k) for k in (2, 3))]
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# In the four worlds without furniture, the grown lines find at least {= 100 * min(m.recall for m in EMPTY):.0f =} %
-# and invent at most {= 100 * max(m.false for m in EMPTY):.1f =} %. The furnished room is harder. From three draws of
-# twelve places each, {= 100 * min(m.recall for m in ROOM):.0f =} to {= 100 * max(m.recall for m in ROOM):.0f =} % are
-# found, and {= 100 * min(m.false for m in ROOM):.1f =} to {= 100 * max(m.false for m in ROOM):.1f =} % of what is found
-# is false: legs and pillars cut the walls to pieces, and a few flat readings on a pillar pass for a wall. In the exercise
-# you find the pillars themselves.
+# In the four worlds without furniture, the grown lines find at least
+# {= 100 * min(m.recall for m in EMPTY):.0f =} % and invent at most
+# {= 100 * max(m.false for m in EMPTY):.1f =} %. The furnished room is harder. From three draws of
+# twelve places each, {= 100 * min(m.recall for m in ROOM):.0f =} to
+# {= 100 * max(m.recall for m in ROOM):.0f =} % are found, and
+# {= 100 * min(m.false for m in ROOM):.1f =} to {= 100 * max(m.false for m in ROOM):.1f =} % of what
+# is found is false: legs and pillars cut the walls to pieces, and a few readings on a pillar can
+# look flat enough to pass for a wall. In the exercise you find the pillars themselves.
 #
 # *This is a good place for a break.*
 
@@ -749,8 +759,9 @@ ROOM = [FURNISHED, *(found_walls.judge_places(worlds.room(), None, 12, k) for k 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=4
 # ## Corners
 #
-# Where two lines of a scan meet, there may be a corner. It lies on both of them, so it has to solve two linear
-# equations like (08.2). (Corners are the landmarks of the MAK thesis' experiment, chapter 8.) They have one solution, which the machine writes down for us:
+# Where two lines of a scan meet, there may be a corner. It lies on both of them, so it has to solve
+# two linear equations like (08.2). They have one solution, which the machine writes down for us.
+# (Corners are the landmarks of the robot in lesson 12.)
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 rho_1, alpha_1, rho_2, alpha_2 = sp.symbols("rho_1 alpha_1 rho_2 alpha_2", real=True)
@@ -762,9 +773,10 @@ meeting = sp.simplify(sp.Matrix(list(sp.solve(on_both, [p_x, p_y]).values())))
 meeting
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# Below the fraction stands the sine of the angle between the walls. Walls that are nearly parallel do meet
-# somewhere, but nobody can say well where. The covariance needs no new idea: with $J_1$ and $J_2$ for the
-# Jacobians of $p$ with respect to each line, and $R_1$ and $R_2$ for the covariances (08.8) of the lines,
+# The denominator is the sine of the angle between the walls. Walls that are nearly parallel do meet
+# somewhere, but where is poorly known. The covariance needs no new idea: with $J_1$ and $J_2$ for
+# the Jacobians of $p$ with respect to each line, and $R_1$ and $R_2$ for the covariances (08.8) of
+# the lines,
 #
 # $$P = J_1 R_1 J_1^{\mathsf T} + J_2 R_2 J_2^{\mathsf T}. \tag{08.9}$$
 
@@ -794,10 +806,11 @@ alt = f"{len(found)} walls found in a scan of situation 2, an ellipse round each
 views.show(fig, alt)
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
-# Only meetings near the seen ends of both walls are kept, for lines go on for ever and walls do not. The ellipses
-# are drawn ten times too large, or they would vanish: in their worst direction these corners are known to
-# between {= sigmas.min():.1f =} and {= sigmas.max():.1f =} cm ($\sigma$). Where the seen piece of a wall is short,
-# its direction is poorly known, and the corner slides along the *other* wall.
+# Lines go on for ever and walls do not, so only crossings near the seen ends of both walls are
+# kept. The ellipses are drawn ten times too large, or they would vanish: in their worst direction
+# these corners are known to between {= sigmas.min():.1f =} and {= sigmas.max():.1f =} cm
+# ($\sigma$). Where the seen piece of a wall is short, its direction is poorly known, and the corner
+# slides along the *other* wall.
 #
 # Are these ellipses honest? We take 120 scans, and compare each corner with the true one beside it:
 
@@ -853,8 +866,8 @@ wall_equation = sp.expand(in_world[0] * sp.cos(alpha) + in_world[1] * sp.sin(alp
 sp.collect(wall_equation, [seen_x, seen_y], sp.simplify)
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="08-along"
-# This is the equation of a line again, now for $p'$. Its normal points to $\alpha - \theta$, and what stands without
-# $p'$ is $-\rho'$.
+# This is the equation of a line again, now for $p'$. Its normal points to $\alpha - \theta$, and
+# the terms without $p'$ together are $-\rho'$.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # So the robot sees the wall at
@@ -890,9 +903,10 @@ for name, steps in {"H_robot_line": H_robot_line, "H_line": H_line}.items():
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## The foot of the perpendicular, which nobody measured
 #
-# Smolec makes a point of a wall: its **foot**, the point $\rho\,(\cos\alpha, \sin\alpha)$ where the perpendicular from
-# the world's origin meets it. His filter is told range and bearing of the foot, as of any point landmark. To find
-# the foot of a wall it sees, the robot has to know where the origin is, and takes its own estimate for that.
+# Smolec represents a wall by a single point, its **foot**: the point
+# $\rho\,(\cos\alpha, \sin\alpha)$ where the perpendicular from the world's origin meets it. His
+# filter is told range and bearing of the foot, as of any point landmark. To find the foot of a wall
+# it sees, the robot has to know where the origin is, and takes its own estimate for that.
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
@@ -976,14 +990,15 @@ views.explore(
 by_foot, by_line = (after_looks(10, 0.5, as_foot) for as_foot in (True, False))
 
 # %% [markdown] slideshow={"slide_type": "subslide"} answers="08-foot"
-# With the foot, the filter believes $x$ = {= by_foot[0][0]:.2f =} ± {= np.sqrt(by_foot[1][0, 0]):.2f =} m. It is wrong
-# by half a metre, and grows the surer the more often it looks. With $(\rho, \alpha)$ it is
-# {= by_line[0][0]:.2f =} ± {= np.sqrt(by_line[1][0, 0]):.2f =} m, as before. What a wall can tell, the second
-# filter has learned: $\sigma$ of $y$ is {= 1000 * np.sqrt(by_line[1][1, 1]):.0f =} mm.
+# With the foot, the filter believes $x$ = {= by_foot[0][0]:.2f =} ±
+# {= np.sqrt(by_foot[1][0, 0]):.2f =} m. It is wrong by half a metre, and becomes surer with every
+# look. With $(\rho, \alpha)$ it is {= by_line[0][0]:.2f =} ± {= np.sqrt(by_line[1][0, 0]):.2f =} m,
+# as before. What a wall can tell, the second filter has learned: $\sigma$ of $y$ is
+# {= 1000 * np.sqrt(by_line[1][1, 1]):.0f =} mm.
 #
-# Why? An innovation is *measured minus predicted*. Along the wall, the foot was never measured: it was computed
-# through the believed pose. So it agrees with the belief whatever the truth, and ten agreements pass for ten
-# measurements. The filter listens to itself.
+# Why? An innovation is *measured minus predicted*. Along the wall, the foot was never measured: it
+# was computed through the believed pose. So it agrees with the belief whatever the truth is, and
+# the filter counts ten such agreements as ten measurements. It listens to itself.
 #
 # Lesson 09 drives both variants through buildings, and measures what it costs.
 
@@ -994,8 +1009,8 @@ by_foot, by_line = (after_looks(10, 0.5, as_foot) for as_foot in (True, False))
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=6
 # ## Which wall was it?
 #
-# The scan shows a wall, and the map holds several. **Association** decides which one it is, or that it is new. Smolec
-# takes the landmark whose Euclidean distance is below a constant.
+# The scan shows a wall, and the map holds several. **Association** decides which one it is, or that
+# it is new. Smolec takes a landmark whose Euclidean distance from the sighting is below a constant.
 #
 # A robot knows its place to 5 cm and its heading to 0.15 rad only. It sees a wall at 2.98 m and 0.05 rad, and the
 # map has two:
@@ -1091,12 +1106,12 @@ for lost in (0.1, 0.05, 0.01, 0.001):
     print(f"gate {gate:5.2f}: {np.mean(squared > gate):6.2%} of the true pairings refused")
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
-# A threshold in metres promises nothing of the kind. It refuses true pairings when the robot is lost, and accepts
-# false ones when it is not.
+# A threshold in metres promises nothing of the kind. It refuses true pairings when the pose is
+# poorly known, and accepts false ones when it is known well.
 #
-# Two more rules complete an association. Each wall takes part once a scan: of two sightings that want it, the nearer
-# one gets it. And a sighting just outside the gate is better left alone than made a new wall, for it may be an
-# old one after all.
+# Two more rules complete an association. Each wall is paired at most once in a scan: if two
+# sightings fit it, the nearer one gets it. And a sighting just outside the gate is better left
+# alone than made a new wall, for it may be an old one after all.
 #
 # The package has all this as `nearest_neighbours`, on a filter with both walls:
 
@@ -1113,9 +1128,10 @@ print("paired with", nearest_neighbours(mak, SEEN[None], R, 0.95))
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=6
 # ## What enters the map
 #
-# A false wall in the map spoils the pairings after it. So a new wall should wait. Smolec uses a landmark only
-# after $N$ **sightings** (he takes 5), and gives it a number of **lives**. Each scan without it takes one life; seeing
-# it again restores all; when none is left, it is dropped.
+# A false wall in the map spoils the pairings after it. So a new wall should wait. Smolec uses a
+# landmark only after $N$ **sightings** (he takes 5), and gives it a number of **lives**. Each scan
+# that does not show the landmark costs it one life; seeing it again restores all of them; when none
+# is left, it is dropped.
 #
 # Here, walls wait *outside* of the map until they have been seen $N$ times.
 
@@ -1179,18 +1195,20 @@ for (n, lives), false in table.items():
     print(f"N = {n}, lives {lives:2}: {np.sum(~false):2} true walls, {false.sum()} false")
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="08-trial"
-# Most false walls go as $N$ grows, since noise rarely makes the same wall three times running. At $N = 5$,
-# {= np.sum(~table[1, 3]) - np.sum(~table[5, 3]) =} true ones have gone with them, and {= table[5, 3].sum() =} false wall
-# is still there: the side of a pillar that is passed slowly looks flat in scan after scan. Seeing a thing again
-# proves nothing where the error is the same again.
+# Most false walls go as $N$ grows, since noise rarely makes the same wall three times running. At
+# $N = 5$, {= np.sum(~table[1, 3]) - np.sum(~table[5, 3]) =} true ones have gone with them, and
+# {= table[5, 3].sum() =} false wall is still there: the side of a pillar that is passed slowly
+# looks flat in scan after scan. A second sighting proves nothing if it repeats the error of the
+# first.
 #
 # Lives decide how long a wall may wait. With a single one, a wall that is missed once starts anew: with $N = 3$ that
 # leaves {= np.sum(~table[3, 1]) =} true walls and {= table[3, 1].sum() =} false ones. With forty it is
 # {= np.sum(~table[3, 40]) =} and {= table[3, 40].sum() =}, as with three: in this room, more patience buys nothing.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* Ask what lives should do in a filter, where a landmark is tied to all others. To delete it is to
-# delete its rows and columns (lesson 06), which is exact, and costs only what it could still have told.
+# *For the lecturer:* Ask what lives should do in a filter, where a landmark is tied to all others.
+# To delete it means to delete its rows and columns (lesson 06). This is exact, and all it costs is
+# what later sightings of the landmark could have told.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Literature
@@ -1214,8 +1232,9 @@ for (n, lives), false in table.items():
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=1
 # ## What you can do now
 #
-# You can find walls in a scan, whatever their direction and distance, say how sure they are, and measure what your
-# finder misses and invents. You can tell a filter what was *measured* of which wall, and nothing else.
+# You can find walls in a scan, whatever their direction and distance, say how sure they are, and
+# measure what your finder misses and invents. You can tell a filter which wall was seen and what
+# was *measured* of it, and nothing else.
 #
 # **What comes next:** [lesson 09](09_slam_with_walls.ipynb) puts it together. It drives the whole of Smolec's system,
 # live, through two buildings, and measures its flaws one by one.
@@ -1293,6 +1312,7 @@ for name, within_scan in {"not compared": False, "compared": True}.items():
     print(f"new walls of a scan {name}: {len(walls)} in the map, {twice[name]} of them twice")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# The bare room has four walls. Of the walls that enter at first sight, {= twice["not compared"] =} repeat one that came in before them, in the
-# same scan, and no later comparison takes them out. Comparing within a scan mends that. What is left are pieces of walls
-# that do not touch, and grown lines have few of these.
+# The bare room has four walls. Of the walls that enter at first sight, {= twice["not compared"] =}
+# repeat one that came in before them, in the same scan, and no later comparison takes them out.
+# Comparing within a scan mends that. What is left are pieces of walls that do not touch. With the
+# package's grown lines this room gives four walls at once.

@@ -9,13 +9,14 @@
 # [03](03_kalman_filter.ipynb) (NEES), [06](06_ekf_slam.ipynb) (the filter) and
 # [08](08_landmarks_from_scans.ipynb) (lines of a scan, pairing).
 #
-# *Key:* tell the filter what the sensor saw, and nothing else.
+# *Key:* tell the filter what the sensor measured, and nothing else.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* Each part fits a lecture. The first ends with the live view, so let students
-# drive. Before the second, have the class order its mistakes by the harm they expect, and compare at
-# the end. For a poll: the pivot, the merging, the foot, the harm. The system is that of Smolec's
-# master's thesis; what it prints otherwise is found by machine in the optional last section.
+# drive. Before the second, let the class rank the mistakes in "One part at a time" by the harm they
+# expect, and compare at the end. For a poll: the pivot, the merging, the foot, the harm. The system
+# is that of Smolec's master's thesis; what it prints otherwise is found by machine in the optional
+# last section.
 
 # %% slideshow={"slide_type": "skip"} tags=["folded"]
 from dataclasses import replace
@@ -74,8 +75,7 @@ many = stored("walls")["situations"]  # the same tours, driven with 60 seeds
 # %% slideshow={"slide_type": "fragment"}
 ask(
     "09-odometry",
-    "How far is odometry alone off at the end of the tour of situation 1, in the middle one of 60 such "
-    "drives?",
+    "How far off is odometry alone at the end of the tour of situation 1, in the median of 60 such drives?",
     {
         "some centimetres: random slips cancel": "slips of the distance nearly do. But a slip of the "
         "heading bends all of the way that comes after it.",
@@ -112,7 +112,7 @@ views.show(
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=3
 # ## The loop
 #
-# You have built all the parts. In one step of the whole system they follow each other:
+# You have seen all the parts but the last. This is their order in one step of the whole system:
 #
 # | step | what happens | lesson |
 # |---|---|---|
@@ -137,8 +137,8 @@ views.show(
 #     self.merge()
 # ```
 #
-# Pairing and waiting are those of lesson 08. The first scan's walls need not wait: they lay the
-# map's frame, and nothing has drifted yet.
+# Pairing and waiting are those of lesson 08. The walls of the first scan need not wait: they define
+# the map's frame, and nothing has drifted yet.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=6
 # ## What a wall's two numbers say
@@ -209,8 +209,9 @@ views.explore(
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="09-pivot"
 # All lines touch a circle round the robot, whose radius $\rho'$ was measured. From the origin they
-# are at different distances. Move the robot to the origin, and $\rho$ is certain. Nobody's knowledge
-# of the wall has changed by that: numbers that are counted from far away suffer from a doubtful angle.
+# are at different distances. Move the robot to the origin, and $\rho$ is certain. That does not
+# change what anybody knows about the wall: it is only that a number counted from a far origin
+# suffers from a doubtful angle.
 #
 # The filter keeps track of this through the Jacobians of (09.2), where the lever arm stands. You
 # derive them in the exercise.
@@ -218,11 +219,13 @@ views.explore(
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## One wall, one landmark
 #
-# A wall seen through two doors is two pieces. What lies between them nobody has seen, so they enter
-# the map as two landmarks. Later the robot enters the room, and both pieces grow until they touch.
+# A wall that is seen through two doors shows two pieces. Nobody has seen what lies between them, so
+# they enter the map as two landmarks. Later the robot enters the room, and both pieces grow until
+# they touch.
 #
-# Now the filter is to be told that the two are one. This is news that no sensor brings, as in lesson
-# 06. It is an observation of the difference $\Delta = l_j - l_i$, which is to be zero.
+# Now we have to tell the filter that the two are one. No sensor brings this news, but the filter
+# can take it in like a sighting (lesson 06). It is an observation of the difference
+# $\Delta = l_j - l_i$, which is to be zero.
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
@@ -585,7 +588,8 @@ Markdown("\n".join(rows))
 # some of the candidates:
 #
 # - **Degrees:** the state's angles are in degrees, and the Jacobians are those for radians.
-# - **y = a x + b:** lines are fitted as one learns it at school, which cannot give a line $x = b$.
+# - **y = a x + b:** lines are fitted as one learns it at school, where no line $x = c$ can come
+#   out.
 # - **Never merged:** pieces of one wall stay several landmarks.
 # - **Paired before predict:** the lines of the new scan are paired with the map as seen from the
 #   *old* pose; then the drive is predicted.
@@ -629,15 +633,16 @@ Markdown("\n".join(rows))
 # ### What the table says
 #
 # Walls placed before predict lose the robot: it is
-# {= 100 * tours[1]["placed before predict"]["rms_m"]:.0f =} cm off in situation 2, and odometry
-# {= 100 * tours[1]["odometry"]["rms_m"]:.0f =} cm. With degrees the robot does better than by its wheels, but NEES is
-# {= tours[1]["degrees in the Jacobians"]["nees"]:.0f =}, and so true walls fail the gate and enter the
-# map again: it holds {= tours[1]["degrees in the Jacobians"]["walls"]:.0f =} walls instead of
+# {= 100 * tours[1]["placed before predict"]["rms_m"]:.0f =} cm off in situation 2, while odometry
+# is {= 100 * tours[1]["odometry"]["rms_m"]:.0f =} cm off. With degrees the robot does better than
+# by its wheels, but NEES is {= tours[1]["degrees in the Jacobians"]["nees"]:.0f =}, and so true
+# walls fail the gate and enter the map again: it holds
+# {= tours[1]["degrees in the Jacobians"]["walls"]:.0f =} walls instead of
 # {= tours[1]["as it should be"]["walls"]:.0f =}.
 #
-# A wrong Jacobian or a slightly wrong line rarely crashes. It lies about $P$, and another part of the
-# loop pays for it. What is *told* to the filter, such as a foot or a place before the drive, ruins the
-# map itself.
+# In this table a wrong Jacobian or a slightly wrong line does not lose the robot. It makes $P$
+# wrong, and another part of the loop pays for it: pairings fail, and walls enter twice. A false
+# *measurement*, such as a foot, or a wall placed from the old pose, ruins the map itself.
 
 
 # %% slideshow={"slide_type": "fragment"} tags=["folded"]
@@ -662,8 +667,8 @@ PARTS = [name for name in reversed(spoilt_walls.VARIANTS) if name not in own_lin
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Spoil it yourself
 #
-# Choose a part, and move the number of sightings and the gate. Does a wider gate help against any of
-# these mistakes? Does patience?
+# Choose a part, and move the number of sightings and the gate. Does a wider gate help against any
+# of these mistakes? Does it help to wait for more sightings?
 
 # %% slideshow={"slide_type": "fragment"} tags=["folded"]
 views.explore(
@@ -735,24 +740,25 @@ for name, (share, heading) in shares.items():
     print(f"heading off by up to {heading:.1f}°")
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="09-order"
-# While the robot turns, hardly anything is paired. When it drives straight on, the pairs return,
-# and they take most of the harm back: the error of the place is
+# While the robot turns, hardly anything is paired. When it drives straight on, the pairs return and
+# repair most of the harm: the error of the place is
 # {= 100 * tours[1]["paired before predict"]["rms_m"]:.1f =} cm instead of
-# {= 100 * tours[1]["as it should be"]["rms_m"]:.1f =} cm. So a picture of the map would not show it.
-# If walls are *placed* before the drive as well, nothing takes it back.
+# {= 100 * tours[1]["as it should be"]["rms_m"]:.1f =} cm. So a picture of the map would not show
+# it. If walls are also *placed* before the drive is predicted, nothing repairs it.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=3
 # ## What remains
 #
-# **Curved walls.** A round tower is found as some flats, and from each place as others. They slide
-# round the tower as the robot drives by, and a landmark that goes along with the robot "proves" that
-# it does not move. Lesson 13 matches scans as they are, without landmarks.
+# **Curved walls.** From each place, a few short lines are fitted to the near side of a round tower,
+# and from the next place others. These lines slide round the tower as the robot drives by, and a
+# landmark that moves along with the robot "proves" that the robot stands still. Lesson 13 matches
+# scans as they are, without landmarks.
 #
 # **Other sensors.** `WallSlam`, the package's version of the loop, does not care where lines come
 # from. In a *Deeper* section below an ultrasonic sensor hears the walls of a room.
 #
-# **Wheels that slip a lot.** After a large slip no line fits, and the loop knows nothing better than
-# to begin a new map. `WallSlam` looks for the robot where it may be; lesson 15 closes loops.
+# **Wheels that slip a lot.** After a large slip no line fits the map, and the loop can only begin a
+# new one. `WallSlam` looks for the robot where it may be; lesson 15 closes loops.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Literature
@@ -773,8 +779,9 @@ for name, (share, heading) in shares.items():
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=1
 # ## What you can do now
 #
-# You can run EKF-SLAM on the walls of a building, say what is in doubt about a wall and why, merge what
-# is one, and doubt a loop in the right place: at what it tells the filter.
+# You can run EKF-SLAM on the walls of a building, say what is in doubt about a wall and why, merge
+# pieces of one wall, and look for the fault of a loop in the right place: in what it tells the
+# filter.
 #
 # **What comes next:** [lesson 10](10_boxes.ipynb) asks what is left when errors have no likelihood,
 # only bounds.
@@ -787,10 +794,10 @@ for name, (share, heading) in shares.items():
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Deeper: points for people
 #
-# The filter's map is a dozen lines. For people one draws the points of the scans, and these are too
-# many. So a point is drawn only if it is more than 60 mm from every point that was drawn before. Done
-# plainly, this compares each new point with all of them. A grid of cells 60 mm wide looks into nine
-# cells, for a point near an edge has neighbours in the next one.
+# The filter's map is a dozen lines. For people we draw the points of the scans, and there are too
+# many of these. So a point is drawn only if it is more than 60 mm from every point that was drawn
+# before. Done directly, this compares each new point with all points drawn so far. With a grid of
+# cells 60 mm wide it is enough to look into nine cells: the point's own, and the eight around it.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 thinned = DownsampledPoints(0.06)
@@ -801,8 +808,8 @@ most = np.unique(np.floor(thinned.xy / 0.06), axis=0, return_counts=True)[1].max
 print(f"{offered} points offered, {len(thinned.xy)} drawn, at most {most} in a cell")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# A cell holds few points, since they keep their distance from each other. So a new point meets at most
-# {= 9 * most =} comparisons, however large the map has grown, and not {= len(thinned.xy) =}.
+# A cell holds few points, since they keep their distance from each other. So a new point costs at
+# most {= 9 * most =} comparisons, however large the map has grown, and not {= len(thinned.xy) =}.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Deeper: what choosing costs
@@ -831,10 +838,11 @@ factor = float((share / stiffness).subs(c, 2.8))
 stiffness
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# Were the band nailed down, the stiffness would be the share of readings in it, the second term. But
-# readings drop out on one side and come in on the other, and all of them say that the line is right. The
-# variance of an estimate is the pull's spread over the squared stiffness, here 1/stiffness, where $R$
-# has 1/share. It is {= 100 * (factor - 1):.1f =} % too small, and the package multiplies by that factor.
+# If the band did not move, the stiffness would be the share of readings in it, which is the second
+# term. But readings drop out on one side and come in on the other, and all of them say that the
+# line is right. The variance of an estimate is the pull's spread over the squared stiffness, here
+# 1/stiffness, where $R$ has 1/share. It is {= 100 * (factor - 1):.1f =} % too small, and the
+# package multiplies by that factor.
 #
 # Does it show? At true poses we measure the error of each line in units of its $R$. It has two numbers,
 # so its mean should be 2.
@@ -884,8 +892,8 @@ views.explore(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# Each place has flats of its own, and they go along with the robot. A landmark model of its own would
-# help (a centre and a radius), or none: lesson 13.
+# From each place other lines are found, and they move along with the robot. A landmark model for
+# round things would help (a centre and a radius), or no landmarks at all, as in lesson 13.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Deeper: the same walls by sound
@@ -924,7 +932,7 @@ views.show(
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # The flat piece is {= wide:.0f =}° wide at any distance: a *region of constant depth* (Leonard and
-# Durrant-Whyte). Two unknowns and a formula ask for least squares, which need the derivatives of (09.7)
+# Durrant-Whyte). We find the two unknowns by least squares, which needs the derivatives of (09.7)
 # with respect to $\rho$ and $\alpha$. Where $\beta > \alpha$ they are
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
@@ -940,8 +948,8 @@ for name, width in (("flat piece alone", half_cone), ("10° more, either side", 
     print(f"{name:22} {near.sum():2} readings: α is known {known}")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# The flat piece tells the distance and nothing of the direction. The slopes tell it, and so the fit
-# follows them as far as they go.
+# The flat piece tells the distance, but nothing about the direction. The slopes tell the direction,
+# so the fit follows them as far as they go.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### A room, heard
@@ -975,9 +983,10 @@ views.explore(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# The dots bend away from the walls towards the robot, and the green line that is fitted to them lies on
-# its wall. An edge or a table leg has a flat piece, too, but its slopes are steeper. So a wall is only
-# what follows (09.7) over 25° of slope. Lower this, and lines appear where no wall is.
+# The dots bend away from the walls towards the robot, and the green line that is fitted to them
+# lies on its wall. An edge or a table leg has a flat piece, too, but its slopes are steeper. So
+# only what follows (09.7) over 25° of slope counts as a wall. Lower this limit, and lines appear
+# where no wall is.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### What the rule buys
@@ -1016,11 +1025,11 @@ for name, row in sound["drives"].items():
 Markdown("\n".join(rows))
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# (Medians over {= runs_of_it =} drives, with 95 % intervals.) RANSAC finds many lines, bent with the
-# arcs. They go along with the robot and make it worse than its wheels. The cone model finds
-# {= sound["drives"]["cone model"]["walls"]:.0f =} walls or so, and takes off
-# {= -100 * sound["drives"]["cone model"]["more_m"] / sound["drives"]["odometry"]["rms_m"]:.0f =} % of
-# odometry's error.
+# (Medians over {= runs_of_it =} drives, with 95 % intervals.) RANSAC finds many lines, which follow
+# the bent arcs. They move along with the robot and make the pose worse than odometry does. The cone
+# model finds {= sound["drives"]["cone model"]["walls"]:.0f =} walls or so, and takes off
+# {= -100 * sound["drives"]["cone model"]["more_m"] / sound["drives"]["odometry"]["rms_m"]:.0f =} %
+# of odometry's error.
 #
 # Is it honest? The wheels of this robot are permanently unequal, and at the last of five moments its mean
 # NEES is {= sound["nees"]["cone model"][-1]:.1f =}, above the band of {= sound["band_95"][0]:.1f =} to
@@ -1086,8 +1095,8 @@ for what, how in {"windows": replace(THESIS, band=None), "grown": None}.items():
     print(f"first scan of situation 2, lines {what}: {len(first_scan)}")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# The first scan sees seven walls. Windows of 25 readings cut them up, and what enters at first sight
-# stays. Most of the cure is to *grow* lines.
+# The first scan sees seven walls. Windows of 25 readings cut them up, and what enters at first
+# sight stays. Lines that *grow* find just the seven.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ### The listing, and its mends
@@ -1179,8 +1188,8 @@ pictures(
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Is it our choice of a constant?
 #
-# The factor $c$ of his process noise is not printed. As printed otherwise, over
-# {= spoilt["seeds"][1] + 1 =} drives, none of these is better than odometry
+# The factor $c$ of his process noise is not printed. With all else as printed, over
+# {= spoilt["seeds"][1] + 1 =} drives, each of these values makes it worse than odometry
 # ({= 100 * tours[1]["odometry"]["rms_m"]:.0f =} cm):
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]

@@ -145,15 +145,15 @@ views.explore(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="10-bent"
-# The mean is sure and wrong, and the overlap is wide and right. Move the first slider beyond 0.1 m: the
-# promise is broken, the overlap misses the wall, and no reading tells. With much scatter the intervals may
-# have nothing in common; then you know.
+# The mean is sure and wrong, and the overlap is wide and right. Move the first slider beyond 0.1 m:
+# the promise is broken, the overlap misses the wall, and no reading gives that away. Only with much
+# scatter may the intervals have nothing in common, and then you know that the promise is broken.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Why a box needs no correlations
 #
-# A bound does not ask whether errors are independent, centred, or Gaussian. It asks one thing: never more
-# than this. A systematic error is as welcome to it as a random one.
+# A bound does not ask whether errors are independent, centred, or Gaussian. It asks one thing:
+# never more than this. It makes no difference between a systematic error and a random one.
 #
 # That is why a filter of boxes keeps no covariances. Lesson 07 has shown what goes wrong in an ellipse when
 # a common error is forgotten. A box has nothing to forget, for it allows for every way in which the errors
@@ -166,18 +166,19 @@ views.explore(
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=4
 # ## The state: boxes, and an interval of angles
 #
-# The filter is called BOR in the MAK thesis. It believes this:
+# The filter is called BOR in the MAK thesis, one of the two from which this course has its filters.
+# Its state consists of two parts:
 #
-# - of the robot, a box from $x_{\min}$ to $x_{\max}$ and from $y_{\min}$ to $y_{\max}$, and an interval of
-#   headings;
-# - of each object, which is this lesson's word for a landmark, a box.
+# - for the robot, a box from $x_{\min}$ to $x_{\max}$ and from $y_{\min}$ to $y_{\max}$, and an
+#   interval of headings;
+# - for each object, which is this lesson's word for a landmark, a box.
 #
-# That is four numbers an object, and none between two objects. An interval of angles needs some care, for
-# angles go round.
+# That makes four numbers for each object, and none for a pair of objects. An interval of angles
+# needs some care, because angles go round.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
-# Take a heading between 170° and 190°. Wrapped, its ends are 170° and −170°. Whoever asks for what lies
-# between the smaller and the larger of these two gets all the wrong headings, and none of the right ones.
+# Take a heading between 170° and 190°. Wrapped, its ends are 170° and −170°. The angles between the
+# smaller and the larger of these two are all the wrong headings, and none of the right ones.
 #
 # So we never sort the ends. An interval goes from its **right** end counter-clockwise to its **left** end;
 # right lies in $(-\pi, \pi]$, and left is right plus the width, even beyond $\pi$. An angle $\theta$ is inside
@@ -224,9 +225,9 @@ ask(
 # %% [markdown] slideshow={"slide_type": "subslide"} answers="10-ahead"
 # ### Corners are not enough
 #
-# $\cos(\pm 0.5) = 0.878$, so whoever tries the two ends only will say that $x'$ *is* 0.878. But a robot that looks
-# straight ahead gets to 1. A sine or a cosine can have its extreme *inside* the interval. Where that may be, the
-# slope tells:
+# $\cos(\pm 0.5) = 0.878$, so a program that tries only the two ends says that $x'$ *is* 0.878. But
+# a robot that looks straight ahead gets to 1. A sine or a cosine can have its extreme *inside* the
+# interval. The slope tells where that can be:
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="10-ahead"
 angle = sp.symbols("theta", real=True)
@@ -314,9 +315,10 @@ views.explore(
 # Seen from one point, the places where the object can be form a sector of a ring.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
-# Rings are awkward to intersect. Half-planes are easy: everything on one side of a straight line, the **edge**. So we put
-# four edges round the sector such that none of it is lost. Two of them are the rays at
-# $\pm\, d_{\mathrm{abs}}$ off the middle direction. The *far* and the *near* edge stand at a right angle to that direction.
+# Sectors are awkward to intersect. Half-planes are easy: a half-plane is everything on one side of
+# a straight line, its **edge**. So we put four edges round the sector in such a way that no part of
+# it is lost. Two of them are the rays at $\pm\, d_{\mathrm{abs}}$ off the middle direction. The
+# *far* and the *near* edge stand at a right angle to that direction.
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
@@ -378,9 +380,10 @@ views.explore(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="10-near"
-# The near edge runs through the two inner corners, and the four edges cut nothing off. Between edges and arcs some
-# places are let in that are not possible: this is the price of straight lines. It costs sharpness, and never truth.
-# Now widen $d_{\mathrm{abs}}$, beyond a right angle. Part two will come back to what happens there.
+# The near edge runs through the two inner corners, and the four edges cut nothing off. Between
+# edges and arcs some places are let in that are not possible: this is the price of straight lines.
+# The result is less sharp, but never wrong. Now widen $d_{\mathrm{abs}}$, beyond a right angle.
+# Part two will come back to what happens there.
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"] answers="10-near"
 rng = np.random.default_rng(5)
@@ -390,7 +393,8 @@ for name, near in {"r − d_r": 1.6, "(r − d_r) cos d_abs": 1.6 * np.cos(0.6)}
 forgot = np.mean(r * np.cos(phi) < 1.6)
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="10-near"
-# Whoever forgets the cosine cuts off {= 100 * forgot:.0f =} % of the places of this sector, for good.
+# Without the cosine the near edge cuts off {= 100 * forgot:.0f =} % of the places of this sector,
+# and nothing brings them back.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=7
 # ## From a box, not from a point
@@ -415,9 +419,10 @@ forgot = np.mean(r * np.cos(phi) < 1.6)
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Clip, then enclose
 #
-# Now an edge $n^{\mathsf T} p \le c$ cuts the object's box. What is left may have five corners, and we have only boxes, so we
-# take the smallest box round it. How far to the right can it reach? A place is allowed if
-# $n_x x \le c - n_y y$. That leaves most room for $x$ if $n_y y$ is as small as it can be in the box:
+# Now an edge $n^{\mathsf T} p \le c$ cuts the object's box. What is left may have five corners, and
+# we have only boxes, so we take the smallest box round it. How far to the right can it reach? A
+# place is allowed if $n_x x \le c - n_y y$. This leaves the most room for $x$ where $n_y y$ is as
+# small as it can be in the box:
 #
 # $$n_x\, x \;\le\; c - \min_{y} n_y\, y, \qquad n_y\, y \;\le\; c - \min_{x} n_x\, x. \tag{10.9}$$
 #
@@ -466,9 +471,10 @@ views.explore(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# Go back to 0 edges and press ▶. The left edge forbids what lies above it; the box ends where that edge leaves the box on the
-# right. The upper left corner stays, though it is forbidden: a box has no slanted sides. Then widen the robot's box or its
-# heading, and see how little a robot that hardly knows where it is can teach.
+# Go back to 0 edges and press ▶. The left edge forbids what lies above it; the box ends where that
+# edge leaves the box on the right. The upper left corner stays, though it is forbidden: a box has
+# no slanted sides. Then widen the robot's box or its heading, and see how little is learned about
+# the object from a robot that hardly knows where it is.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* Ask whether another order of the edges gives another box. Try it: reverse
@@ -491,8 +497,9 @@ for known_within in (1.0, 0.05):
     print(f"object within {known_within:.2f} m: robot's box", np.round(box, 2))
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# From the first object the robot learns nothing. From the second it learns that it cannot be farther away than
-# $r + d_r$: one side of its box moves. Whoever knows less cannot help.
+# From the first object the robot learns nothing. From the second it learns that it cannot be
+# farther away than $r + d_r$: one side of its box moves. An object that is known less well than the
+# robot cannot help it here.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### The heading: which bearings are possible at all?
@@ -525,8 +532,9 @@ views.show(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# The slice is much wider than the object, since its rims are parallel to the steepest and the flattest line from box to
-# box (grey). These lines go from a corner to a corner.
+# The slice is much wider than the object, since its sides are parallel to the steepest and the
+# flattest line from box to box (grey). Each of these lines joins a corner of one box to a corner of
+# the other.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=3
 # ## Again while it shrinks
@@ -543,16 +551,18 @@ for k in range(5):
     state = contract_once(*state, (2.7, 0.2), (0.05, 0.02))
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
-# Soon nothing shrinks any more. That does not mean that the boxes are now the smallest that could be guaranteed. Two things
-# are given away in each round: the edges are drawn for all headings of the interval at once, and after each edge a box is
-# put round what is left. The exercise asks what can be won back.
+# Soon nothing shrinks any more. That does not mean that the boxes are now the smallest that could
+# be guaranteed. Each round gives away two things: the edges are drawn for all headings of the
+# interval at once, and after each edge a box is put round what is left. The exercise asks what can
+# be won back.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### The filter
 #
-# This is all of it. A step **predicts** the robot's box by (10.3), **updates** by every object that is seen again, and
-# **adds** every object that is new. A new object gets the box of all places where it can be. That is a prediction as well:
-# a sighting is a drive that is only looked along.
+# This is all of it. A step **predicts** the robot's box by (10.3), **updates** by every object that
+# is seen again, and **adds** every object that is new. A new object gets the box of all places
+# where it can be. This box is computed like a prediction, since a range in some direction is like a
+# drive in that direction. *This is a good place for a break.*
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=6
 # ## Part two: the guarantee
@@ -617,14 +627,15 @@ lost = shares["possible places"]
 views.show(fig, f"None is cut off up to a right angle, and {lost[-1]:.0f} % are at half a turn.")
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
-# Up to a right angle nothing is lost. Beyond it the near edge changes sides, and the region between two rays is no longer
-# what two half-planes have in common. In the end nearly everything is cut off that is possible. (The slider of "A sighting
-# leaves a region" shows how.)
+# Up to a right angle nothing is lost. Beyond it the near edge changes sides, and the region between
+# the two rays is no longer the intersection of two half-planes. At half a turn, nearly every
+# possible place is cut off. (The slider of "A sighting leaves a region" shows how.)
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
-# So the four edges are used **only where $d_{\mathrm{abs}} < \pi/2$**. Beyond, `BOR` uses what is true for any
-# bearing: the object is within $r + d_r$ of the robot. That is a square round the robot's box. It matters more than it seems to,
-# since by it a robot that has lost its heading can find it again at an object that it knows.
+# So the four edges are used **only where $d_{\mathrm{abs}} < \pi/2$**. Beyond, `BOR` uses what is
+# true for any bearing: the object is within $r + d_r$ of the robot. That is a square round the
+# robot's box. This matters, because it lets a robot that has lost its heading find it again from an
+# object that it knows.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## One bad bound
@@ -680,9 +691,9 @@ except EmptyIntersection as error:
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## Who was seen?
 #
-# The second condition was to know whom one sees. If nobody tells, the filter uses this rule. The region of the sighting
-# overlaps one object's box: then it is that object. It overlaps none: a new one. It overlaps several: we
-# ignore the sighting, and count it.
+# The second condition was that the filter knows which object it sees. If nobody tells it, it uses a
+# rule. If the region of the sighting overlaps the box of one object, it is that object. If it
+# overlaps none, the object is new. If it overlaps several, the sighting is ignored, and counted.
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
@@ -723,10 +734,12 @@ views.show(fig, "The robot's box shrinks to its left end, and the true robot sta
 # reported.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
-# There is a vicious circle in it. The wider the boxes, the more of them a region overlaps; the more sightings are ambiguous
-# and ignored; and the wider the boxes become. Lesson 12 will meet this in earnest.
+# This rule can start a vicious circle. The wider the boxes are, the more of them a region overlaps.
+# So more sightings are ambiguous and are ignored, and the boxes become wider still. Lesson 12
+# counts what this does on eighty drives.
 #
-# So a guarantee is no better than its weakest condition, and in practice this is often the names, and not the noise.
+# So a guarantee is no better than its weakest condition. Here it was the name of the object, and
+# not the noise.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=11
 # ## Box beside ellipse
@@ -799,8 +812,8 @@ views.show(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="10-nearest"
-# The claim rises while new country is crossed, and falls where known objects come back into sight. The error mostly stays
-# far below it, since the worst case hardly ever happens.
+# The claim rises while the robot crosses unknown ground, and falls where known objects come back
+# into sight. The error mostly stays far below the claim, since the worst case hardly ever happens.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Why so wide?
@@ -891,8 +904,9 @@ views.explore(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# The ellipse (blue) claims far too little while the robot drives through new country: its error is several times its
-# claim. The box stays well below 1. How often was the robot outside, and who was nearer to it?
+# The ellipse (blue) claims far too little while the robot drives over unknown ground: its error is
+# several times its claim. The box stays well below 1. How often was the robot outside, and who was
+# nearer to it?
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
 steady = biased(3.0, 1.5)
@@ -901,11 +915,12 @@ print(f"robot outside in {misses[0]} of {len(STEADY)} steps: ellipse;  in {misse
 print({name: f"off by {100 * error:.0f} cm" for name, error in steady.rms().items()})
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# The bias breaks the assumption of the ellipse, and not that of the box. With the first slider beyond the second it breaks both.
+# The bias breaks the assumption behind the ellipse, but not the one behind the box. Set the first
+# slider higher than the second, and it breaks both.
 #
-# Still, look at the errors: the ellipse, although it is far too sure of itself, is nearer to the truth. So use **boxes where bounds
-# are known and a wrong claim is costly**, near a cliff, or in a proof, and **ellipses where the noise is known and
-# accuracy counts.**
+# Still, look at the errors of this run: the ellipse, although it is far too sure of itself, is
+# nearer to the truth. So use **boxes where bounds are known and a wrong claim is costly**, near a
+# cliff, or in a proof, and **ellipses where the noise is known and accuracy counts.**
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Literature
@@ -927,8 +942,8 @@ print({name: f"off by {100 * error:.0f} cm" for name, error in steady.rms().item
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=1
 # ## What you can do now
 #
-# You can bound a drive over a whole box, cut boxes by the edges of a sighting, compare angles across the seam, and say what a
-# guarantee rests on, and what it costs.
+# You can bound a drive that starts anywhere in a box, cut boxes by the edges of a sighting, handle
+# intervals of angles across ±180°, and say what a guarantee rests on and what it costs.
 #
 # **What comes next:** [lesson 11](11_samples.ipynb) keeps neither a box nor an ellipse, but a cloud of samples. In
 # [lesson 12](12_three_filters.ipynb) all three drive the same robot.
@@ -978,8 +993,8 @@ views.show(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# The filter has room for one interval, so it takes the smallest one that encloses both pieces. Here that is the second
-# interval, as it was: wider than it need be, and never wrong.
+# The filter has room for one interval, so it takes the smallest one that encloses both pieces. Here
+# that is the whole second interval: it is wider than it need be, but never wrong.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Deeper: what it costs
@@ -1011,8 +1026,10 @@ for N in (100, 10_000, 100_000):
     print(f"{N:6}  {known:4.0f} µs   {find:6.0f} µs   {memory[0]:9.1f} kB  {memory[1]:8.1f} MB")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# If the object is known, the time is constant. To find it among $N$ costs a time that grows with $N$, though slowly at
-# first, since numpy compares quickly. A spatial index would cure it. The memory speaks for itself.
+# If the object is known, the time is constant. To find it among $N$ costs a time that grows with
+# $N$, though slowly at first, since numpy compares quickly. A spatial index would cure that. The
+# last two columns compare the memory: with correlations it grows with the square of $N$, and with
+# boxes in proportion to $N$.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## In print

@@ -9,7 +9,7 @@
 # [03](03_kalman_filter.ipynb) for the Kalman filter, lesson [05](05_two_easy_halves.ipynb) for the known map; for
 # part two, lesson [07](07_correlations.ipynb).
 #
-# *Key:* a Gaussian has one hill. A cloud of samples can have as many as it has samples for.
+# *Key:* a Gaussian has one hill. A cloud can have as many hills as its samples suffice for.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* Two lectures. The heart of the first is the cloud that decides without a reason; come back to it
@@ -48,8 +48,9 @@ runs = many["runs"]
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=7
 # ## Which corner is that?
 #
-# A robot stands in a room of 6 m by 4 m and does not know where. It has a map with four corners and a post. It sees
-# the four corners, and they all look alike. The post looks no different, and it is seen from near by only.
+# A robot stands in a room of 6 m by 4 m and does not know where. It has a map with four corners and
+# a post. It sees the four corners, and they all look alike. The post looks just like a corner, but
+# it is seen only from near by.
 #
 # The robot drives a little and looks, again and again.
 
@@ -116,24 +117,25 @@ views.explore(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="11-where"
-# There are two clusters, one round the robot and one at the opposite place. The ellipse has the same mean and the
-# same covariance as the cloud. All that it can say is "in the middle, give or take the length of the room", and there is
-# nobody in the middle.
+# There are two clusters, one round the robot and one at the opposite place. The ellipse shows a
+# Gaussian with the mean and the covariance of the cloud. All that it can say is "in the middle,
+# give or take the length of the room", and in the middle there is no robot and no sample.
 
 # %% [markdown] slideshow={"slide_type": "subslide"} answers="11-where"
 # Press ▶. In step {= post_seen =} the robot comes within sight of the post. There is a post on one side of the room
 # only, so one of the clusters dies.
 #
-# A question to such a belief is a sum. How likely is the robot in some area? Add the weights $w_i$ of the samples
-# $x_i$ that are there:
+# To ask such a belief something, we compute a sum. How likely is it that the robot is in some area?
+# Add the weights $w_i$ of the samples $x_i$ that are there:
 #
 # $$\Pr(x \text{ in the area}) \;\approx\; \textstyle\sum_i w_i \quad \text{over all } i \text{ with } x_i \text{ in the area.} \tag{11.1}$$
 #
 # (All $n$ weights together are one.)
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* Ask what the EKF of lesson 05 would do here. It would have to start somewhere. From the right
-# half of the room it finds the robot, and from the other one the opposite place, with an ellipse just as small.
+# *For the lecturer:* Ask what the EKF of lesson 05 would do here. It would have to start somewhere.
+# If it starts in the robot's half of the room, it finds the robot; if it starts in the other half,
+# it finds the opposite place, with an ellipse just as small.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="11-where"
 print("step   near the robot   near the opposite place   near the mean")
@@ -172,10 +174,13 @@ print("at the robot only {}, at the opposite place only {}, at both {}".format(*
 reason = np.median([evidence(seed, steps=10) for seed in range(100)])
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="11-few"
-# After ten steps, few clouds are still undecided. The others have made up their minds, {= counts[0] =} for the
-# robot's place and {= counts[1] =} for the opposite one, and *what they have seen gives no reason to*: all ten looks
-# together are only {= reason:.1f =} times as likely from where the robot is as from the opposite place (median of the
-# drives). When the post comes, a cloud at the wrong place cannot follow: it has no sample at the right one.
+# After ten steps, only {= counts[2] =} of the {= len(few) =} clouds still have samples at both
+# places. {= counts[0] =} have decided for the robot's place and {= counts[1] =} for the opposite
+# one (of the other {= len(few) - sum(counts) =}, some samples lie elsewhere), and *what they have
+# seen gives them no reason to decide*: all ten looks together are only {= reason:.1f =} times as
+# likely from where the robot is as from the opposite place (median of the drives). When the post
+# comes into sight, a cloud at the wrong place cannot change over: it has no sample at the right
+# one.
 
 # %% slideshow={"slide_type": "subslide"} answers="11-few"
 found = many["found"]
@@ -185,22 +190,24 @@ shown = ", ".join(f"{name} in {share[0]:.0%}" for name, share in rows.items())
 views.show(fig, f"The robot is found by {shown} of the drives; the intervals are wide.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="11-few"
-# These are {= runs =} drives for each number of samples, with 95 % intervals, some ten steps after the post came into
-# sight. With a few hundred samples the outcome is that of a coin. Go back to the slider of the first section and
-# choose fewer samples: the cloud looks just as sure of itself.
+# These are {= runs =} drives for each number of samples, with 95 % intervals, some ten steps after
+# the post came into sight. With a few hundred samples the outcome is about that of a coin toss. Go
+# back to the slider of the first section and choose fewer samples: the cloud looks just as sure of
+# itself.
 #
 # **How many samples are enough?** Enough to have many of them at every place that must not be forgotten.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=6
 # ## To predict, drive
 #
-# What does a step do to the samples? Lesson 04 has carried a belief through the motion $f$ by its Jacobian. The EKF
-# believes afterwards in an ellipse, with the centre and the covariance
+# What does a step do to the samples? Lesson 04 has carried a belief through the motion $f$ by its
+# Jacobian. Afterwards the belief of the EKF is an ellipse with the centre and the covariance
 #
 # $$\hat x' = f(\hat x, u), \qquad P' = A P A^{\mathsf T} + Q. \tag{11.2}$$
 #
-# Samples need no Jacobian. Every sample drives by itself, each with *its own* draw of the wheels' noise. Say that a
-# robot knows its heading to $\sigma = 0.5$ rad only, and drives 3 m. We send 1500 samples along.
+# Samples need no Jacobian. Every sample drives by itself, each with *its own* draw of the wheels'
+# noise. Suppose that a robot knows its heading only to $\sigma = 0.5$ rad, and drives 3 m. We send
+# 1500 samples along.
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
@@ -255,17 +262,19 @@ views.explore(
 share = driven(0.5, 1500)[2]
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="11-banana"
-# The samples form a banana. The EKF's ellipse touches it where the heading is right, and holds {= 100 * share:.0f =}
-# % of the samples where it claims 95. Its centre, at $x = 3$ m, is where the robot gets if it looks straight ahead;
-# on average it gets {= driven(0.5, 1500)[0][:, 0].mean():.2f =} m far, for every wrong heading shortens the way.
+# The samples form a banana. The EKF's ellipse touches it where the heading is right, and holds
+# {= 100 * share:.0f =} % of the samples where it claims 95. Its centre, at $x = 3$ m, is where the
+# robot arrives if it looks exactly straight ahead; on average it gets only
+# {= driven(0.5, 1500)[0][:, 0].mean():.2f =} m far, because every wrong heading shortens the way
+# along $x$.
 
 # %% [markdown] slideshow={"slide_type": "subslide"} answers="11-banana"
 # Now make the heading sharper: with $\sigma = 0.1$ the ellipse holds {= 100 * driven(0.1, 1500)[2]:.0f =} %, with
 # 0.05 it holds {= 100 * driven(0.05, 1500)[2]:.0f =}. Then take fewer samples: a hundred still make a banana, and ten
 # make a few scattered dots.
 #
-# So the cloud is right about the shape *if it has enough samples*, and the ellipse *if the heading is known well
-# enough*.
+# So the cloud gets the shape right *if it has enough samples*, and the ellipse gets it right *if
+# the heading is known well enough*.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## A room of two places
@@ -291,21 +300,23 @@ total = sp.Symbol("total", positive=True)  # the sum of all four stories
 sp.factor(story["12"] + story["22"]) / total
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# Read it from the bracket outwards: move what was believed, then multiply by the likelihood of what was seen. If
-# there are places everywhere in between, the sum becomes an integral:
+# Read it from the bracket outwards: move what was believed, then multiply by the likelihood of what
+# was seen. If the robot can be not only in two rooms but anywhere, the sum becomes an integral:
 #
 # $$\mathrm{Bel}(x_k) \;\propto\; \Pr(z_k \mid x_k) \int \Pr(x_k \mid x_{k-1}, u_k)\,
 # \mathrm{Bel}(x_{k-1})\, dx_{k-1}. \tag{11.3}$$
 #
-# ($\mathrm{Bel}$ is what is believed after step $k$, and $\Pr$ of a continuous quantity is its density. The factor
-# that is left out is one over the sum of all stories. It makes the belief sum up to one.)
+# ($\mathrm{Bel}(x_k)$ is the belief after step $k$, and $\Pr$ of a continuous quantity is its
+# density. The factor that is left out is one over the sum of all stories. It makes the belief sum
+# to one.)
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=8
 # ## The weight
 #
-# We *have* samples of the integral in (11.3): take samples of the old belief, and let each drive with noise. We
-# *want* samples of the left side. We have drawn from one density and want another, so samples must count differently. A
-# sample that was drawn twice as often as it should have been must count half:
+# We *have* samples of the integral in (11.3): take samples of the old belief, and let each drive
+# with noise. We *want* samples of the left side. We have drawn from one density and want another,
+# so not all samples may count the same. A sample that was drawn twice as often as it should have
+# been must count half:
 #
 # $$w_i \;\propto\; \frac{\text{density that is wanted, at } x_i}{\text{density that } x_i \text{ was drawn from, at }
 # x_i}. \tag{11.4}$$
@@ -339,10 +350,11 @@ views.explore(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# The samples were drawn too far to the right, and their weights put that right: long bars where the wanted hill is
-# higher than the hill they came from. Make the drawing narrow, and move it to the side: then one or two samples carry
-# all, and the weighted mean is worth little. Weights correct samples that exist; where none was drawn, there is none
-# to weigh.
+# The samples were drawn too far to the right, and their weights correct that: the bars are long
+# where the wanted hill is higher than the hill they came from. Make the hill that we draw from
+# narrow, and move it to the side: then one or two samples carry all the weight, and the weighted
+# mean is worth little. Weights can correct samples that exist; where none was drawn, there is
+# nothing to weigh.
 
 # %% slideshow={"slide_type": "subslide"}
 ask(
@@ -371,8 +383,8 @@ wanted / drawn_from
 # **The weight is the likelihood and nothing else**, provided that the samples were moved by the noise of the wheels.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* Many programs get this wrong, and run. Ask how one would notice: only a filter that is known to
-# be exact tells.
+# *For the lecturer:* Programs that get this wrong still run. Ask how one would notice: it takes a
+# comparison with a filter that is known to be exact.
 
 # %% [markdown] slideshow={"slide_type": "subslide"} answers="11-weight"
 # ### Is that so?
@@ -455,8 +467,8 @@ views.explore(
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="11-worth"
 # With a range good to 3 cm only a thin arc of samples is left, worth
 # {= weighed(0.03, 500)[0].effective_sample_size:.0f =} of the 500. With 30 cm the cloud is worth
-# {= weighed(0.3, 500)[0].effective_sample_size:.0f =}. So we either take more samples, or draw them where the
-# sighting wants them, and pay for it by (11.4). The exercise does the latter.
+# {= weighed(0.3, 500)[0].effective_sample_size:.0f =}. So we either take more samples, or draw them
+# where the sighting puts the robot, and correct for that by (11.4). The exercise does the latter.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=4
 # ## Weights that are all zero
@@ -473,8 +485,8 @@ logs = likelihood.of_scan(off, places, z, np.tile(R_fine, (20, 1, 1)))
 print("logarithms of the likelihoods:", logs.round(1), "  likelihoods:", np.exp(logs))
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# Below about $e^{-745}$ a float is zero. All three likelihoods are, and 0/0 is no weight. Every sample of a cloud
-# that is a little off would meet this fate, and the cloud would not be wrong: it would be gone.
+# Below about $e^{-745}$ a float is zero. All three likelihoods are, and 0/0 is no weight. The same
+# would happen to every sample of a cloud that is a little off, and the whole cloud would be lost.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # But only ratios matter. So we keep the logarithms $\ell_i$ of the likelihoods, and take the largest one out before
@@ -489,18 +501,20 @@ print("weights             ", normalise(logs)[0].round(4))
 print("all lower by 100 000", normalise(logs - 1e5)[0].round(4))
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# Three samples are wrong, but one of them is a little less wrong, and has its weight. From there the cloud can crawl
-# on towards the truth.
+# All three samples are wrong, but the one that is a little less wrong has the largest weight. From
+# there the cloud can move on towards the truth.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## Drawing anew: tickets or a comb
 #
-# Samples that weigh nothing are ballast. So we draw $n$ new samples from the old ones, sample $i$ with the
-# probability $w_i$: the good ones are copied, the bad ones vanish, and all weights are equal again. This is
-# **resampling**. Lay the weights end to end on a rod. There are two ways to draw:
+# Samples that weigh next to nothing cost time and tell us nothing. So we draw $n$ new samples from
+# the old ones, sample $i$ with the probability $w_i$: the good ones are copied, the bad ones
+# vanish, and all weights are equal again. This is **resampling**. Lay the weights end to end on a
+# rod. There are two ways to draw:
 #
 # - **tickets** (multinomial): $n$ random numbers, and each picks the piece on which it falls;
-# - **a comb** (systematic): $n$ teeth in equal distances, and *one* random number that shifts them all.
+# - **a comb** (systematic): $n$ teeth at equal distances, and *one* random number that shifts them
+#   all.
 
 
 # %% slideshow={"slide_type": "subslide"}
@@ -527,8 +541,9 @@ views.explore(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# Shift the comb from one end to the other. Sample 0 asks for $8 \cdot 0.28 = 2.24$ copies, and gets 2 or 3, never
-# less and never more. Tickets give it anything, and may leave out a sample that they should not.
+# Shift the comb from one end to the other. Sample 0 asks for $8 \cdot 0.28 = 2.24$ copies, and gets
+# 2 or 3, never fewer and never more. With tickets it may get any number, and a good sample may be
+# left out.
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
 variance = {}
@@ -542,10 +557,11 @@ for name, each in variance.items():
 ratio = variance["comb"] / variance["tickets"]
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# Both are fair on average. The comb's variance is smaller for each of these eight samples: from {= ratio.min():.2f =}
-# to {= ratio.max():.2f =} of that of the tickets, and {= variance["comb"].sum() / variance["tickets"].sum():.2f =}
-# for all together. It gains little where a sample asks for much less than one copy, for then neither can do better
-# than one or none.
+# Both are fair on average. The comb's variance is smaller for each of these eight samples: from
+# {= ratio.min():.2f =} to {= ratio.max():.2f =} of that of the tickets, and
+# {= variance["comb"].sum() / variance["tickets"].sum():.2f =} for all together. It gains little
+# where a sample asks for much less than one copy, because either way that sample then gets one copy
+# or none.
 #
 # Every drawing also loses samples for good. So the filter draws only when it pays: if $n_{\mathrm{eff}}$ falls below
 # $n/2$.
@@ -553,9 +569,9 @@ ratio = variance["comb"] / variance["tickets"]
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=3
 # ## All of it
 #
-# This is **Monte Carlo localisation**: move every sample with noise of its own, weigh it by the likelihood, and draw
-# anew when few samples carry the belief. The package has it as `MCL`. If somebody tells the corners' names, it finds
-# the robot soon:
+# This is **Monte Carlo localisation**: move every sample with noise of its own, weigh it by the
+# likelihood, and draw anew when few samples carry the belief. The package has it as `MCL`. If it is
+# told which corner is which, it finds the robot soon:
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 rng, truth = np.random.default_rng(8), START
@@ -568,13 +584,14 @@ error = np.hypot(*(mcl.cloud.moments.x - truth)[:2])
 print(f"10 steps with names: off by {100 * error:.0f} cm")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# In the first section nobody told the names. Then a sample takes each sighting for any of the $N$ things of the map,
-# as likely as any other one, and its likelihood is the mean over all of them:
+# In the first section the corners had no names. Then, for each sample, a sighting may be of any of
+# the $N$ things in the map, all equally likely, and the sample's likelihood is the mean over all of
+# them:
 #
 # $$\Pr(z \mid x_i) = \frac{1}{N} \sum_{j=1}^{N} \Pr(z \mid x_i, p_j). \tag{11.8}$$
 #
-# Every sample has its own opinion of which corner it sees, and wrong opinions die with their samples. No association
-# is ever decided for all.
+# Every sample has its own opinion about which corner is seen, and wrong opinions die out with their
+# samples. No association is ever decided for the whole cloud.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=6
 # ## Carried off
@@ -626,9 +643,9 @@ views.explore(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="11-carried"
-# Without strangers there is usually no sample where the robot is, and no way to get one. The cure: in every step,
-# some samples are replaced by **strangers**, poses thrown anywhere into the room. If one of them explains what is
-# seen much better than the others, it has many children.
+# Without strangers there is usually no sample where the robot is, and no way to get one. The cure:
+# in every step, some samples are replaced by **strangers**, poses thrown anywhere into the room. If
+# one of them explains what is seen much better than the others do, it is copied many times.
 
 # %% slideshow={"slide_type": "subslide"} answers="11-carried"
 again = {f"{k} strangers": share["found"] for k, share in many["strangers"].items()}
@@ -642,10 +659,11 @@ views.show(fig, f"The robot is found again {shown} of the drives.")
 # every step it was {= 100 * again["5 strangers"][0]:.0f =} %, with 25 it was {= 100 * again["25 strangers"][0]:.0f =}
 # %, and with 50, a tenth of the samples, it was {= 100 * again["50 strangers"][0]:.0f =} %.
 #
-# Strangers take the places of samples that follow the robot, so one expects a price. In this room none is to be seen:
-# before the robot was carried off, the mean was off by {= 100 * price["0"][0]:.0f =} cm without strangers (median of
-# the drives), by {= 100 * price["50"][0]:.0f =} cm with 50, and by {= 100 * price["250"][0]:.0f =} cm with 250. The
-# room of the exercise is larger, and there a stranger hits the right pose more seldom.
+# Strangers replace samples that follow the robot, so we expect them to cost accuracy. In this room
+# no such cost can be seen: before the robot was carried off, the mean was off by
+# {= 100 * price["0"][0]:.0f =} cm without strangers (median of the drives), by
+# {= 100 * price["50"][0]:.0f =} cm with 50, and by {= 100 * price["250"][0]:.0f =} cm with 250. The
+# room of the exercise is larger, so there a stranger hits the right pose less often.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Standing still
@@ -663,8 +681,9 @@ for look in range(1, 61):
 print("different samples after", {look: left[look] for look in (1, 5, 20, 60)})
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# This is called **impoverishment**. A cloud that has made up its mind cannot change it. A filter can shake samples
-# that do not move, which is called roughening. In part two the package does so.
+# This is called **impoverishment**. A cloud that has made up its mind cannot change it. A filter
+# can add a little noise to samples that do not move, which is called roughening. In part two the
+# package does so. *This is a good place for a break.*
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* A good place to end the first lecture. Homework: would you add strangers if you knew that nobody
@@ -677,9 +696,10 @@ print("different samples after", {look: left[look] for look in (1, 5, 20, 60)})
 # the pose, three numbers, and of $N$ objects, two numbers each?
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# Say that ten samples in a row are enough for one number. For the pose alone it takes $10 \cdot 10 \cdot 10$ of them,
-# for a sample is a value of all its numbers at once. Each further number asks for ten times as many. With ten objects
-# there are 23 numbers, and it takes $10^{23}$ samples.
+# Say that ten samples in a row are enough for one number. For the pose alone it takes
+# $10 \cdot 10 \cdot 10$ of them, because one sample sets all three numbers at once. Each further
+# number asks for ten times as many. With ten objects there are 23 numbers, and it takes $10^{23}$
+# samples.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### One set for each
@@ -687,9 +707,9 @@ print("different samples after", {look: left[look] for look in (1, 5, 20, 60)})
 # The MAK thesis has a way out, its algorithm 2: *one set of samples for the robot, and one for each object.* A
 # thousand for the pose and 300 for every object, however many there are.
 #
-# But the robot is weighed by where it sees an object, and nobody knows where that is. The object is weighed by where
-# the robot is, and nobody knows that either. So whenever another place is needed, the algorithm takes **random
-# samples of its set**.
+# But to weigh a sample of the robot we need to know where the object is, and to weigh a sample of
+# the object we need to know where the robot is. We know neither. So whenever another place is
+# needed, the algorithm takes **random samples of its set**.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # With $m$ such partners $p_1, \ldots, p_m$, drawn anew for every sample $x_i$ of the robot, its weight is the mean
@@ -739,16 +759,17 @@ views.explore(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# Every object is a cloud: born as wide as the robot's doubt and the sensor's together, and shrinking while it is
-# seen. Press ▶ and look where the crosses are. The clouds shrink *beside* them: when the last sample of an object
-# lies within 5 cm of the mean, the object is frozen to a point, and the frozen ones are {= 100 * beside:.0f =} cm off
-# on average. The robot believes them, and its way ends {= 100 * way_off:.0f =} cm from the true one.
+# Every object is a cloud. At first it is as wide as the robot's doubt and the sensor's together,
+# and it shrinks while the object is seen. Press ▶ and look where the crosses are. The clouds shrink
+# *beside* them: when the last sample of an object lies within 5 cm of the mean, the object is
+# frozen to a point, and the frozen ones are {= 100 * beside:.0f =} cm off on average. The robot
+# believes them, and its way ends {= 100 * way_off:.0f =} cm from the true one.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=9
 # ## What do the sets forget?
 #
-# The robot's place is in doubt by 30 cm along its way. It measures, with 5 cm, how far ahead an object is, and so the
-# object's set is born. Then both sets are kept apart.
+# The robot's place is in doubt by 30 cm along its way. It measures to 5 cm how far ahead an object
+# is, and from this the object's set is made. From then on the two sets are kept apart.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* Let the class recall lesson 07 first: what did the block of $P$ between robot and landmark do?
@@ -778,13 +799,13 @@ for name, places in {"as they were made": seen, "random partners": rng.permutati
     print(f"{name:18} range known to {known[name]:2.0f} cm, correlation {together:5.2f}")
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="11-forget"
-# A robot that stands 30 cm too far back is asked about the object that a robot 30 cm too far ahead has seen. So the
-# range, known to {= known["as they were made"]:.0f =} cm, is now known to {= known["random partners"]:.0f =}. Each
-# set by itself is as good as before. What they knew *together* is gone. It is the block $P_{\mathrm{r}i}$ of lesson
-# 07, once more.
+# A robot sample that stands 30 cm too far back is now paired with an object sample that was made
+# from a robot 30 cm too far ahead. So the range, known to {= known["as they were made"]:.0f =} cm,
+# is now known to {= known["random partners"]:.0f =}. Each set by itself is as good as before. What
+# they knew *together* is gone. It is the block $P_{\mathrm{r}i}$ of lesson 07, once more.
 #
-# And with every reading the two sets learn from each other, as if they had never met. Lesson 07 has shown what comes
-# of that: a belief that is too sure.
+# And with every reading the two sets learn from each other as if their errors were independent.
+# Lesson 07 has shown what this leads to: a belief that is too sure.
 
 # %% [markdown] slideshow={"slide_type": "subslide"} answers="11-forget"
 # Is it? We drive {= runs =} laps, with the wheels alone, with the EKF of lesson 06, and with sets. How far off are
@@ -876,18 +897,19 @@ views.explore(
 # which is the dotted curve of the picture. (The second *Deeper* section derives it.) Biologists call it genetic drift.
 
 # %% [markdown] slideshow={"slide_type": "subslide"} answers="11-unseen"
-# You have seen it before: the two clusters of the first section were such a population, and hardly anything was known
-# that could tell them apart. When the cloud was small, one of them drifted to zero.
+# You have seen drift before: the two clusters of the first section were such a population, since
+# hardly anything that was seen told them apart. When the cloud was small, one of them drifted to
+# zero.
 #
-# There are two cures, and the package uses both: leave sets alone of which nothing was seen, and draw by a comb,
-# which gives each of $n$ equal samples back exactly once.
+# There are two cures, and the package uses both: it does not draw the set of an object that was not
+# seen, and it draws by a comb, which returns each of $n$ equal samples exactly once.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=4
 # ## Freezing
 #
-# The thesis has a third cure: if *all* samples of an object lie close together, take their mean for the truth from
-# then on. The object becomes a point. There is nothing left to draw, nothing can drift, and there is less to compute.
-# But how close is close?
+# The thesis has a third cure: if *all* samples of an object lie close together, take their mean for
+# the truth from then on. The object becomes a point. Nothing is left to draw, so nothing can drift,
+# and there is less to compute. But how close is close enough?
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 print(HEAD)
@@ -920,10 +942,11 @@ for name in (sets_apart.EKF, sets_apart.SETS, *sets_apart.FAST.values()):
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # With 1000 samples FastSLAM errs about as much as the EKF, and the true pose is outside in
 # {= 100 * maps[sets_apart.FAST[1000]]["outside"][0]:.0f =} % of the readings instead of the
-# {= 100 * maps["sets"]["outside"][0]:.0f =} of the sets: the correlations are back. It is still surer than it should
-# be, and with 100 samples much more so ({= 100 * maps[sets_apart.FAST[100]]["outside"][0]:.0f =} %). Each drawing
-# leaves fewer different beginnings of the way, and when the loop closes, the filter can only choose among those that
-# are left. Impoverishment again.
+# {= 100 * maps["sets"]["outside"][0]:.0f =} of the sets: the correlations are back. It is still
+# surer than it should be, and with 100 samples much more so
+# ({= 100 * maps[sets_apart.FAST[100]]["outside"][0]:.0f =} %). Each drawing leaves fewer different
+# beginnings of the way, and when the loop closes, the filter can only choose among those that are
+# left. This is impoverishment again.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Literature
@@ -950,7 +973,7 @@ for name in (sets_apart.EKF, sets_apart.SETS, *sets_apart.FAST.values()):
 # | move | every sample, each with noise of its own |
 # | weigh | by the likelihood alone, in logarithms, the largest taken out |
 # | draw | by weight, with a comb, when $n_{\mathrm{eff}} < n/2$ |
-# | clouds are good at | bent beliefs, several hills, names that nobody tells |
+# | clouds are good at | bent beliefs, several hills, sightings without names |
 # | and bad at | sharp sensors, many dimensions, changing their mind |
 # | sets with random partners | cheap, and far too sure of themselves |
 #
@@ -958,8 +981,9 @@ for name in (sets_apart.EKF, sets_apart.SETS, *sets_apart.FAST.values()):
 #
 # The sections below this one are optional.
 #
-# **Exercise:** [11 · Samples](../exercises/ex11_samples.ipynb). You weigh, draw and localise, make samples count that
-# were drawn otherwise than they should have been, and find a robot again that somebody carried off.
+# **Exercise:** [11 · Samples](../exercises/ex11_samples.ipynb). You weigh, draw and localise,
+# correct for samples that were drawn from the wrong density, and find a robot again that somebody
+# carried off.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Deeper: why half the noise?
@@ -974,15 +998,17 @@ hill = sp.exp(-(q**2) / (2 * Q))
 sp.simplify(hill**2 / hill.subs(Q, Q / 2))
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# The quotient is 1: the square of a Gaussian of variance $Q$ is, but for its height, a Gaussian of variance $Q/2$. So
-# the mistake is not a small one: it believes that the wheels are better than they are by the root of two.
+# The quotient is 1: the square of a Gaussian of variance $Q$ is, but for its height, a Gaussian of
+# variance $Q/2$. So the mistake is not a small one: a filter that makes it takes the wheels'
+# $\sigma$ to be smaller by the root of two than it is.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Deeper: what a draw does to a set
 #
-# Draw $n$ times, independently, from $n$ equal samples with the variance $\sigma_k^2$ (divided by $n$, not by $n -
-# 1$). The mean of the draws has the variance $\sigma_k^2/n$ round the mean of the samples. That is the step of the
-# walk. The draws spread round *their own* mean by as much less,
+# Draw $n$ times, independently, from $n$ equal samples with the variance $\sigma_k^2$ (divided by
+# $n$, not by $n - 1$). The mean of the draws has the variance $\sigma_k^2/n$ round the mean of the
+# samples. That is the step of the walk. By just as much, the spread of the draws round *their own*
+# mean is smaller,
 #
 # $$\mathrm{E}\,\sigma_{k+1}^2 = \left(1 - \tfrac1n\right) \sigma_k^2, \tag{11.12}$$
 #
@@ -1019,7 +1045,8 @@ bel_2 = (story["12"] + story["22"]) / sum(story.values())
 print("the belief depends on what was just seen:", sp.simplify(bel_2.diff(sees["2"])) != 0)
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# If all samples go on from the one of the largest weight, the belief of all steps before is thrown away but for one
-# point. On this drive its mean is {= 100 * abs(largest[0] - right[0]):.0f =} cm off that of the Kalman filter, whose
-# $\sigma$ is {= 100 * right[1]:.0f =} cm, and it claims {= 100 * largest[1]:.0f =} cm. The last row harms nobody who
-# derives (11.3), for the belief must depend on what was just seen.
+# If all samples go on from the one with the largest weight, all that was believed before is thrown
+# away except for one point. On this drive its mean is {= 100 * abs(largest[0] - right[0]):.0f =} cm
+# off that of the Kalman filter, whose $\sigma$ is {= 100 * right[1]:.0f =} cm, and it claims
+# {= 100 * largest[1]:.0f =} cm. The last row harms nobody who derives (11.3), for the belief must
+# depend on what was just seen.

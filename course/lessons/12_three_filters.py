@@ -9,8 +9,8 @@
 # **Before:** lessons [06](06_ekf_slam.ipynb), [10](10_boxes.ipynb) and [11](11_samples.ipynb) for the
 # filters, lesson [08](08_landmarks_from_scans.ipynb) for corners.
 #
-# *Key:* whoever compares filters gives all of them the same readings, on many drives, with odometry
-# beside them, and says how sure the answer is.
+# *Key:* to compare filters, give all of them the same readings, on many drives, with odometry
+# beside them, and say how sure the answer is.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* Part one is a robot that students like: let them guess what goes wrong with each
@@ -44,21 +44,22 @@ from slamlab.worlds import World
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=6
 # ## A robot for pocket money
 #
-# The robot of the MAK thesis is small and cheap: a toy's chassis of 12 × 12 cm on two driven wheels,
-# with the encoders of a computer mouse. Its eye is a Sharp GP2D120, an infrared range finder that costs
-# a few euros. A servo sweeps it over half a turn, 90 readings 2° apart, and it sees from 4 to 28 cm. The
-# robot only drives and logs. The filters come afterwards, and all of them get the same log.
+# The robot of the MAK thesis is small and cheap: a toy's chassis of 12 × 12 cm on two driven
+# wheels, with the encoders of a computer mouse. Its eye is a Sharp GP2D120, an infrared range
+# finder that costs a few euros. A servo sweeps it over half a turn, with 90 readings 2° apart, and
+# it sees from 4 to 28 cm. The robot only drives and logs. The filters run afterwards, and all of
+# them get the same log.
 #
-# We simulate this robot. So every number in this lesson is one of the simulation, and how much the wheels
-# slip is our choice, for the thesis does not say.
+# We simulate this robot. So every number in this lesson comes from the simulation, and how much the
+# wheels slip is our choice, because the thesis does not say.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### An eye that measures an angle
 #
-# The sensor looks at its own spot of light from a little way aside. The farther the spot, the smaller the
-# angle at which it appears, and that angle $\alpha$ is all that is measured. With the distance $b$ from lamp to
-# eye, $\alpha = b/r$. So an error of the angle makes an error of the range that is
-# $\left| dr/d\alpha \right| = r^2/b$ times as large, and
+# The sensor looks at its own spot of light from a little to the side. The farther the spot, the
+# smaller the angle at which it appears, and that angle $\alpha$ is all that is measured. With the
+# distance $b$ from lamp to eye, $\alpha = b/r$. So an error of the angle makes an error of the
+# range that is $\left| dr/d\alpha \right| = r^2/b$ times as large, and
 #
 # $$\sigma_r = c\, r^2. \tag{12.1}$$
 #
@@ -94,8 +95,9 @@ views.show(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="12-noise"
-# The readings scatter as (12.1) says, which gives {= 1000 * GP2D120.range_curvature * 0.25**2:.1f =} mm at 25 cm. For a
-# sensor of a few euros this is little. The trouble is not its noise but its *reach*.
+# The readings scatter as (12.1) says, which gives
+# {= 1000 * GP2D120.range_curvature * 0.25**2:.1f =} mm at 25 cm. For a sensor that costs a few
+# euros this is little. The trouble is not its noise but its *reach*.
 
 # %% slideshow={"slide_type": "subslide"} tags=["folded"]
 drive, rules = data_set(1), WallFollower()
@@ -111,8 +113,8 @@ views.legend(ax)
 views.show(fig, "An arena of boxes; the robot in it sees a short piece of the walls beside it.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# The square is the robot, the dots are one scan. Of an arena that is more than a metre and a half wide it sees what
-# lies within two hands. Most scans show a piece of one wall and nothing else.
+# The square is the robot, the dots are one scan. In an arena that is more than a metre and a half
+# wide, it sees only what lies within 28 cm. Here that is a piece of one wall.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=6
 # ## Two wheels roll an arc
@@ -122,9 +124,9 @@ views.show(fig, "An arena of boxes; the robot in it sees a short piece of the wa
 #
 # $$d = \frac{s_{\mathrm{left}} + s_{\mathrm{right}}}{2}. \tag{12.2}$$
 #
-# But where does it arrive? While it drives, it turns. If both wheels roll evenly, then after the share $t$ of the
-# step its heading is $t\, \Delta\theta$, and a little piece $d\, dt$ of the way leads in that direction. All the
-# pieces together are
+# But where does the robot arrive? It turns while it drives. If both wheels roll evenly, its heading
+# after the share $t$ of the step is $t\, \Delta\theta$, and a little piece $d\, dt$ of the way
+# leads in that direction. All the pieces together are
 #
 # $$x = \int_0^1 d \cos(t\, \Delta\theta)\, dt, \qquad y = \int_0^1 d \sin(t\, \Delta\theta)\, dt. \tag{12.3}$$
 
@@ -160,8 +162,8 @@ squared.step("half angles", (2 * d * sp.sin(turn / 2) / turn) ** 2)
 #
 # $$L = d\, \frac{\sin(\Delta\theta/2)}{\Delta\theta/2}. \tag{12.4}$$
 #
-# Only where the robot drives straight on, with $\Delta\theta \to 0$, do both agree. That the quotient is then 0/0 is
-# a trap for a program; exercise 12 begins with it.
+# The two agree only where the robot drives straight on, with $\Delta\theta \to 0$. The quotient is
+# then 0/0, which is a trap for a program; exercise 12 begins with it.
 
 
 # %% slideshow={"slide_type": "subslide"} tags=["folded"]
@@ -198,17 +200,19 @@ views.explore(
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## Along the left wall
 #
-# The program that drives knows no map. It stops and scans, points its eye 45° to the left, and turns until it reads
-# between {= 100 * rules.near:.0f =} and {= 100 * rules.far:.0f =} cm there: to the left if it reads
-# more, to the right if it reads less. Then it drives {= 100 * rules.step:.0f =} cm, or less if the wall comes too
-# near, and begins again. So it follows the wall on its left, round the whole arena: three laps take
-# {= len(readings) =} scans and {= np.hypot(*np.diff(truth[:, :2], axis=0).T).sum():.0f =} m.
+# The program that drives the robot has no map. It stops and scans, points its eye 45° to the left,
+# and turns until it reads between {= 100 * rules.near:.0f =} and {= 100 * rules.far:.0f =} cm
+# there: to the left if it reads more, to the right if it reads less. Then it drives
+# {= 100 * rules.step:.0f =} cm, or less if the wall comes too near, and begins again. So it follows
+# the wall on its left, round the whole arena: three laps take {= len(readings) =} scans and
+# {= np.hypot(*np.diff(truth[:, :2], axis=0).T).sum():.0f =} m.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### A drive, watched
 #
-# In the next figure the left panel shows the truth: the way so far, and the present scan. The right panel shows what
-# the log alone says. Odometry is summed up, and every scan is drawn where odometry believes the robot was.
+# In the next figure the left panel shows the truth: the way so far, and the present scan. The right
+# panel shows what the log alone says: odometry is added up, and every scan is drawn where odometry
+# puts the robot.
 
 # %% slideshow={"slide_type": "fragment"} tags=["folded"]
 naive = [np.zeros(3)]
@@ -280,8 +284,9 @@ print(
 print(f"the worst of {len(near)} sightings: {near.max():.0f} mm")
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="12-corners"
-# Corners are rare, and those that are found are good: half of them lie within {= np.median(near):.1f =} mm of a true
-# corner. What a place does not say is *which* corner it is.
+# Corners are rare, and those that are found are good: half of them lie within
+# {= np.median(near):.1f =} mm of a true corner. But its place alone does not say *which* corner it
+# is.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### How a corner opens
@@ -311,9 +316,9 @@ views.show(fig, "Two scans: a concave corner between its walls, a convex one see
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=14
 # ## Which corner is it?
 #
-# A filter must tell for every sighting which corner of the map it is of, or that it is a new one. Lesson 08 chose the
-# nearest landmark by Mahalanobis distance, within a gate. This rule knows two things of a sighting, its place and its
-# covariance $R$. Both can be changed.
+# For every sighting a filter must decide which corner of the map it shows, or that the corner is
+# new. Lesson 08 chose the nearest landmark by Mahalanobis distance, within a gate. This rule knows
+# two things of a sighting, its place and its covariance $R$. Both can be changed.
 #
 # We take one drive on which the rule fails. Below are the map that EKF-SLAM (MAK) makes of it, and all scans, drawn where
 # the filter believed the robot was.
@@ -353,8 +358,8 @@ views.explore(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# One sighting taken for the wrong corner turns the map, and then the next mistakes come by themselves. Now compare the
-# openings as well. Is that enough? And what if you only enlarge $R$?
+# One sighting that is taken for the wrong corner turns the map, and the turned map leads to the
+# next mistakes. Now compare the openings as well. Is that enough? And what if you only enlarge $R$?
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
 false = {}
@@ -370,17 +375,19 @@ for opening in (False, True):
 assert false.pop((True, 4)) == 0 < min(false.values())
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# On this drive it takes both. Openings keep unlike corners apart. The larger $R$ is for the rare sighting that is no
-# corner at all but lies some centimetres beside one, farther than the lines' own $R$ allows: a Gaussian has no such tail.
-# But the larger $R$ is, the less all good sightings count. The package compares openings and doubles $R$. This drive is
-# one of the few on which that is not enough.
+# On this drive it takes both. Openings keep unlike corners apart. The larger $R$ helps with the
+# rare sighting that lies some centimetres beside its corner, farther than the $R$ of the lines
+# allows: a Gaussian has no such tail. But the larger we make $R$, the less all good sightings
+# count. The package compares openings and doubles $R$. This drive is one of the few on which that
+# is not enough.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Who gives the names?
 #
-# To choose the nearest landmark one has to know how sure robot and map are *of each other*. MAK knows: its covariance
-# holds their correlations. Boxes and sample sets keep none (lessons 10 and 11). So there are two ways to run them: each
-# names the corners by itself, or MAK runs beside and names them for all.
+# To choose the nearest landmark, a filter has to know how the errors of robot and map hang
+# together. MAK knows this, because its covariance holds their correlations. Boxes and sample sets
+# keep none (lessons 10 and 11). So there are two ways to run them: each names the corners by
+# itself, or MAK runs beside them and names the corners for all.
 #
 # The boxes of the next question are honest: every bound is 4.5 standard deviations.
 
@@ -412,9 +419,11 @@ own_box, named_box = own_names["BOR, honest"]["box"], free["BOR, honest"]["box"]
 assert named_box["scans_outside"] == 0 and own_box["runs_outside"] == runs == 80
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="12-promise"
-# These counts are of {= runs =} drives, three laps each, and stored with the course
-# (`python -m slamlab.studies.three` makes them again). No constant of a filter was chosen on one of them. With names of its own the honest box breaks its promise in every
-# drive, in {= own_box["scans_outside"] / own_box["scans"]:.0% =} of all scans. With MAK's names it broke it in none.
+# These counts come from {= runs =} drives of three laps each and are stored with the course
+# (`python -m slamlab.studies.three` makes them again). None of these drives was used to choose a
+# constant of a filter. With names of its own the honest box breaks its promise in every drive, in
+# {= own_box["scans_outside"] / own_box["scans"]:.0% =} of all scans. With MAK's names it broke it
+# in none.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Your choice of names
@@ -446,9 +455,9 @@ views.explore(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# With its own names Monte Carlo makes several corners out of one, and a wide box makes one out of several. And yet on this
-# drive Monte Carlo ends {= ends["own"]:.0f =} cm off with its own names, and {= ends["MAK"]:.0f =} cm with MAK's. One drive is
-# one drive. On all of them:
+# With its own names Monte Carlo makes several corners out of one, and a wide box makes one out of
+# several. Even so, on this drive Monte Carlo ends {= ends["own"]:.0f =} cm off with its own names,
+# and {= ends["MAK"]:.0f =} cm with MAK's. But one drive proves little. Here are all of them:
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
 rows, gain = [], {}
@@ -464,22 +473,25 @@ head = "| | corners: own | by MAK | lost: own | by MAK | RMS, MAK's names less o
 Markdown("\n".join([head, "|---" * 6 + "|", *rows]))
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# The last column is a difference on the *same* drive: its median over all, and in brackets an interval that holds the true
-# median in about 95 % of such studies. (A median of differences is in general not the difference of two medians.) All four
-# intervals lie below zero, so each filter is nearer to the truth with MAK's names;
-# FastSLAM, whose samples keep correlations of their own, hardly (its upper end is less than a millimetre below zero). MAK itself took
-# {= free["MAK"]["association"]["false"] or "no" =} sighting in {= runs =} drives for another corner.
+# The last column compares the root mean square (RMS) of the position's error on the *same* drive:
+# it gives the median of the differences over all drives, and in brackets an interval that holds the
+# true median in about 95 % of such studies. (A median of differences is in general not the
+# difference of two medians.) All four intervals lie below zero, so each filter is nearer to the
+# truth with MAK's names; FastSLAM, whose samples keep correlations of their own, is hardly nearer
+# (its upper end is less than a millimetre below zero). MAK itself took
+# {= free["MAK"]["association"]["false"] or "no" =} sighting for the wrong corner in {= runs =}
+# drives.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* Here is a good place for the break. Ask what a comparison of filters is worth in which each filter
-# names the landmarks for itself: what is compared then?
+# *For the lecturer:* This is the place for the break. Ask what a comparison is worth in which each
+# filter names the landmarks for itself: does it compare filters, or names?
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## Part two: box, ellipse, samples
 #
 # From here on all filters take the same corners with the same names. These run:
 #
-# - **odometry**, which corrects nothing: what is not better than this is worth nothing;
+# - **odometry**, which corrects nothing: a filter that is no better than this is worth nothing;
 # - **BOR, honest**: every bound is 4.5 standard deviations;
 # - **BOR, tuned**: bounds chosen by results, a tenth of a standard deviation for odometry and 1.5 for a corner;
 # - **MAK**: EKF-SLAM with ellipses and all correlations;
@@ -536,15 +548,16 @@ views.explore(
 #
 # A box needs bounds, and Gaussian noise has none. So a bound is $k$ standard deviations, and somebody has to choose $k$.
 #
-# And how far can odometry be off after many steps? If the bounds of all steps are added, then by (10.11) the sum grows
-# much faster than the error does. There is a second bound. The EKF predicts a covariance $P$ for the whole way from the
-# start, and within $k$ of *its* standard deviations,
+# How far can odometry be off after many steps? If we add the bounds of all steps, then by (10.11)
+# the sum grows much faster than the error does. But there is a second bound. The EKF predicts a
+# covariance $P$ for the whole way from the start, and within $k$ of *its* standard deviations,
 #
 # $$|x - \hat x| \le k \sqrt{P_{xx}}, \qquad |y - \hat y| \le k \sqrt{P_{yy}}, \qquad
 # |\theta - \hat\theta| \le k \sqrt{P_{\theta\theta}}, \tag{12.5}$$
 #
-# where the hats mean odometry summed up. The honest box is the part that lies within both bounds, that of the
-# steps and that of the way. Neither of them is certain: each is promised with a probability.
+# where the hats mark the sum of odometry. The honest box is the part that lies within both bounds,
+# that of the steps and that of the way. Neither of them is certain: each is promised with a
+# probability.
 
 
 # %% slideshow={"slide_type": "subslide"} tags=["folded"]
@@ -579,9 +592,10 @@ views.explore(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# As the sliders stand, the box holds the robot throughout, and its middle is about as far off as odometry. Make $k$ smaller: the box
-# shrinks, and some day the robot is outside. Is it reported? Then untick the second bound, and the sum of all
-# steps makes the box larger than the arena.
+# As the sliders stand, the box holds the robot throughout, and its middle is about as far off as
+# odometry. Make $k$ smaller: the box shrinks, until the robot is outside at some time. Does the
+# filter report it? Then untick the second bound, and the sum of all steps makes the box larger than
+# the arena.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### On all drives
@@ -636,18 +650,21 @@ print(f"in {slipped['scans_outside'] / slipped['scans']:.0%} of all scans")
 print(f"reported in {slipped['runs_outside_reported']} of these drives")
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="12-report"
-# No report is no proof, as lesson 10 found. The tuned box is worse: on the drives whose cable is not snagged it is narrower and its middle
-# nearer to the truth, but the robot is outside in {= free["BOR, tuned"]["box"]["scans_outside"] / named_box["scans"]:.0% =}
-# of all scans. As an estimate it may be useful. As a *set* it is worth nothing.
+# No report is no proof, as lesson 10 found. The tuned box is worse: on the drives whose cable is
+# not snagged it is narrower and its middle nearer to the truth, but the robot is outside in
+# {= free["BOR, tuned"]["box"]["scans_outside"] / named_box["scans"]:.0% =} of all scans. Its middle
+# may be useful as an estimate. But as a *set* that is to hold the robot, the box is worth nothing.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## When is a run lost?
 #
-# The thesis says that a filter "got lost" and leaves it at that. Whoever counts needs a definition. Ours is:
+# The thesis says that a filter "got lost" and leaves it at that. To count lost runs we need a
+# definition. Ours is:
 #
 # - a run **strays** where its position is off by more than {= 100 * LOST:.0f =} cm, the robot's own width: it would drive
 #   into the wall;
-# - a run is **lost** if it is off that far at its end. It was lost from where it last went beyond that limit.
+# - a run is **lost** if it is off that far at its end. It has been lost since it last went beyond
+#   that limit.
 #
 # Below are the errors of our first drive. Who strays, and who is lost?
 
@@ -665,8 +682,9 @@ views.show(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# Lost on this drive: {= " and ".join(lost_here) =}. MAK's error grows while no known corner is in sight, and drops when one
-# comes. Odometry has nothing to drop by. Its error falls where a wrong heading happens to lead back, as on the way home of a round trip.
+# Lost on this drive: {= " and ".join(lost_here) =}. MAK's error grows while no known corner is in
+# sight, and drops when one comes into sight. Nothing corrects odometry: its error falls only where
+# a wrong heading happens to lead back, as on the way home of a round trip.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### The thesis' pictures
@@ -686,14 +704,14 @@ views.show(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# Only `walls` draws every wall once. Had the thesis met this drive, its text would read differently. One picture is one
-# drive.
+# Only `walls` draws every wall once. If the thesis had shown this drive, its verdict on the filters
+# might have been another. One picture shows one drive, and no more.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## Six drives
 #
-# The thesis has six data sets, the last with the snagged cable. So have we. Each number is the root mean square (RMS) of the
-# position's error over the drive, in centimetres.
+# The thesis has six data sets, the last with the snagged cable, and so do we. Each number is the
+# root mean square (RMS) of the position's error over the drive, in centimetres.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 names = list(FILTERS)
@@ -713,8 +731,9 @@ Markdown("\n".join(["| | " + " | ".join(names) + " |", "|---" * 9 + "|", *lines]
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # In the last line all but `walls` are some 30 cm off over the drive, and still only
-# {= sum(one["lost"] for one in table["six"][-1]["filters"].values()) =} of {= len(names) =} are *lost*: where a round trip
-# ends tells little, and any definition has a case in which it says little. That is why the tables give the RMS beside it.
+# {= sum(one["lost"] for one in table["six"][-1]["filters"].values()) =} of {= len(names) =} are
+# *lost*: the end of a round trip tells little, and every definition of "lost" has cases that it
+# judges badly. That is why the tables give the RMS beside it.
 #
 # You have run set 1 yourself, above. Is it the first line?
 
@@ -895,8 +914,9 @@ assert more["BOR, honest"] == more["BOR, tuned"] == "undecided"
 assert {more[n] for n in ("MAK", "FastSLAM", "walls")} == {"nearer"}
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# For both kinds of boxes it is undecided even after {= runs =} drives: until one of them strays, boxes and sample sets are
-# about equally good. Those that keep correlations are nearer than both.
+# For both kinds of boxes it is undecided even after {= runs =} drives: the study cannot tell which
+# is nearer until one of them strays, the box or the sample sets. The three filters that keep
+# correlations are nearer than Monte Carlo.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Finding 3: "once lost, lost for good"
@@ -952,8 +972,9 @@ views.show(
 assert free["Monte Carlo"]["lost"][1] > 0.05 and snagged["walls"]["lost"][2] < 0.1
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# Refuted: Monte Carlo is lost in {= percent(free["Monte Carlo"]["lost"]) =} of the drives on which no cable is snagged. The thesis did not
-# measure wrongly; it measured too little. With the cable, filters on corners are lost in about nine drives of ten, just as
+# This finding is refuted: Monte Carlo is lost in {= percent(free["Monte Carlo"]["lost"]) =} of the
+# drives on which no cable is snagged. The thesis did not measure wrongly, but six drives were too
+# few to show it. With the cable, filters on corners are lost in about nine drives of ten, just as
 # odometry is: nothing in them expects a jump of 20° to 40°. Only `walls` is not.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
@@ -963,11 +984,13 @@ assert free["Monte Carlo"]["lost"][1] > 0.05 and snagged["walls"]["lost"][2] < 0
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=4
 # ## Found again
 #
-# After a slip the robot stands elsewhere than its filter believes. A corner that is seen from a wrong place is a new corner, and
-# corners come one at a time. Walls are in most scans, so `walls` can look for itself. As soon as it sees only unknown
-# walls, it spreads samples as far as a slip may throw the robot, and weighs them by each scan in the map of *before* (this is
-# Monte Carlo localisation, lesson 11). Where they explain {= MIN_SCANS =} scans in a row, and the filter's own pose does not, it
-# takes the old map again and goes on from the samples.
+# After a slip the robot stands elsewhere than its filter believes. A corner that is seen from a
+# wrongly believed place is taken for a new one, and corners come into sight one at a time. Walls
+# are in most scans, so `walls` can look for itself. As soon as it sees only unknown walls, it
+# spreads samples as far as a slip may throw the robot, and weighs them by each scan in the map of
+# *before* (this is Monte Carlo localisation, lesson 11). Where they explain {= MIN_SCANS =} scans
+# in a row, and the filter's own pose does not, it takes the old map again and goes on from the
+# samples.
 #
 # Here is set 6, with all it says of slips:
 
@@ -985,11 +1008,11 @@ for k, reading in enumerate(again):
         heard = says
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# After {= SUSPICIOUS =} suspicious scans in a row it *says* so, and after {= MIN_SCANS =} it acts. The first alarm was
-# false, and it took it back two scans later. While it searches it strays, in
-# {= percent(snagged["walls"]["strayed"]) =} of the snagged drives, but it is lost in
-# {= percent(snagged["walls"]["lost"]) =} only. This is no merit of the filter, which is an EKF like MAK. It is the merit of
-# landmarks that are in sight.
+# After {= SUSPICIOUS =} suspicious scans in a row it *says* so, and after {= MIN_SCANS =} it acts.
+# The first alarm was false, and was taken back two scans later. While `walls` searches it strays,
+# in {= percent(snagged["walls"]["strayed"]) =} of the snagged drives, but it is lost in
+# {= percent(snagged["walls"]["lost"]) =} only. The filter itself is an EKF like MAK. What it has
+# besides is this search, and the search works because walls are in sight in most scans.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=2
 # ## The findings, judged
@@ -1013,8 +1036,8 @@ Markdown(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# One warning about all such tables: a 95 % interval misses the truth in one study of twenty. Of {= len(judged) =} verdicts one may
-# be chance.
+# One warning about all such tables: a 95 % interval misses the truth in one study of twenty. So one
+# of these {= len(judged) =} verdicts may well be due to chance.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Literature
@@ -1040,8 +1063,9 @@ Markdown(
 # You can build a comparison of filters that can be believed: one log for all, the same names, odometry beside them, a definition
 # of *lost*, many drives, differences on the same drive, and intervals.
 #
-# The three filters that did best here, MAK, FastSLAM and `walls`, keep correlations; boxes and sample sets throw them away. And a
-# filter is no better than its landmarks: after the slip, only landmarks that most scans show helped to find the robot again.
+# The three filters that did best here, MAK, FastSLAM and `walls`, keep correlations; boxes and
+# sample sets throw them away. And a filter is no better than its landmarks: after the slip, only
+# the filter whose landmarks are in most scans could search for the robot, and found it again.
 #
 # **What comes next:** [lesson 13](13_scan_matching.ipynb) does without landmarks altogether. The sections below this one are
 # optional.
@@ -1062,8 +1086,9 @@ B = sp.simplify(L * sp.sin(turn / 2) / turn)
 B, sp.limit(B, turn, 0)
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# This base changes with every step; for small turns it is half the way. And for $d = 0$ the steered robot stands still, while ours
-# turns on the spot. So our filters predict with distance and turn.
+# This base changes with every step; for small turns it is half the distance driven. Besides, for
+# $d = 0$ the steered robot stands still, while ours turns on the spot. So our filters predict with
+# distance and turn.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Deeper: is freezing worth it?
@@ -1079,8 +1104,9 @@ print(f"lost: frozen {frozen['runs_lost']}, never frozen {never['runs_lost']} of
 assert verdict(freezing, 0, "worse", "better") == "better"
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# It does, but little: the interval leaves out zero, and on a middling drive the filter that never freezes is nearer to the
-# truth by {= -1000 * freezing[0]:.0f =} mm. The difference in lost runs is no proof, but a reason to look at more drives.
+# It does, but little: the interval leaves out zero, and on a middling drive the filter that never
+# freezes is nearer to the truth by {= -1000 * freezing[0]:.0f =} mm. The difference in lost runs
+# proves nothing, but it is a reason to look at more drives.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Deeper: what a scan costs

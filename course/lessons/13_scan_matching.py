@@ -9,8 +9,8 @@
 # **Before:** lesson [01](01_why_slam.ipynb) for poses and scans, lesson [03](03_kalman_filter.ipynb) for
 # covariances.
 #
-# *Key:* if we knew the pairs, we would know the motion. If we knew the motion, we would know the pairs. So we
-# guess one of them, and improve both in turn.
+# *Key:* if we knew the pairs, we could compute the motion. If we knew the motion, we could find the
+# pairs. So we guess one of them, and improve both in turn.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* Each part is a lecture. Part one is derived at the board as far as (13.4); "Watch it" and the
@@ -38,9 +38,9 @@ from slamlab.worlds import World, box, ring
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## Two scans of one place
 #
-# A robot stands in a polygon of cardboard walls, with a box and a cylinder in it. It scans, turns by −45°, drives
-# 27.3 cm, and scans again. Its odometry is badly wrong: it says −35° and 15 cm. (All scans in this lesson are
-# simulated, but for the last section of part two.)
+# A robot stands in a polygon of cardboard walls, with a box and a cylinder in it. It scans, turns
+# by −45°, drives 27.3 cm, and scans again. Its odometry is badly wrong: it says −35° and 15 cm.
+# (All scans in this lesson are simulated, except in the last section of part two.)
 
 # %% slideshow={"slide_type": "skip"}
 run = simulation("polygon-wrong", np.random.default_rng(1))
@@ -68,8 +68,9 @@ views.show(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# You see the same walls twice, and in your mind you already turn the second scan until it fits. Nobody told you which
-# point of the one scan belongs to which point of the other. How can a machine find the motion?
+# You see the same walls twice, and you can easily imagine turning the second scan until it fits.
+# Nobody told you which point of one scan belongs to which point of the other. How can a machine
+# find the motion?
 
 # %% slideshow={"slide_type": "subslide"}
 ask(
@@ -93,15 +94,16 @@ print(f"within 1 mm: {np.sum(apart < 1e-3)} of {len(second)} points")
 print(f"half of them lie farther than {1000 * np.median(apart):.0f} mm from the nearest point")
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="13-same-spots"
-# So there are no true pairs. We begin as if there were, since it leads to a formula that we need. We shall see what this
-# costs, and part two does without it.
+# So hardly any point has a true partner. We begin as if all of them had one, since this leads to a
+# formula that we need. We shall see what it costs, and part two does without it.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=10
 # ## If the pairs were known
 #
-# Suppose that the point $a_i$ of the second scan, the **source**, is the same spot as the point $b_i$ of the first scan,
-# the **target**. (In this lesson $a$ and $b$ are points, and not poses.) Which rotation and which shift $t$ lay the
-# source over the target? We ask for the least sum of squares:
+# Suppose that the point $a_i$ of the second scan, the **source**, is the same spot as the point
+# $b_i$ of the first scan, the **target**. (In this lesson $a$ and $b$ are points, and not poses.)
+# Which rotation and which shift $t$ lay the source over the target? We look for those with the
+# least sum of squares:
 #
 # $$E(\theta, t) = \sum_i \left|\,\mathrm{Rot}(\theta)\,a_i + t - b_i\,\right|^2. \tag{13.1}$$
 #
@@ -124,8 +126,8 @@ E = squares(Rot * a + t * ones - b)
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### First the shift
 #
-# At the least $E$, its slopes along $t_x$ and $t_y$ are zero. These are two linear equations, and the machine solves
-# them. We claim that
+# Where $E$ is least, its slopes along $t_x$ and $t_y$ are zero. These are two linear equations, and
+# the machine solves them. We claim that
 #
 # $$t = \bar b - \mathrm{Rot}(\theta)\,\bar a, \tag{13.2}$$
 #
@@ -177,8 +179,9 @@ ask(
 #
 # $$\theta = \operatorname{atan2}\Bigl(\sum_i a_i' \times b_i',\; \sum_i a_i' \cdot b_i'\Bigr). \tag{13.4}$$
 #
-# So with known pairs there is nothing to search and no false minimum to be caught in. However many points there are, two
-# sums tell all about the angle. Points far from the centroid count for more, since a turn moves them more.
+# So with known pairs there is nothing to search and no false minimum to be caught in. However many
+# points there are, two sums determine the angle. Points far from the centroid count for more, since
+# a turn moves them more.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Does it work?
@@ -194,13 +197,13 @@ print("found", np.round(paired, 4), " true", np.round(true_motion, 4))
 print("{:.1f} mm and {:.2f}° off".format(*off(paired)))
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# The noise of {= len(first) =} pairs averages out. Most textbooks find the rotation by a singular value decomposition. In
-# the plane it gives the same angle, and in space it is the way to go; the first *Deeper* section shows it, with the
-# trap in it.
+# The noise of {= len(first) =} pairs averages out. Most textbooks find the rotation by a singular
+# value decomposition. In the plane it gives the same angle, and in space it is the usual way; the
+# first *Deeper* section shows it, and the trap that it holds.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* "Why centroids?" is answered by two derivatives, and not by custom. Complex numbers make (13.4)
-# one line: θ is the argument of the sum of conj(a′) b′.
+# *For the lecturer:* Two derivatives answer the question "why centroids?"; it is not a convention.
+# Complex numbers make (13.4) one line: θ is the argument of the sum of conj(a′) b′.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=8
 # ## ICP: the pairs are not known
@@ -244,8 +247,9 @@ ask(
 # %% [markdown] slideshow={"slide_type": "subslide"} answers="13-can-grow"
 # ### Downhill in both halves
 #
-# Let $d_i$ be the length of pair $i$ before a round, and $d_i'$ after it. In between stands the same pair, carried by the
-# new pose and not yet paired anew; call its length $\hat d_i$. Then
+# Let $d_i$ be the length of pair $i$ before a round, and $d_i'$ after it. In between, the pose is
+# already the new one, but the pairs are still the old ones; call the length of pair $i$ then
+# $\hat d_i$. Then
 #
 # $$\sum_i d_i'^{\,2} \;\le\; \sum_i \hat d_i^{\,2} \;\le\; \sum_i d_i^{\,2}. \tag{13.5}$$
 #
@@ -282,14 +286,15 @@ for name, measure in measures.items():
 # once a smaller sum has been reached. So ICP always ends, in *a* valley. Whether it is the right one, (13.5) does not say.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* Prove (13.5) at the board, one inequality at a time, and ask for each what it would need to hold for
-# another measure. The next section but one comes back to it.
+# *For the lecturer:* Prove (13.5) at the board, one inequality at a time, and ask for each what it
+# would need to hold for another measure. The section "When to stop" comes back to it.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=6
 # ## Watch it
 #
-# Each grey line is a pair. The guess of odometry is turned by 10° too far to the left. Look at round 0 first: where are
-# the lines long, and which way do they pull? Then go on, round by round. After that, try a worse heading.
+# Each grey line is a pair. The guess by odometry is turned 10° too far to the left. Look at round 0
+# first: where are the lines long, and which way do they pull? Then go on, round by round. After
+# that, try a worse heading.
 
 
 # %% slideshow={"slide_type": "subslide"}
@@ -338,8 +343,8 @@ views.show(
 # are two reasons. The beams hit different spots of a wall; and some walls were seen from one place only.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* Let the class find the largest error of the heading from which the match still comes home. They
-# will meet it again, as the basin, in part two.
+# *For the lecturer:* Let the class find the largest error of the heading from which the match still
+# succeeds. They will meet this idea again in part two, as the basin.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## When to stop
@@ -384,9 +389,10 @@ for name, rule in RULES.items():
     print(f"{name:22}", f"after {k:2} rounds: {told(looks[k].pose)}" if k else "never stops")
 
 # %% [markdown] slideshow={"slide_type": "subslide"} answers="13-bound"
-# A bound has to be guessed, and both guesses are bad: 2 mm is never reached, and 50 mm is reached too soon, with most of
-# the turn still to come. The change tells when nothing more is to be had, whatever the noise. But it needs a small
-# tolerance, for ICP creeps: at 1 mm a round it stops before the turn is done.
+# A bound has to be guessed, and both guesses are bad: 2 mm is never reached, and 50 mm is reached
+# too soon, with most of the turn still to come. The change tells when more rounds hardly help,
+# whatever the noise. But its tolerance has to be small, because ICP creeps: with a tolerance of 1
+# mm it stops before the turn is done.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### What the change of a mean cannot promise
@@ -404,8 +410,8 @@ print(f"stopped more than 1 mm before the end: {np.sum(early > 1)} of {len(runs)
 print(f"at most {early.max():.0f} mm before it")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# It did, in {= np.sum(early > 1) =} of {= len(runs) =} runs from these bad guesses. A loop that goes on until no
-# pair changes any more has (13.5) on its side.
+# It did so in {= np.sum(early > 1) =} of {= len(runs) =} runs from these bad guesses. A loop that
+# goes on until no pair changes any more has (13.5) on its side.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* Both rules have their place. The change ends the loop; the length that is left says whether to
@@ -494,7 +500,8 @@ views.show(
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=10
 # ## What only one scan saw
 #
-# ICP pairs **every** source point. What the target never saw has no partner, gets one all the same, and pulls.
+# ICP pairs **every** source point. A point that the target never saw has no partner, but it is
+# given one all the same, and that pair pulls.
 #
 # We make it worse. Many robots have a scanner that looks ahead only, over half a turn. After a turn of −45° a quarter of
 # what it sees is new.
@@ -564,22 +571,25 @@ for share in (1.0, 0.9, 0.8, 0.7, 0.5, 0.3, 0.1):
     print(f"{share:10.1f}    {ends[0]:20}  {ends[1]}")
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="13-new-quarter"
-# From the truth, a tenth of the pairs seems best. But the shortest pairs are those that fit *already*, so whoever keeps few
-# of them changes little: from 10° off, a share of 0.1 ends {= by_share[0.1][1][1]:.0f =}° off. The right share depends on the
-# overlap, which nobody knows beforehand.
+# Started from the truth, a tenth of the pairs seems best. But the shortest pairs are those that fit
+# *already*, so a fit to only a few of them changes little: from 10° off, a share of 0.1 ends
+# {= by_share[0.1][1][1]:.0f =}° off. The right share depends on the overlap, which nobody knows
+# beforehand.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* Let the class say, before the slider moves, which points the fans end on. Here about three quarters
-# overlap, and about that is a good share. Other ways to the same end: a largest length, robust weights.
+# *For the lecturer:* Let the class say, before the slider moves, which points the fans end on. Here
+# about three quarters of the scans overlap, and shares of 0.7 to 0.8 did well. Other ways to the
+# same end are a largest length for pairs, and robust weights.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=8
 # ## Part two: across the wall
 #
 # *This is a good place for a break.*
 #
-# Two scans hit a wall at different spots. So how far a point lies from its partner **along** the wall means nothing. We have
-# seen what it does: it holds the walls back. So let us count the distance **across** the wall alone. With $n_i$, the
-# direction across the wall at the partner $b_i$, a vector of length one, it is
+# Two scans hit a wall at different spots. So how far a point lies from its partner **along** the
+# wall means nothing. We have seen what counting it does: it holds the walls back. So let us count
+# the distance **across** the wall alone. With $n_i$, the direction across the wall at the partner
+# $b_i$, a vector of length one, it is
 #
 # $$e_i = n_i^{\mathsf T} (\mathrm{Rot}(\theta)\,a_i + t - b_i). \tag{13.6}$$
 
@@ -628,8 +638,8 @@ e.jacobian([d_x, d_y, d_theta]).subs(d_theta, 0)
 #
 # $$J_i = \begin{bmatrix} n_x & n_y & \mathrm{arm}_i \times n_i \end{bmatrix}. \tag{13.7}$$
 #
-# A shift counts by how squarely it meets the wall, and a turn by its lever. For a wall square ahead, $n = (1, 0)$: the second
-# slope is zero, and the third is not.
+# A shift counts the more, the more squarely it meets the wall; a turn counts by the length of its
+# lever. For a wall square ahead, $n = (1, 0)$: the second slope is zero, and the third is not.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### The step
@@ -640,13 +650,13 @@ e.jacobian([d_x, d_y, d_theta]).subs(d_theta, 0)
 #
 # $$J^{\mathsf T}(e + J\delta) = 0 \quad\Longrightarrow\quad \delta = -(J^{\mathsf T}J)^{-1} J^{\mathsf T} e. \tag{13.8}$$
 #
-# There are three unknowns, whatever the number of points. A turn is no straight line, so the step is not exact. We
-# take it, pair again, and step again.
+# There are three unknowns, whatever the number of points. A turn is not linear in $d_\theta$, so
+# the step is not exact. We take it, pair again, and step again.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* Censi (2008) still solves one round in closed form, by a quartic; most people take this Gauss-Newton
-# step. The exercise asks for a step in the robot's frame, with odometry in the sum: derive (13.7) at the board, and leave the
-# rest to them.
+# *For the lecturer:* Censi (2008) still solves one round in closed form, by a quartic; most people
+# take this Gauss-Newton step. The exercise asks for a step in the robot's frame, with odometry in
+# the sum: derive (13.7) at the board, and leave the rest to the students.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=7
 # ## How much faster, how much better?
@@ -714,9 +724,11 @@ for width, lidar in {"whole turn": RPLIDAR_A2, "half a turn": ahead}.items():
 print("odometry: median {:.0f} mm, {:.1f}°".format(*np.median(wheels, axis=0)))
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# This odometry is so bad that every method beats it, in place and in heading, in {= "each" if min(nearer.values()) == 30 else f"{min(nearer.values())} or more" =} of the 30 steps. But with half a
-# turn plain ICP is still {= medians["half a turn", "point to point"][0]:.0f =} mm off in the median. Trimming takes most of that
-# away, if the share suits. Across the walls it needs no such luck.
+# This odometry is so bad that every method beats it, in place and in heading, in
+# {= "each" if min(nearer.values()) == 30 else f"{min(nearer.values())} or more" =} of the 30 steps.
+# But with half a turn plain ICP is still {= medians["half a turn", "point to point"][0]:.0f =} mm
+# off in the median. Trimming takes most of that away, if the share suits. With distances across the
+# walls, no share has to be chosen.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=8
 # ## How bad may the first guess be?
@@ -770,8 +782,9 @@ views.explore(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# The blue lines run together to zero. The red ones end in false valleys, each of which looks quiet and final. Now change
-# the method, the share, and the place of the start. Which of them makes the blue bundle narrower?
+# The blue lines run together to zero. The red ones end in false valleys, where the error no longer
+# changes either. Now change the method, the share, and the place of the start. Which of them makes
+# the blue bundle narrower?
 
 # %% slideshow={"slide_type": "subslide"}
 ask(
@@ -837,11 +850,12 @@ for degrees in (0, 30, 60, 120):
     print(f"{degrees:3}° off: {told(end.pose):>20}: {end.verdict}")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# Where it is lost it says so, and why. The mean length of the pairs alone cannot do that.
+# Where it is lost it says so, and says why. The mean length of the pairs alone cannot tell that.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* The search correlates two grids by FFT, for every turn all shifts at once; `python -m benchmarks.icp`
-# tells what it costs. In a rectangular hall it finds two answers as good, half a turn apart. Ask what should decide there.
+# *For the lecturer:* The search correlates two grids by FFT, for every turn all shifts at once;
+# `python -m benchmarks.icp` tells what it costs. In a rectangular hall it finds two equally good
+# answers, half a turn apart. Ask what should decide between them.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=9
 # ## How sure is a match?
@@ -898,9 +912,10 @@ views.show(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# Along the corridor the matches scatter {= ratio:.1f =} times as far as across it, since only the cupboard's short side holds them
-# there. And the solid ellipse, which **one** match told of itself, is nearly the dashed one, which took a hundred. (The
-# axes are those of the robot, which looks 11° to the right of the corridor.)
+# Along the corridor the matches scatter {= ratio:.1f =} times as far as across it, since only the
+# cupboard's short side holds them there. And the solid ellipse, which a **single** match claims for
+# itself, is nearly the dashed one, which took a hundred matches. (The axes are those of the robot,
+# which looks 11° to the right of the corridor.)
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # How near is nearly? Lesson 03 has a number for it: NEES, the squared error, measured by what each match claims. With three
@@ -912,8 +927,9 @@ nees = [d @ np.linalg.solve(m.covariance, d) for d, m in zip(errors, hundred, st
 print(f"mean NEES of the hundred: {np.mean(nees):.1f}")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# That is outside: these matches claim standard deviations that are about {= 100 * (np.sqrt(np.mean(nees) / 3) - 1):.0f =} % too
-# small. A filter can live with that; with a factor of ten it could not. What no covariance of this kind knows are walls that
+# That is outside: these matches claim standard deviations that are about
+# {= 100 * (np.sqrt(np.mean(nees) / 3) - 1):.0f =} % too small. A filter can live with that; with a
+# factor of ten it could not. There are errors that no covariance of this kind knows of: walls that
 # are not straight, a robot that moves while it scans, and the wrong valley.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=5
@@ -964,8 +980,8 @@ views.show(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="13-corridor"
-# Both pictures fit as well as can be, and no one could say which is right. The matcher left the guess along the walls as it was,
-# mended the rest, and **said so**.
+# Both pictures fit equally well, and nobody could say from them which one is right. The matcher
+# left the guess along the walls as it was, corrected the rest, and **said so**.
 
 # %% [markdown] slideshow={"slide_type": "subslide"} answers="13-corridor"
 # It reads that off the information. All normals point across the corridor, so one **eigenvalue** of $\Lambda$ is next to
@@ -978,9 +994,10 @@ for name, m in {"with the cupboard": hundred[0], "bare": slid[0]}.items():
     print(f"{name:>17}: {share:.4f}, {seen.in_words() or 'all is fixed'}")
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="13-corridor"
-# It is not quite zero, for the normals are noisy, and a crooked normal seems to see a bit of the way along. The matcher knows
-# how noisy they are, and discounts just that. What is left over must come from somewhere else: from odometry, or from a door
-# farther on.
+# The bare corridor's share is not quite zero, because the normals are noisy, and a crooked normal
+# seems to see a bit of the way along. The matcher knows how noisy the normals are, and discounts
+# just that. What it cannot find in the walls must come from somewhere else: from odometry, or from
+# a door farther on.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* A round silo leaves the turn free. Let the class build one with `World` and ask `match` for its verdict.
@@ -989,10 +1006,11 @@ for name, m in {"with the cupboard": hundred[0], "bare": slid[0]}.items():
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## A real robot
 #
-# So far we have simulated. In the Intel Research Lab a real robot drove for {= intel_maps.stored().minutes:.0f =}
-# minutes. Its {= intel_maps.stored().readings =} scans look ahead over half a turn. We matched each scan with what was seen just
-# before, once by plain ICP, and once across walls, with gates and weights. The log is not ours to give away, but its map
-# and the errors are kept with the course.
+# So far all scans were simulated. In the Intel Research Lab a real robot drove for
+# {= intel_maps.stored().minutes:.0f =} minutes. Its {= intel_maps.stored().readings =} scans look
+# ahead over half a turn. We matched each scan with what was seen just before, once by plain ICP,
+# and once across walls, with gates and weights. The log is not ours to give away, but its map and
+# the errors are kept with the course.
 
 # %% slideshow={"slide_type": "subslide"} tags=["folded"]
 intel = intel_maps.stored()
@@ -1006,8 +1024,8 @@ views.show(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# Scans matched across walls give a floor plan. But where the robot comes back, walls stand twice: nothing here knows that it
-# has been in a place before.
+# Scans matched across walls give a floor plan. But where the robot comes back, walls stand twice: a
+# matcher does not know that it has been in a place before.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### How good is that?
@@ -1022,9 +1040,10 @@ for name in ("odometry", "icp-plain", "icp"):
     )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# On this drive plain ICP is worth no more than the wheels: with half a turn, what is new in each fast turn drags it off, as in the
-# polygon. The robust matcher is {= intel.off["odometry"] / intel.off["icp"]:.0f =} times nearer than the wheels. It is one drive of one
-# robot; but it is a real one.
+# On this drive plain ICP is no better than the wheels, and its headings are worse. The polygon
+# suggests why: with half a turn in view, what is new after each turn drags the match off. The
+# robust matcher is {= intel.off["odometry"] / intel.off["icp"]:.0f =} times nearer than the wheels.
+# This is one drive of one robot, but a real one.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* `python -m slamlab.studies.intel_maps` makes the numbers and the map again, where the recording is at hand.
@@ -1055,8 +1074,9 @@ for name in ("odometry", "icp-plain", "icp"):
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=1
 # ## What you can do now
 #
-# You can lay two clouds over each other with and without known pairs, choose a rule to stop by, mend ICP where scans overlap in
-# part, step across walls instead of to points, and say of a match how sure it is and where it knows nothing.
+# You can lay two clouds over each other with and without known pairs, choose a rule to stop by,
+# mend ICP where scans overlap only in part, step across walls instead of to points, and say of a
+# match how sure it is and where it knows nothing.
 #
 # **What comes next:** every match is a little off, and over many matches the errors add up, as those of odometry do, only more slowly.
 # [Lesson 14](14_the_emir_system.ipynb) puts ICP on a live robot; [lesson 15](15_closing_the_loop.ipynb) closes the loop.
@@ -1069,18 +1089,21 @@ for name in ("odometry", "icp-plain", "icp"):
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Deeper: the rotation by an SVD
 #
-# In space a rotation has three angles, and there is no arctangent for them. There is another way, which works in any dimension. All
-# that matters of the pairs is one small matrix,
+# In space a rotation has three angles, and there is no arctangent for them. There is another way,
+# which works in any dimension. All that it needs to know about the pairs is one small matrix,
 #
 # $$M = \sum_i a_i'\, b_i'^{\mathsf T}, \qquad \sum_i b_i'^{\mathsf T}\,\mathrm{Rot}\, a_i' = \operatorname{tr}(\mathrm{Rot}\, M),
 # \tag{13.11}$$
 #
-# and the trace is what the parenthesis in (13.3) holds. Every matrix is a turn, a stretch and a turn: $M = U D V^{\mathsf T}$, with
-# orthonormal $U$ and $V$, and with $D = \operatorname{diag}(D_1 \ge D_2 \ge 0)$. (The three letters mean this in this section only.)
+# and this trace is the parenthesis in (13.3). Every matrix is a turn, a stretch and a turn:
+# $M = U D V^{\mathsf T}$, with orthonormal $U$ and $V$, and with
+# $D = \operatorname{diag}(D_1 \ge D_2 \ge 0)$. (The three letters have this meaning in this section
+# only.)
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
-# We write the rotation as $\mathrm{Rot} = V Z U^{\mathsf T}$; any can be written so, with some orthonormal $Z$. Under a trace, factors may go
-# round in a circle:
+# We write the rotation as $\mathrm{Rot} = V Z U^{\mathsf T}$; every rotation can be written in this
+# way, with some orthonormal $Z$. A trace does not change when its last factor is moved to the
+# front:
 #
 # $$\operatorname{tr}(\mathrm{Rot}\, M) = \operatorname{tr}(V Z U^{\mathsf T}\, U D V^{\mathsf T}) = \operatorname{tr}(Z D). \tag{13.12}$$
 #
@@ -1094,11 +1117,13 @@ for Z in (Z_turn, Z_turn * sp.diag(1, -1)):
     print(sp.factor((Z * sp.diag(D_1, D_2)).trace()))
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
-# Both are greatest at $\varphi = 0$. The rotation earns $D_1 + D_2$ there, and the mirror $D_1 - D_2$. So $Z = I$ is best, and
-# $V U^{\mathsf T}$ is the best **orthonormal** matrix.
+# Both are greatest at $\varphi = 0$. The trace is $D_1 + D_2$ there for the rotation, and
+# $D_1 - D_2$ for the mirror. So $Z = I$ is best, and $V U^{\mathsf T}$ is the best **orthonormal**
+# matrix.
 #
-# Here is the trap. $V U^{\mathsf T}$ may itself be a mirror, with the determinant −1. A rotation then needs the mirror for $Z$, and loses
-# least if the −1 stands at the smallest singular value:
+# Here is the trap. $V U^{\mathsf T}$ may itself be a mirror, with the determinant −1. For
+# $\mathrm{Rot}$ to be a rotation, $Z$ then has to be a mirror, and the trace loses least if the −1
+# stands at the smallest singular value:
 #
 # $$\mathrm{Rot} = V \begin{bmatrix} 1 & 0\\ 0 & \det(V U^{\mathsf T})\end{bmatrix} U^{\mathsf T}. \tag{13.13}$$
 
@@ -1110,8 +1135,8 @@ ask(
     {
         "never: nothing in the world is seen mirrored": "across the wall there is nothing but noise, and noise does not "
         "know left from right.",
-        "in about half of the cases": "if points that stood out in the first look stand in in the second, the mirror is "
-        "the better fit. That is as likely as not.",
+        "in about half of the cases": "if points that stuck out of the wall in the first look lie "
+        "behind it in the second, the mirror is the better fit. That is as likely as not.",
         "only if all points lie exactly on a line": "then both fit equally well. With noise, one of them fits better, "
         "and it may be the mirror.",
     },
@@ -1132,8 +1157,9 @@ mirrors = np.linalg.det(crossed) < 0  # det M has the sign of det V Uᵀ
 print(f"{mirrors.sum()} of {len(mirrors)} are mirrors")
 
 # %% [markdown] slideshow={"slide_type": "subslide"} answers="13-mirror"
-# What would a mirror do? We take one of these pairs of looks. The best mirror is the best rotation of a source that we turned inside out
-# before. Beside the wall a chest of drawers stands to the left, and both fits carry it along.
+# What would a mirror do? We take one of these pairs of looks. The best mirror is the best rotation
+# of a source that we have mirrored before. Beside the wall a chest of drawers stands to the left,
+# and both fits carry it along.
 
 # %% slideshow={"slide_type": "subslide"} tags=["folded", "nbval-check-output"] answers="13-mirror"
 old, new = pairs_of_looks[np.flatnonzero(mirrors)[0]]
@@ -1150,8 +1176,9 @@ views.legend_below(fig)
 views.show(fig, "Mirrored, robot and chest lie behind the wall; rotated, in front of it.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="13-mirror"
-# The mirror fits the wall a little better, and robot and chest stand inside out *behind* it. The rotation fits all but as well, and
-# nothing has moved. A long wall is the everyday case, so the determinant is no detail.
+# The mirror fits the wall a little better, and robot and chest stand inside out *behind* it. The
+# rotation fits nearly as well, and nothing has moved. A robot often looks at one long wall, so the
+# determinant is no mere detail.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # In the plane (13.13) and (13.4) must agree, since both are the best rotation. `rigid_fit` computes (13.13):
@@ -1168,9 +1195,10 @@ print("a thousand random clouds never differ by more than 1e-12 rad:", most < 1e
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Deeper: a covariance one step further
 #
-# (13.10) takes all distances for independent and equally noisy. They are not. A far point is measured worse than a near one, and a
-# point of the target has its share in the normals of all its neighbours. Censi counts this in: with the gradient $\gamma$ of the sum of
-# squares at its minimum, and the measured ranges $z$ of both scans,
+# (13.10) takes all distances for independent and equally noisy. They are not. A far point is
+# measured less well than a near one, and a point of the target contributes to the normals of all
+# its neighbours. Censi takes this into account: with the gradient $\gamma$ of the sum of squares at
+# its minimum, and the measured ranges $z$ of both scans,
 #
 # $$P = \Lambda^{-1}\, \frac{\partial \gamma}{\partial z}\, \operatorname{cov}(z)\, \frac{\partial \gamma}{\partial z}^{\mathsf T} \Lambda^{-1},
 # \tag{13.14}$$

@@ -8,8 +8,8 @@
 # **100 minutes**, in two parts: from bytes to points and commands (47), and from counters to a live map (53).
 # **Before:** lesson [01](01_why_slam.ipynb) for poses, lesson [13](13_scan_matching.ipynb) for scan matching.
 #
-# eMIR is a small wheeled robot in Zagreb. Tuček's thesis puts a lidar on it, drives it by typed commands, and
-# draws two maps while it drives. We build this system anew, from its bytes up.
+# eMIR is a small wheeled robot in Zagreb. Tuček's thesis puts a lidar on it, drives it by typed
+# commands, and draws two maps while it drives. We build this system again, starting from its bytes.
 #
 # *Key:* between the world and the mathematics there are bytes. One wrong shift, sign or overflow there, and the
 # best filter maps a room that does not exist.
@@ -58,8 +58,9 @@ from slamlab.studies import printed_drivers as printed
 # The RPLIDAR A2 is a motor with a laser, at the end of a serial port. We send it a request of two bytes, `a5 20`,
 # which means *scan*. It answers with seven bytes that say what will follow. Then it sends points, without end.
 #
-# The lidar below is emulated: a small machine that is fed bytes and the time, and gives back bytes. It needs no
-# port, and nobody has to wait. It stands in Tuček's polygon of cardboard, which you know from lesson 13.
+# The lidar below is emulated: it is a small program that is given bytes and the time, and returns
+# bytes. It needs no port, and we do not have to wait for it. It stands in Tuček's polygon of
+# cardboard, which you know from lesson 13.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 polygon = worlds.polygon()
@@ -71,8 +72,9 @@ for at in range(7, 22, 5):
     print("       ", scan[at : at + 5].hex(" "))
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# The answer begins with `a5 5a`, as all answers do. Then it says: packets of `05` bytes, without end (`40`), of
-# the kind `81`. A packet of five bytes is one point, and is called a **node**.
+# The answer begins with `a5 5a`, as all answers do. The rest announces packets of `05` bytes,
+# without end (`40`), of the kind `81`. A packet of five bytes is one point, and is called a
+# **node**.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=9
 # ## Reading a node
@@ -158,9 +160,10 @@ views.explore(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="14-node"
-# One bit was flipped on its way, and the point has jumped to the other side of the robot. The last bit of the
-# angle would hardly have mattered. A flipped check bit is noticed, and so is an angle beyond 360°. Any other
-# flipped bit of the angle or the distance brings a wrong point into the map.
+# One bit was flipped on its way, and the point has jumped to the other side of the robot. The
+# lowest bit of the angle would hardly have mattered. A flipped check bit is noticed, and so is an
+# angle beyond 360°. Any other flipped bit of the angle or the distance puts a wrong point into the
+# map.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* Give the class three minutes with the first node. Then let somebody choose the bit that does
@@ -169,9 +172,9 @@ views.explore(
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=4
 # ## When a byte is lost
 #
-# Worse than a flipped bit is a lost byte. From then on every node is read one byte too early, and all of them are
-# wrong. The three check bits are there to notice: S must differ from its contrary, and C must be 1. How often
-# does chance pass this test?
+# Worse than a flipped bit is a lost byte. From then on every node is read one byte too early, and
+# all of them are wrong. The three check bits are there to notice this: S must differ from its
+# contrary, and C must be 1. How often do random bytes pass this test?
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 combinations = [(S, contrary, C) for S in (0, 1) for contrary in (0, 1) for C in (0, 1)]
@@ -179,9 +182,9 @@ passing = [bits for bits in combinations if bits[0] != bits[1] and bits[2] == 1]
 print(f"{len(passing)} of {len(combinations)} combinations pass")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# A quarter of all nonsense looks like a node. So one good node proves nothing. A decoder that has lost its step
-# should trust only several nodes in a row whose angles advance. The package's waits for four. We lose one byte in
-# a thousand:
+# A quarter of all random bytes look like a node. So one good node proves nothing. A decoder that
+# has lost its step should trust only several nodes in a row whose angles advance. The package's
+# waits for four. We lose one byte in a thousand:
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 lost = np.random.default_rng(3).random(len(scan)) < 0.001
@@ -192,16 +195,16 @@ print(f"{lost.sum()} bytes lost, {decoder.damage['resyncs']} times out of step")
 print(f"{len(good)} of {len(nodes)} nodes are left, and no exception was raised")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# {= lost.sum() =} bytes cost {= len(nodes) - len(good) =} nodes of {= len(nodes) =}. A damaged stream is an
-# ordinary thing, so a decoder counts the damage and goes on. An exception would end the map for the sake of one
-# byte.
+# {= lost.sum() =} bytes cost {= len(nodes) - len(good) =} nodes of {= len(nodes) =}. Damaged
+# streams are common, so a decoder counts the damage and goes on. An exception would end the map
+# because of a single byte.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=8
 # ## More points in fewer bytes
 #
-# The line carries 115 200 bits a second. With its start bit and its stop bit a byte takes ten of them, so 2304
-# nodes a second are the most. But the lidar can measure a point every 254 µs, that is 3937 times a second. They
-# do not fit.
+# The line carries 115 200 bits a second. With its start bit and its stop bit a byte takes ten of
+# them, so at most 2304 nodes fit into a second. But the lidar can measure a point every 254 µs,
+# that is 3937 times a second. They do not fit.
 #
 # So there is another format, the **capsule**. It packs 32 points into 84 bytes:
 
@@ -211,14 +214,15 @@ for name, size, points in (("nodes", 5, 1), ("capsules", 84, 32)):
     print(f"{name:>8}: {size / points:.2f} bytes a point, at most {most:.0f} points a second")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# Room is saved on the angles: a capsule holds 32 distances, and *one* angle $\psi$, that of its beginning. Each
-# point brings only a small offset $\delta_k$, up to 8°, for the optics look a little behind the place where the
-# motor stands.
+# The capsule saves room on the angles: a capsule holds 32 distances, and *one* angle $\psi$, that
+# of its beginning. Each point brings only a small offset $\delta_k$, up to 8°, for the optics look
+# a little behind the place where the motor stands.
 
 # %% slideshow={"slide_type": "subslide"}
 ask(
     "14-capsule",
-    "A capsule says at which angle it begins, and nothing else of the motor. **Where do the angles of its other 31 points "
+    "A capsule says at which angle it begins, and nothing else about the motor. **Where do the angles "
+    "of its other 31 points "
     "come from?**",
     {
         "from the motor's speed, ten turns a second": "ten is what the motor is told. It really makes 5 to 15 turns a second, "
@@ -248,9 +252,9 @@ for count in (1, 2, 3):
     print(f"{count} capsules received: {len(found)} points known")
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="14-capsule"
-# A capsule carries a checksum, too: the exclusive or of bytes 2 to 83. Chance fits it once in 256 times, not once
-# in four. (Slamtec's document and Slamtec's program disagree about (14.3). A *Deeper* section at the end settles
-# it.)
+# A capsule carries a checksum, too: the exclusive or of bytes 2 to 83. Random bytes pass it once in
+# 256 times, not once in four. (Slamtec's document and Slamtec's program disagree about (14.3). A
+# *Deeper* section at the end settles it.)
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=4
 # ## Clockwise
@@ -279,16 +283,16 @@ views.show(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# Two rooms, both with sharp walls, and both could exist. Whoever does not know the room cannot tell from *one*
-# scan which of them is real. And yet a robot that believes the mirror image will never build a map, as we shall
-# see.
+# Both rooms have sharp walls, and both could exist. If we do not know the room, *one* scan cannot
+# tell us which of them is real. And yet a robot that believes in the mirror image cannot lay a
+# second scan over the first, as we shall see.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=10
 # ## The experiment that finds a wrong sign
 #
-# You do not know the room. But you may move the robot, and its wheels tell how it moved. So let it look, move it,
-# let it look again, and lay the second look over the first by what the wheels have told. If the sign is right,
-# the walls coincide.
+# You do not know the room. But you may move the robot, and its wheels tell how it moved. So let it
+# look, move it, let it look again, and lay the second look over the first as the wheels say. If the
+# sign is right, the walls coincide.
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
@@ -306,9 +310,10 @@ ask(
 # %% [markdown] slideshow={"slide_type": "subslide"} answers="14-experiment"
 # ### Why a turn tells
 #
-# A wall's point that is at $p'$ for the second look was at $p = \mathrm{Rot}(\theta)\, p' + t$ for the first one,
-# where the wheels know $\theta$ and $t$. Whoever forgets the minus sees $M p$ and $M p'$, where $M$ is the mirror
-# that changes the sign of $y$. How do these two belong together? A mirror turns a rotation round:
+# A wall's point that is at $p'$ for the second look was at $p = \mathrm{Rot}(\theta)\, p' + t$ for
+# the first one, where the wheels tell us $\theta$ and $t$. Without the minus we see $M p$ and
+# $M p'$, where $M$ is the mirror that changes the sign of $y$. How are these two related? A mirror
+# reverses a rotation:
 #
 # $$M\,\mathrm{Rot}(\theta) = \mathrm{Rot}(-\theta)\,M, \qquad \text{so} \quad M p = \mathrm{Rot}(-\theta)\,M p' + M t. \tag{14.5}$$
 
@@ -317,8 +322,8 @@ ask(
 # turned by $2\theta$. If the robot drives straight ahead, $\theta$ is 0, and $t$ lies on the $x$ axis, which the
 # mirror leaves alone. Then everything fits.
 #
-# In the same way a turn on the spot tells nothing about where the lidar's front is, but a drive does. So we drive
-# an **arc**, which is both.
+# Conversely, a turn on the spot tells nothing about where the lidar's front is, but a drive does.
+# So we drive an **arc**, which is a turn and a drive in one.
 
 
 # %% slideshow={"slide_type": "fragment"} answers="14-experiment"
@@ -370,9 +375,9 @@ views.show(
 # best["counter-clockwise"]:.0f =} cm. Nobody had to know the room. As an `assert`, this is a test for any robot
 # that can drive an arc.
 #
-# **One trap is left.** If the wheels, too, counted the wrong way round, the mirrored scan would fit, and the
-# whole map would be a mirror image. So settle one sign by eye: turn the robot to the left by hand, and see
-# whether its count of the angle grows.
+# **One trap is left.** If the wheels counted the wrong way round as well, the mirrored scan would
+# fit, and the whole map would be a mirror image. So check one sign by eye: turn the robot to the
+# left by hand, and see whether its count of the angle grows.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* Let the class vote before the picture, and let each side defend its answer. A volunteer can
@@ -413,9 +418,9 @@ ask(
 #
 # $$(\text{opcode} + \text{speed} + \text{turn} + \text{checksum}) \bmod 256 = 0. \tag{14.6}$$
 #
-# With two positive arguments the rule "256 less the rest" gives the same byte, and so the mistake survives: whoever tests
-# only ahead and to the left never notices. There are no more than 201 · 201 commands to drive. So we test all of
-# them with the robot's own framer:
+# With two positive arguments the rule "256 less the rest" gives the same byte, and so the mistake
+# survives: tests that only drive ahead and to the left never find it. There are no more than 201 ·
+# 201 commands to drive. So we test all of them with the robot's own framer:
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="14-checksum"
 print("speed −1, turn −1:", commands.move(-1, -1).decode())
@@ -425,15 +430,17 @@ understood = robot_ear.feed(b"".join(commands.move(v, omega) for v, omega in eve
 print(f"{len(understood)} of {len(every)} commands are understood")
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="14-checksum"
-# A robot drops a frame whose checksum is wrong, and says nothing. It goes on with the *former* command. (How many
-# commands a printed driver loses in this way stands in the section *In print*.)
+# A robot drops a frame whose checksum is wrong, and says nothing. It goes on with the *previous*
+# command. (The section *In print* counts the commands that a printed driver loses in this way.
+# *This is a good place for a break.*)
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=8
 # ## Part two: a counter that overflows
 #
-# eMIR answers. Ours does so ten times a second, with a `*`, 17 bytes as digits, and a `/`. Byte 14 counts the
-# path, about a centimetre a count, and byte 15 counts the turn, about 2° a count. Both are **signed bytes**. We
-# drive along a corridor at half speed, and look once a second:
+# eMIR answers with a status. Ours sends one ten times a second: a `*`, 17 bytes as hexadecimal
+# digits, and a `/`. Byte 14 counts the path, about a centimetre a count, and byte 15 counts the
+# turn, about 2° a count. Both are **signed bytes**. We drive along a corridor at half speed, and
+# look once a second:
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 half_speed, _ = trials.statuses_of([(16, 50, 0)], worlds.corridor())
@@ -479,8 +486,8 @@ print("way:", *way(path)[::10])
 print("from 120 to −116:", way([120, -116])[-1])
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="14-ring"
-# The overflow is gone, and the same rule works backwards, for "shorter" does not care about a direction. It asks
-# for one thing only: that the robot goes less than half a ring between two readings.
+# The overflow is gone. The same rule works backwards, because "shorter" has no preferred direction.
+# It requires one thing only: that the robot goes less than half a ring between two readings.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* Draw the ring of 256 values on the board, with 127 and −128 side by side. Collect rules for
@@ -552,15 +559,16 @@ for name, values in readings.items():
     print(f"{name}: right up to a look every {fine[-1] / 10} s; by (14.8) {limits[name]:.2f} s")
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="14-pause"
-# So the path allows {= limits["path"]:.1f =} s, and the turn {= limits["turn"]:.1f =} s: the more impatient of
-# the two counters sets the pace. eMIR's ten statuses a second leave room for a few that are lost.
+# So the path allows {= limits["path"]:.1f =} s, and the turn {= limits["turn"]:.1f =} s: the
+# counter that needs to be read more often sets the pace. With eMIR's ten statuses a second, some of
+# them may be lost without harm.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=9
 # ## What is a count?
 #
-# How long is a count? Tuček's thesis takes 1 cm and 2°. Another program for robots of the same kind takes 1.03 cm
-# and 2.14°. Neither says where it has its numbers from. Our emulated robot is built to the second pair, so
-# whoever believes the first is off by 3 % in the path and by 7 % in the turn.
+# How long is a count? Tuček's thesis takes 1 cm and 2°. Another program for robots of the same kind
+# takes 1.03 cm and 2.14°. Neither says where its numbers come from. Our emulated robot is built to
+# the second pair, so with the first pair we are off by 3 % in the path and by 7 % in the turn.
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
@@ -615,10 +623,10 @@ for name, each in off.items():
     print(f"{name:>12}: {np.median(each):4.0f} cm off in the median")
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="14-harm"
-# The mended turn brings the robot nearer in {= nearer["turn mended"] =} of the ten drives, the mended path in {=
-# nearer["path mended"] =}. The {= np.median(off["both"]):.0f =} cm that are left with both right are slip, and no
-# number mends slip. (A path of the wrong scale is not harmless: it draws the whole map in the wrong size. A round
-# trip cannot show that.)
+# The mended turn brings the robot nearer in {= nearer["turn mended"] =} of the ten drives, the
+# mended path in {= nearer["path mended"] =}. The {= np.median(off["both"]):.0f =} cm that are left
+# when both are right come from slip, and no scale factor mends slip. (A path of the wrong scale is
+# not harmless: it draws the whole map in the wrong size. A round trip cannot show that.)
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* Ask which drive would show the wrong path best, and which the wrong turn. That is how one
@@ -627,11 +635,13 @@ for name, each in off.items():
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## Your robot
 #
-# From here on there are drivers. A driver has a thread that listens to a device all the time, so that nothing
-# piles up while your program thinks. Two names decide on which robot all that follows runs.
+# From here on we use drivers. A driver has a thread that listens to a device all the time, so that
+# nothing piles up while your program computes. The two names in the next cell decide which robot
+# the rest of the lesson runs on.
 #
-# As they stand, each cell starts its own emulators, with our drivers before them. Their time is *simulated*: it
-# passes only while somebody waits for a reading. So nothing gets lost on a busy machine.
+# As they stand, each cell starts its own emulators and talks to them through the package's drivers.
+# Their time is *simulated*: it passes only while somebody waits for a reading. So nothing gets lost
+# on a busy machine.
 
 # %% slideshow={"slide_type": "fragment"}
 LIDAR_PORT = None  # such as "/dev/ttyUSB0" or "COM3"
@@ -672,18 +682,20 @@ emir.feed(b"", 6.0)
 print(f"five seconds later the robot is {body.pose[0] - ended_at:.1f} m further")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# It drives on, until it meets a wall. The package's drivers therefore stop robot and motor when they are closed,
-# also when the program ends by an error. And a watchdog ends a motion that no program has asked for within two
-# seconds. Only a program that is killed cannot do this any more.
+# It drives on, until it meets a wall. The package's drivers therefore stop robot and motor when
+# they are closed, also when the program ends by an error. And a watchdog stops a motion if the
+# program has not asked for it again within two seconds. Only a program that is killed can no longer
+# do this.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## Calibrate it
 #
 # 1. Mark where the robot stands, and run the next cell. It drives what it takes for one metre, and then makes
 #    four quarter turns, all by *its* count.
-# 2. Measure the way with a tape, and the turn with a protractor: what the four quarters make more (or, with a
-#    minus, less) than a full turn.
-# 3. Write both into the cell after it, and run that cell. (With `None`, the emulator says what it knows.)
+# 2. Measure the way with a tape. With a protractor, measure by how much the four quarters make more
+#   than a full turn (or, with a minus, less).
+# 3. Write both into the cell after it, and run that cell. (With `None`, the emulator gives the true
+#   values.)
 
 # %% slideshow={"slide_type": "fragment"}
 with robot(np.random.default_rng(7)) as source:
@@ -729,10 +741,10 @@ whole = list(turns(recording))
 print(f"{recording.seconds:.0f} s, {received} pieces received, {len(whole)} turns of the lidar")
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
-# ### What a recording must stand
+# ### What a recording must survive
 #
-# A battery dies in the middle of a sentence, so the file may be cut off anywhere. And in which *pieces* bytes
-# arrive differs from machine to machine, so that must not matter either.
+# A battery can die in the middle of a message, so the file may be cut off anywhere. The *pieces* in
+# which bytes arrive differ from machine to machine, so they must not matter either.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 left = list(turns(parse(raw[: len(raw) * 3 // 5 + 1], "table.rec")))
@@ -766,9 +778,9 @@ print(f"of 20 ways to cut the bytes into pieces, {differ} gave other points")
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=12
 # ## Live
 #
-# Now all of it together, as in Tuček's program: two maps grow side by side. One believes **odometry alone**; the
-# thesis calls it naive. The other, the **estimate**, lays each scan over the former ones by the scan matching of
-# lesson 13. Both take a count for 1 cm and 2°, as the thesis does.
+# Now all of it together, as in Tuček's program: two maps grow side by side. One believes **odometry
+# alone**; the thesis calls it naive. The other, the **estimate**, lays each scan over the earlier
+# ones by the scan matching of lesson 13. Both take a count as 1 cm and as 2°, as the thesis does.
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
@@ -814,9 +826,10 @@ naive_off, corrected_off = trials.errors(seen_live.pair.estimator, true.poses[-1
 # ### Drive it yourself
 #
 # - **A recording** needs no robot: press *reset* and *run*.
-# - **A robot**: press it, then *run*. Drive by the buttons, or click the picture and use the arrow keys (space
-#   stops). Or type as in the thesis: `distance, angle`, `reset`, `exit`. A way of `0.5, 30` is a turn by 30° and
-#   then half a metre, by the estimated pose.
+# - **A robot**: press this button, then *run*. Drive with the buttons, or click the picture and use
+#   the arrow keys (space stops). Or type as in the thesis: `distance, angle`, `reset`, `exit`.
+#   Typing `0.5, 30` makes the robot turn by 30° and then drive half a metre, both by the estimated
+#   pose.
 # - **A robot, calibrated** is the same with your own scale factors. Odometry alone gets better, too, but the
 #   wheels still slip.
 #
@@ -843,7 +856,7 @@ naive_off, corrected_off = trials.errors(seen_live.pair.estimator, true.poses[-1
 # T. C. Maxino and P. J. Koopman, "The effectiveness of checksums for embedded control networks", *IEEE
 # Transactions on Dependable and Secure Computing* 6(1), 2009: what a sum or an exclusive or misses.
 #
-# **Read next:** Borenstein and Feng. You can repeat their square on any floor.
+# **Read next:** Borenstein and Feng. You can drive their square on any floor.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=1
 # ## What you can do now
@@ -863,14 +876,14 @@ naive_off, corrected_off = trials.errors(seen_live.pair.estimator, true.poses[-1
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Deeper: the document or the program?
 #
-# Slamtec's *document* reads a capsule in another way than Slamtec's *program* does. By the document the top bit
-# of an offset is a sign, and $k$ runs from 1 to 32:
+# Slamtec's *document* reads a capsule differently from Slamtec's *program*. In the document the top
+# bit of an offset is a sign, and $k$ runs from 1 to 32:
 #
 # $$\psi_k = \psi + \frac{k}{32}\,\bigl((\psi' - \psi) \bmod 360^\circ\bigr) - \delta_k \tag{14.9}$$
 #
-# for $k$ from 1 to 32. Here $\delta_k$ is what the five lower bits say, with a minus if the top bit is set.
-# Offsets are nearly always above 4°, where the top bit is set. So one of the two readings turns nearly every
-# point of the room.
+# for $k$ from 1 to 32. Here $\delta_k$ is what the five lower bits say, with a minus if the top bit
+# is set. Offsets are nearly always above 4°, where the top bit is set. So the wrong one of the two
+# readings turns nearly every point of the room.
 
 # %% slideshow={"slide_type": "subslide"} tags=["folded"]
 pairs = list(pairwise(capsules[16:31]))
@@ -892,9 +905,10 @@ views.show(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# As the document has it, the room is turned clockwise by {= turned:.0f =}°. Our emulator sends what the *program*
-# expects, so this picture shows how much the two differ, and not who is right. On a real A2 the arc decides:
-# right is the reading whose notch lies where the front really is.
+# As the document has it, the room is turned clockwise by {= turned:.0f =}°. Our emulator sends what
+# the *program* expects, so this picture shows how much the two differ, and not who is right. On a
+# real A2 the arc decides: the right reading is the one that puts the notch where the front really
+# is.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## In print: the listing
@@ -918,8 +932,9 @@ both = sum(v < 0 and omega < 0 for v, omega in dropped)
 print(f"both negative: {both}; one negative: {len(dropped) - both}")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# Ahead and to the left all is well. With two negative arguments no command arrives, and with one of them about
-# half do: those in which the positive argument is smaller than the size of the negative one.
+# Ahead and to the left all commands arrive. With two negative arguments no command arrives, and
+# with one of them about half do: those in which the positive argument is smaller than the size of
+# the negative one.
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
 body = RobotBody(worlds.corridor(), np.random.default_rng(1))
@@ -935,10 +950,10 @@ for milliseconds in (0.1, 1, 2):
 print("called by main:", printed.main().called)
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# `flushOutput` sounds like "send it now", but it *discards* what waits to be sent. At 57 600 bits a second a byte
-# takes 174 µs, so a flush that follows at once can throw away the whole command. How much really survives depends
-# on the buffers of the system and is a race: with some systems and ports the robot never moves, with others it
-# mostly does.
+# `flushOutput` sounds like "send it now", but it *discards* what waits to be sent. At 57 600 bits a
+# second a byte takes 174 µs, so a flush that follows at once can throw away the whole command. How
+# much of it survives depends on the buffers of the system and on timing, so the fault may show on
+# one computer and not on another.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # | place | printed | right | harm |
@@ -968,9 +983,10 @@ readings = iter([(k % 5 == 0, k) for k in range(20)])  # turns of five readings
 print("turns:", *printed.turns_asked_for(readings, 3))
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# "No motion" is the identity, whose entries add up to 3. Sensor 0 is missing. The first empty scan ends the map.
-# Of the turns, the readings 5 and 10 are lost: each generator has taken the one that begins the next turn, and
-# dies with it. Every one of these is found by a test of one line that says what the code *claims*.
+# "No motion" is the identity, whose entries add up to 3. Sensor 0 is missing. The first empty scan
+# ends the map. Of the turns, the readings 5 and 10 are lost: each generator has taken the one that
+# begins the next turn, and dies with it. Each of these faults is found by a test of one line that
+# states what the code *claims* to do.
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## In print: the pseudo-code

@@ -1,22 +1,22 @@
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=1
 # # 15 · Closing the loop
 #
-# **You will be able to** write a SLAM that recognises where it has been. You will put all poses of a robot
-# into one graph, derive and solve its equations, give each measurement the weight that it deserves, and say
-# when a false loop ruins a map, and what keeps it out.
+# **You will be able to** write a SLAM that recognises where it has been. You will put all poses of
+# a robot into one graph, derive and solve its equations, give each measurement the weight that it
+# deserves, and say when a false loop ruins a map and what keeps it out.
 #
 # **80 minutes**, in two parts: a graph of poses (39), and loops true and false (41).
 # **Before:** lesson [04](04_models_and_jacobians.ipynb) for $\oplus$ and Jacobians, lesson
 # [13](13_scan_matching.ipynb) for the matching of scans.
 #
-# *Key:* wheels and matching only ever add errors. A robot that comes back to a place it knows learns how
-# large they have become, and can give each step its share.
+# *Key:* wheels and matching only ever add errors. A robot that comes back to a place that it knows
+# learns how large these errors have become, and can give each step its share of the correction.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* Two lectures. Part one is a lecture at the board: the Jacobians, the two lines on the
-# frame of Λ, and the square by hand. Part two stands alone for a class that has seen least squares. If time is
-# short, leave out "A map that changes its mind". For a poll: the questions on the ends, on the sides of the
-# square, on the error half way, and on five liars.
+# *For the lecturer:* Two lectures. Part one belongs on the board: the Jacobians, the two lines on
+# the frame of Λ, and the square by hand. Part two can be taught alone to a class that has seen
+# least squares. If time is short, leave out "A map that changes its mind". For a poll: the
+# questions on the ends, on the sides of the square, on the error half way, and on five liars.
 
 # %% slideshow={"slide_type": "skip"} tags=["folded"]
 from copy import deepcopy
@@ -54,7 +54,8 @@ def slider(name, options, first):
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=4
 # ## Home again
 #
-# A robot drives once round a corridor, 42 m, and ends where it began. Here is the map by its wheels alone.
+# A robot drives once round a corridor, 42 m, and ends where it began. Here is the map that its
+# wheels alone make.
 
 
 # %% slideshow={"slide_type": "skip"} tags=["folded"]
@@ -77,9 +78,10 @@ fig, _ = views.side_by_side({"wheels alone": wheels_map}, size=(6, 4.2))
 views.show(fig, f"A corridor whose end lies {gaps['wheels'] / 100:.1f} m beside its start.")
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
-# By the wheels the end of the corridor lies {= gaps["wheels"] / 100:.1f =} m beside its start. Two more estimators draw the
-# map from the same simulated readings: `icp`, lesson 13's careful matcher, which lays each scan over the one before it; and `graph`,
-# which this lesson builds.
+# According to the wheels, the end of the corridor lies {= gaps["wheels"] / 100:.1f =} m beside its
+# start. Two more estimators draw the map from the same simulated readings: `icp`, lesson 13's
+# careful matcher, which lays each scan over the one before it; and `graph`, which this lesson
+# builds.
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
@@ -120,9 +122,9 @@ views.show(
 # To find such a place, and to mend the map by it, is called **closing the loop**.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* Ask who has seen his own footprints in the snow: the moment you cross them you know more
-# about the whole walk, and not only about where you stand. Lesson 03 said that a patient least squares knows the
-# *earlier* states better than a filter does. This is where that pays.
+# *For the lecturer:* Ask who has come across their own footprints in the snow: at that moment you
+# know more about the whole walk, and not only about where you stand. Lesson 03 said that a patient
+# least squares knows the *earlier* states better than a filter does. Here this pays off.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=4
 # ## Poses as a graph
@@ -142,14 +144,15 @@ views.show(
 #
 # $$e = \ominus (x_i \oplus z) \oplus x_j = \ominus z \oplus (\ominus x_i \oplus x_j). \tag{15.1}$$
 #
-# Written out, with $p$ for the place of a pose, it takes two turns back, and a difference each time:
+# Written out, with $p$ for the place of a pose, these are two differences, each of them turned
+# back:
 #
 # $$e = \begin{bmatrix} \mathrm{Rot}(\theta_z)^{\mathsf T} \left( \mathrm{Rot}(\theta_i)^{\mathsf T} (p_j - p_i) -
 # p_z \right) \\ \theta_j - \theta_i - \theta_z \end{bmatrix}. \tag{15.2}$$
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# The last number is an **angle**. It has to be wrapped into $\pm\pi$, or a robot that went round once would be wrong by
-# 360°.
+# The last number is an **angle**. It has to be wrapped into $\pm\pi$; otherwise a robot that went
+# round once would seem to be wrong by 360°.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=6
 # ## How an edge feels its poses
@@ -201,8 +204,9 @@ views.explore(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="15-push"
-# The arrow of where $z$ leads to looks north here, so the push of pose $j$ is all *ahead* of it: $x$ of $e$. Now turn
-# pose $i$. All that it sees swings round it, and $e$ turns and grows.
+# The arrow where $z$ leads to looks north here, so pose $j$ is pushed straight *ahead* as seen from
+# there, along the $x$ of $e$. Now turn pose $i$. Everything that it sees swings round it, and $e$
+# turns and grows.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Read off the two Jacobians
@@ -217,8 +221,9 @@ views.explore(
 # \tag{15.3}$$
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
-# The exercise asks you for the swing. The package has it: here are its two Jacobians beside differences of the error
-# itself, and beside those that sympy derives, at a point with nothing special about it.
+# The exercise asks you for the swing. The package has it. We compare its two Jacobians with
+# differences of the error itself, and with those that sympy derives, at a point that has nothing
+# special about it.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 at = [np.array([1.2, -0.7, 2.9]), np.array([-0.4, 1.9, -2.2]), np.array([1.1, 0.6, 0.8])]
@@ -240,33 +245,36 @@ for k, J in enumerate((J_i, J_j)):
 #
 # $$\chi^2(x) = \sum_{\text{edges}} e^{\mathsf T} \Lambda\, e. \tag{15.4}$$
 #
-# Each term counts an error in units of its own doubt. At the true poses an honest edge contributes 3 on average, for it has
-# three numbers.
+# Each term measures an error in units of its own standard deviations. At the true poses an honest
+# edge contributes 3 on average, for it has three numbers.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### A step of Gauss and Newton
 #
-# $e$ is not linear in the poses, since it holds sines and cosines. So we go by steps. Near the present poses it nearly is: with
-# $J$ for the Jacobian of an edge over all poses, $e(x + \delta) \approx e + J\delta$. We put that into (15.4), and ask
-# for which $\delta$ the slope is zero:
+# $e$ is not linear in the poses, since it holds sines and cosines. So we proceed in steps. Near the
+# present poses it nearly is: with $J$ for the Jacobian of an edge over all poses,
+# $e(x + \delta) \approx e + J\delta$. We put that into (15.4), and ask for which $\delta$ the slope
+# is zero:
 #
 # $$\begin{aligned} 2 \sum J^{\mathsf T} \Lambda\, (e + J\delta) &= 0, \qquad \text{so} \\
 # \Lambda_x\, \delta &= -\sum J^{\mathsf T} \Lambda\, e, \qquad \Lambda_x = \sum J^{\mathsf T} \Lambda\, J.
 # \end{aligned} \tag{15.5}$$
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
-# These are the **normal equations**. We move the poses by $\delta$, and begin again, until $\delta$ is small.
+# These are the **normal equations**. We solve them, move the poses by $\delta$, and begin again,
+# until $\delta$ is small.
 #
-# $\Lambda_x$ is what all edges together know of all poses: their information matrix, as $\Lambda$ is that of one edge.
-# Information *adds up*. The inverse of $\Lambda_x$ is the covariance of all poses.
+# $\Lambda_x$ is what all edges together tell about all poses: it is their information matrix, as
+# $\Lambda$ is that of one edge. Information *adds up*. The inverse of $\Lambda_x$ is the covariance
+# of all poses.
 #
 # (In the literature, and in the hints of the exercise, $\Lambda_x$ is called $H$ and the sum on the right $b$. In this
 # course $H$ is the Jacobian of an observation.)
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* Where is the second derivative of $e$? Left out: that is what tells Gauss and Newton from Newton
-# alone. It is multiplied by $e$, and near the solution $e$ is small. The first *Deeper* section checks (15.5) by
-# machine.
+# *For the lecturer:* Ask where the second derivative of $e$ is. It is left out, and that is what
+# distinguishes Gauss-Newton from Newton's method. It would be multiplied by $e$, and near the
+# solution $e$ is small. The first *Deeper* section checks (15.5) by machine.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=7
 # ## Whose covariance is it?
@@ -354,12 +362,14 @@ views.explore(
 # The errors turn with the robot, and so does the blue ellipse. The red one, of $R$, stays as it was. At 90° it is narrowest
 # where the match knows least, and NEES is {= nees[90][0] / 3:.0f =} times what it should be.
 #
-# Now choose 180°. After half a turn $x$ is $x$ again with the other sign, and the ellipses coincide. Whoever tries out a graph
-# on a straight road, there and back, will never notice the mistake.
+# Now choose 180°. After half a turn $x$ is $x$ again with the other sign, and the ellipses
+# coincide. If we tried out a graph only on a straight road, there and back, we would never notice
+# the mistake.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
-# From here on $\Lambda$ is always that of $e$, as it is in GTSAM and in files of g2o. In the package one function makes it,
-# `edge_error.information(z, R)`, and everything that hands a covariance to a graph goes through it.
+# From here on $\Lambda$ is always that of $e$, as it is in GTSAM and g2o, two widely used programs
+# for such graphs. In the package a single function, `edge_error.information(z, R)`, makes it from
+# the covariance of a measurement.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* This package had the mistake in its first edition, and no map showed it: on the Intel log, with its
@@ -369,8 +379,8 @@ views.explore(
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=8
 # ## Five poses by hand
 #
-# A robot drives round a square of 2 m: four times "2 m ahead, then 90° to the left". Its wheels say 2.1 m and 84°. At the
-# end its scanner says: you stand where you began.
+# A robot drives round a square of 2 m: four times "2 m ahead, then 90° to the left". Its wheels say
+# 2.1 m and 84°. At the end its scanner says that it stands where it began.
 
 
 # %% slideshow={"slide_type": "fragment"}
@@ -398,9 +408,10 @@ for row in information.reshape(5, 3, 5, 3):
     print(" ".join("■" if np.abs(row[:, k]).max() > 0 else "·" for k in range(5)))
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# There is the diagonal, a block to each side of it for the wheels, and one in the corners for the loop. A thousand poses have
-# a million blocks, nearly all of them zero: $\Lambda_x$ is **sparse**. A covariance is full (lesson 07: all errors are
-# correlated), but its inverse has a block only where there is an edge. This is why graphs grow to buildings.
+# There are blocks on the diagonal, a block on each side of it for the wheels, and one in each of
+# two corners for the loop. A thousand poses have a million blocks, nearly all of them zero:
+# $\Lambda_x$ is **sparse**. A covariance is full (lesson 07: all errors are correlated), but its
+# inverse has a block only where there is an edge. This is why graphs grow to buildings.
 
 # %% slideshow={"slide_type": "subslide"}
 ask(
@@ -427,12 +438,12 @@ for name, way in ways.items():
     print(f"all poses {name}: nothing changes is", abs(information @ way).max() < 1e-9 * values[-1])
 
 # %% [markdown] slideshow={"slide_type": "subslide"} answers="15-gauge"
-# Three. No edge notices when the whole drive is shifted east, shifted north, or turned, so $\chi^2$ cannot tell, and
-# $\Lambda_x$ is **singular**. This freedom is called the *gauge*. A solver of (15.5) either refuses, or returns
-# numbers that are made of rounding alone.
+# Three are zero. No edge notices when the whole drive is shifted east, shifted north, or turned. So
+# $\chi^2$ does not change, and $\Lambda_x$ is **singular**. This freedom is called the *gauge*. A
+# solver of (15.5) either refuses, or returns numbers that come from rounding alone.
 #
-# The cure is that somebody stands still. We strike out the rows and columns of pose 0, which stays where it is. (An EKF
-# does the same by starting with $P = 0$.)
+# The cure is to hold one pose still. We strike out the rows and columns of pose 0, which stays
+# where it is. (An EKF does the same by starting with $P = 0$.)
 
 # %% slideshow={"slide_type": "subslide"}
 ask(
@@ -484,12 +495,13 @@ views.explore(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="15-sides"
-# The loop says one thing only, about poses 4 and 0, and yet **every** pose has moved: each turn got its 6° of the missing 24°.
-# A filter that keeps only the last pose cannot do that. $\chi^2$ can be read, too: $4 \cdot (6°/5°)^2 = 5.8$, and the graph
-# has {= optimum.chi2:.1f =}.
+# The loop says something about poses 4 and 0 only, and yet **every** pose has moved: each turn got
+# its 6° of the missing 24°. A filter that keeps only the last pose cannot do that. We can also
+# check $\chi^2$ by hand: $4 \cdot (6°/5°)^2 = 5.8$, and the graph has {= optimum.chi2:.1f =}.
 #
-# The sides are still 2.1 m. **A loop corrects what contradicts it, and nothing else.** Go to 0 rounds and press ▶: two rounds
-# do nearly all. Then make the loop unsure, and it will not close the gap.
+# The sides are still 2.1 m. **A loop corrects what contradicts it, and nothing else.** Go to 0
+# rounds and press ▶: two rounds do nearly everything. Then make the loop less sure, and it no
+# longer closes the gap.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## One handshake
@@ -558,27 +570,30 @@ views.explore(
 )
 
 # %% [markdown] slideshow={"slide_type": "subslide"} answers="15-halfway"
-# {= off["wheels"].max():.1f =} m of error become {= 100 * off["with one loop"].max():.0f =} cm at the worst place, by
-# one edge among {= len(closed.edges) =}. The ellipses of the wheels grow from step to step. With the loop they are largest
-# *half way*, and small at both ends. Go to pose 0 and press ▶: for a hundred poses both sides are wrong alike. Then the robot
-# sees its own beginning, and the whole map snaps shut.
+# {= off["wheels"].max():.1f =} m of error become {= 100 * off["with one loop"].max():.0f =} cm at
+# the worst place, by one edge among {= len(closed.edges) =}. The ellipses of the wheels grow from
+# step to step. With the loop they are largest *half way*, and small at both ends. Go to pose 0 and
+# press ▶: for a hundred poses both maps are equally wrong. Then the robot sees the place where it
+# began, and the whole map snaps shut.
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="15-halfway"
-# A $\chi^2$ of {= optimum.chi2:.0f =} is more than chance would have: 11.3 is exceeded once in a hundred. These wheels always err
-# to the same side, while $Q$ takes each step's error for a new one.
+# A $\chi^2$ of {= optimum.chi2:.0f =} is more than chance explains: with three numbers, 11.3 is
+# exceeded only once in a hundred cases. These wheels always err to the same side, while $Q$ takes
+# each step's error for a new one. *This is a good place for a break.*
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* Without the loop $\chi^2$ was exactly zero: a chain contradicts nothing, so it can be as wrong as it
-# likes. Contradiction is information. Here is a good place for the break.
+# *For the lecturer:* Without the loop $\chi^2$ was exactly zero: nothing in a chain can contradict
+# itself, so $\chi^2$ says nothing about how wrong it is. Only contradiction brings information.
+# This is a good place for the break.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## Part two: who may have been here before?
 #
 # That loop was given. A robot has to find it, in three steps: **propose, verify, optimise**.
 #
-# *Propose:* an old pose is a candidate if it may be near. That is: near by what is believed, allowing for the drift since
-# then. The robot of the handshake is {= off["wheels"][-1]:.1f =} m from where it believes it is. If it asks only within 1.5 m, it does not
-# find its start.
+# *Propose:* an old pose is a candidate if it may be near, judged by the believed poses and allowing
+# for the drift since then. The robot of the handshake is {= off["wheels"][-1]:.1f =} m from where
+# it believes it is. If it looks only within 1.5 m, it does not find its start.
 #
 # *Verify* (the field says geometric verification): lay the new scan over the old one, and ask lesson 13's matcher for its
 # verdict. How many points lie on old walls?
@@ -618,21 +633,24 @@ views.show(
 )
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
-# All three look good, and only the first is a loop. In the bare corridor the verdict says what is wrong: nothing is fixed
-# along it, so the two might be 3 m apart, or in one place. Such a match closes nothing.
+# All three look good, but only the first is a loop. In the bare corridor the verdict says what is
+# wrong: nothing is fixed along it, so the two might be 3 m apart, or in one place. Such a match
+# must not close a loop.
 #
 # The third is the trap. A corner is a corner, and *nothing* in the two scans says that there are two of them.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
-# *For the lecturer:* "fits" is said of all three. Let the class invent further tests: higher overlap, more scans at once (the
-# package lays a scan over a map of nine), colours, room numbers. All of them help, and none is proof.
+# *For the lecturer:* The matcher says "fits" of all three. Let the class invent further tests:
+# higher overlap, more scans at once (the package lays a scan over a map of nine), colours, room
+# numbers. All of these help, and none of them is proof.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=6
 # ## Does it surprise the graph?
 #
-# The graph has an opinion of its own. It believes that pose $j$ lies somewhere as seen from pose $i$, and knows how sure it
-# is of that. A loop that says otherwise by far more than drift explains is no loop. With the loop's error $v = e$ at the
-# present poses, and its Jacobian $J$ over all poses,
+# The graph has an opinion of its own. It believes that pose $j$ lies somewhere as seen from pose
+# $i$, and knows how sure it is of that. A loop that differs from this by far more than drift
+# explains is no loop. With the loop's error $v = e$ at the present poses, and its Jacobian $J$ over
+# all poses,
 #
 # $$v^{\mathsf T} S^{-1} v, \qquad S = J \Lambda_x^{-1} J^{\mathsf T} + \Lambda^{-1}. \tag{15.8}$$
 #
@@ -647,10 +665,11 @@ print(
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Each gate alone, and all of them
 #
-# An experiment, crueller than life. We take pairs of places from all over the corridor, and tell the matcher nothing of where
-# they are. Then we ask four gates. *Near*: within the reach of a proposal. *Fits*: the matcher is content. *Verified*: high
-# overlap, all fixed, nothing contradicts. *No surprise*: (15.8) is below 60. A match is called wrong if it is more than
-# 15 cm or 6° off.
+# We make the test harder than a real drive would. We take pairs of places from all over the
+# corridor, and tell the matcher nothing about where they are. Then we ask four gates. *Near*:
+# within the reach of a proposal. *Fits*: the matcher is content. *Verified*: high overlap, all
+# fixed, nothing contradicts. *No surprise*: (15.8) is below 60. A match is called wrong if it is
+# more than 15 cm or 6° off.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output", "nearly"]
 slam = run(corridor, GraphSlam(corridor.robot, loops=False)).estimator
@@ -662,25 +681,29 @@ for name, (right, bad) in passed.items():
     print(f"{name:>12}: {right:3d} right, {bad:3d} wrong")
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
-# What a scan looks like tells little here: of {= passed["asked"][1] =} wrong pairs {= passed["fits"][1] =} *fit* somewhere, and
-# {= passed["verified"][1] =} pass even the strict test. The last gate is the best: it says "you cannot have got there", and
+# What a scan looks like tells little here: of {= passed["asked"][1] =} wrong pairs
+# {= passed["fits"][1] =} *fit* somewhere, and {= passed["verified"][1] =} pass even the strict
+# test. Here the last gate is the best: it says "you cannot have got there", and
 # {= passed["no surprise"][0] =} right and {= passed["no surprise"][1] =} wrong pass.
 #
-# Even so it is **not enough alone**. What it lets in is a match that slides along a bare piece of corridor. It is more than a metre
-# off, and claims so little along the corridor that it surprises nobody. A scan tells that; the graph cannot.
+# Even so it is **not enough alone**. The wrong one that it lets in is a match that slides along a
+# bare piece of corridor. It is more than a metre off, but it claims so little along the corridor
+# that it does not surprise the graph. The scans show that nothing is fixed there; the graph cannot
+# know it.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
-# All four gates together let {= passed["all four"][1] =} of the wrong ones through. But they also refuse
-# {= passed["asked"][0] - passed["all four"][0] =} of {= passed["asked"][0] =} right ones: *near* alone keeps only
-# {= passed["near"][0] =}, and *verified* only {= passed["verified"][0] =}. **Every gate has that price.** A right loop refused is a
-# chance lost, and another may come. A false one let in can ruin the map.
+# All four gates together let {= passed["all four"][1] =} of the wrong ones through. But they also
+# refuse {= passed["asked"][0] - passed["all four"][0] =} of {= passed["asked"][0] =} right ones:
+# *near* alone keeps only {= passed["near"][0] =}, and *verified* only {= passed["verified"][0] =}.
+# **Every gate has such a price.** A right loop that is refused is a lost chance, and another one
+# may come. A false loop that is let in can ruin the map.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=3
 # ## Twins
 #
-# A world made to deceive: two rooms, alike to the last chair, 7 m apart, off one corridor. To make it harder we let `graph`
-# look five times as far for loops as it would. It runs once with its gate, which refuses a surprise above 60, and once with
-# the gate wide open.
+# This world is made to deceive: two rooms off one corridor, 7 m apart, are alike down to the last
+# chair. To make it harder, we let `graph` look for loops five times as far away as it usually does.
+# It runs once with its gate, which refuses a surprise above 60, and once with the gate wide open.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output", "nearly"]
 twins = false_loops.twins()
@@ -704,15 +727,17 @@ views.show(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# On the left there are two rooms, and no loop ties the one to the other. On the right there is one room left: both lie in each
-# other, table on table, shelf on shelf. The corridor between them had to crumple.
+# On the left there are two rooms, and no loop ties the one to the other. On the right only one room
+# is left: the two lie on each other, table on table and shelf on shelf. The corridor between them
+# is crumpled.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## How wide a gate?
 #
-# Where should the gate stand? Three numbers, so by chance alone the surprise of a right loop stays below 11.3 in 99 of 100
-# cases. We take the {= np.sum(~twins.false) =} right loops that the first run closed and the {= np.sum(twins.false) =} false ones that
-# the second let in, and ask how much each surprises somebody who knows **the wheels alone**.
+# Where should the gate stand? A loop has three numbers, so by chance alone the surprise of a right
+# loop stays below 11.3 in 99 of 100 cases. We take the {= np.sum(~twins.false) =} right loops that
+# the first run closed and the {= np.sum(twins.false) =} false ones that the second let in, and ask
+# how much each of them surprises a graph that knows **the wheels alone**.
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
@@ -762,14 +787,16 @@ views.explore(
 # surprising one by {= by_claim[1][~twins.false].max():.0f =}. The false ones begin at {= by_claim[1][twins.false].min():.0f =}. The package's
 # gate stands at 60, between the two.
 #
-# Now move the other slider. The clouds keep their distance, but both move. **A robot that is too sure of its wheels finds its
-# right loops absurd**, and one that trusts them too little lets anything in. A gate is only as good as the covariance behind it.
+# Now move the other slider. The clouds keep their distance from each other, but both move. **A
+# robot that is too sure of its wheels refuses right loops**, and one that trusts its wheels too
+# little lets false ones in. A gate is only as good as the covariance behind it.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=4
 # ## Robust weights
 #
-# Must one false loop ruin everything? A square pulls the harder, the more absurd an error is. So we let an edge that *may* be
-# false pay a cost that levels off. Up to a limit $\Phi$ it pays its $\chi^2 = e^{\mathsf T} \Lambda\, e$ like any other; beyond,
+# Must one false loop ruin everything? With a squared cost, the more absurd an error is, the harder
+# it pulls. So we give an edge that *may* be false a cost that levels off. Up to a limit $\Phi$ it
+# costs $\chi^2 = e^{\mathsf T} \Lambda\, e$ like any other edge; beyond that,
 #
 # $$\operatorname{cost}(\chi^2) = 3\Phi - \frac{4\Phi^2}{\Phi + \chi^2} \qquad (\chi^2 > \Phi). \tag{15.9}$$
 #
@@ -778,8 +805,9 @@ views.explore(
 # $$w = \left( \frac{2\Phi}{\Phi + \chi^2} \right)^2 \qquad (\chi^2 > \Phi). \tag{15.10}$$
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
-# In (15.5) each $\Lambda$ of such an edge is replaced by $w\Lambda$, anew in every round. This is *dynamic covariance scaling*.
-# The usual $\Phi$ is 11.3: 99 % of true edges lie below it.
+# In (15.5) the $\Lambda$ of such an edge is replaced by $w\Lambda$, and $w$ is computed anew in
+# every round. This is *dynamic covariance scaling*. The usual $\Phi$ is 11.3: 99 % of true edges
+# lie below it.
 
 
 # %% slideshow={"slide_type": "fragment"}
@@ -806,8 +834,8 @@ views.explore(
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=8
 # ## Liars
 #
-# Now all of it together. We take the wheels' graph of the twins, offer it all right loops and some of the false ones, and leave the
-# gate open. Every loop has a robust weight.
+# Now we put everything together. We take the wheels' graph of the twins, offer it all right loops
+# and some of the false ones, and leave the gate open. Every loop has a robust weight.
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
@@ -872,9 +900,10 @@ for count in (0, 1, 2, 5, np.sum(twins.false)):
     print("{:11d}   {:5.2f} m   {:6.2f} m   {:6.2f} m".format(count, *trials[count]))
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="15-liars"
-# If loops are trusted, a single false one spoils the map by {= trials[1][0]:.1f =} m. With robust weights it does nothing, and
-# neither do two. But these five are enough. All of them say the same, "you are in the other room, 7 m to the west": they contradict the
-# wheels, and not each other. **Where liars agree, the honest look like the outliers.**
+# If loops are trusted, a single false one spoils the map by {= trials[1][0]:.1f =} m. With robust
+# weights it does nothing, and neither do two. But these five are enough. All of them say the same
+# thing, "you are in the other room, 7 m to the west": they contradict the wheels, but not each
+# other. **Where liars agree, the honest look like the outliers.**
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### Was that the cheaper map?
@@ -890,9 +919,11 @@ paid["the right map"] = false_loops.cost(graph, 11.3)
 print({name: f"{cost:,.0f}" for name, cost in paid.items()})
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# No: the right map costs {= paid["the broken map"] / paid["the right map"]:.0f =} times less. The optimiser begins with a $\Phi$ so large that
-# every loop counts in full, and tightens it round by round. It has to: at the wheels' poses, metres off, right loops look as false as the
-# others. So the liars pull with all their strength at first, and the poses end in a **local minimum**.
+# It is not: the right map costs {= paid["the broken map"] / paid["the right map"]:.0f =} times
+# less. The optimiser begins with a $\Phi$ so large that every loop counts in full, and lowers it
+# round by round. It has to, because at the wheels' poses, which are metres off, right loops look as
+# false as the others. So the liars pull with all their strength at first, and the poses end in a
+# **local minimum**.
 #
 # Robust weights mend single mistakes, and a gate keeps out what drift cannot explain. Neither replaces the other. The exercise asks what
 # more one can do.
@@ -904,9 +935,11 @@ print({name: f"{cost:,.0f}" for name, cost in paid.items()})
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## A map that changes its mind
 #
-# A robot that comes back may find a door open that was closed. A map of points only piles up, and keeps both for ever. The cure is the *occupancy
-# grid* of Moravec and Elfes. Each cell keeps the **odds** that it is occupied, the probability that it is over the probability
-# that it is not. If a cell of which nobody knows anything has even odds, then by Bayes' rule the odds $o$ after a scan are
+# A robot that comes back may find a door open that was closed. A map of points only grows, and
+# keeps both doors for ever. The cure is the *occupancy grid* of Moravec and Elfes. Each cell keeps
+# the **odds** that it is occupied: the probability that it is, divided by the probability that it
+# is not. If a cell of which nobody knows anything has even odds, then by Bayes' rule the odds $o$
+# after a scan are
 #
 # $$o_{\text{after}} = o_{\text{before}} \cdot o_{\text{scan}}, \qquad \log o_{\text{after}} = \log o_{\text{before}} + \log
 # o_{\text{scan}}. \tag{15.11}$$
@@ -917,8 +950,9 @@ print({name: f"{cost:,.0f}" for name, cost in paid.items()})
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # ### The clamp
 #
-# A door that was seen closed in 40 scans has enormous odds. So log odds are **clamped**: no cell is held to be occupied, or free, with more than 97 %. Now
-# the door is open. A map for ROS calls a cell free below a probability of 0.196. How many scans does it take?
+# A door that was seen closed in 40 scans has enormous odds. So log odds are **clamped**: no cell is
+# held to be occupied, or free, with more than 97 %. Now the door is open. A map for ROS, the robot
+# operating system, calls a cell free below a probability of 0.196. How many scans does it take?
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 needed = {}
@@ -929,8 +963,9 @@ for name, most in {"clamped": log_odds(CLAMP), "without a clamp": np.inf}.items(
     print(f"{name:>15}: free after {needed[name]} scans")
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
-# Let us see it. A robot goes round in the left room, 40 scans: the door is closed, and a person stands there. It comes again, 40
-# scans: the door is open, and the person has left.
+# Let us look at an example. A robot goes round in the left room and takes 40 scans: the door is
+# closed, and a person stands there. It comes again and takes 40 more: the door is open, and the
+# person has left.
 
 # %% slideshow={"slide_type": "fragment"}
 walls = [[0, 0, 6, 0], [6, 0, 6, 4], [6, 4, 0, 4], [0, 4, 0, 0], [3, 0, 3, 1.4], [3, 2.4, 3, 4]]
@@ -957,11 +992,12 @@ views.show(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# The points keep the person and the closed door for ever. The grid has let go of both, and behind the door it has learned what
-# can be seen through it. Grey is what nobody has seen.
+# The points keep the person and the closed door for ever. The grid has forgotten both, and it shows
+# what can be seen through the door. Grey cells have not been seen.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
-# A map is for others. `map_server` writes what ROS reads: a picture, and a text that says where it lies.
+# A map is made to be used by other programs. `map_server` writes what ROS reads: a picture, and a
+# text that says where it lies.
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 with TemporaryDirectory() as folder:
@@ -992,8 +1028,8 @@ views.show(
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# On the left walls stand twice where the robot came back. On the right they stand once, and you see why:
-# {= len(intel.loops) =} loops tie the laps together.
+# On the left walls stand twice where the robot came back. On the right they stand once, and the
+# lines show why: {= len(intel.loops) =} loops tie the laps together.
 
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
 for name in ("odometry", "icp", "graph"):
@@ -1001,13 +1037,15 @@ for name in ("odometry", "icp", "graph"):
     print(f"{name:>8}: off by {mean:.3f} ± {spread:.3f} m, {intel.relations} relations")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# These are trusted measurements of how one place lies as seen from another (Kümmerle and others, 2009). The loops make the error
-# {= intel.off["icp"] / intel.off["graph"]:.0f =} times smaller than the matcher alone, and
-# {= intel.off["odometry"] / intel.off["graph"]:.0f =} times smaller than the wheels.
+# The relations are trusted measurements of how one place lies as seen from another (Kümmerle and
+# others, 2009). The loops make the error {= intel.off["icp"] / intel.off["graph"]:.0f =} times
+# smaller than the matcher alone, and {= intel.off["odometry"] / intel.off["graph"]:.0f =} times
+# smaller than the wheels.
 #
-# The authors measured 0.031 ± 0.026 m for a graph of theirs, on the same building, but over all 2984 relations of a log with 13 631
-# scans. Ours has {= intel.readings =} of these scans, and {= intel.relations =} relations that need not be as hard. So it is of the
-# same order, and does *not* beat theirs. (Their number is quoted second-hand.)
+# The authors measured 0.031 ± 0.026 m for a graph of theirs, on the same building, but over all
+# 2984 relations of a log with 13 631 scans. Ours has {= intel.readings =} of these scans, and our
+# {= intel.relations =} relations may be easier ones. So our error is of the same order as theirs,
+# but it does *not* show that our graph is better. (Their number is quoted second-hand.)
 
 # %% [markdown] slideshow={"slide_type": "notes"}
 # *For the lecturer:* With the recording at hand, `slamlab run intel --estimator graph` draws this map in front of the class. Nothing
@@ -1035,10 +1073,11 @@ for name in ("odometry", "icp", "graph"):
 # You can build a graph of poses, derive and solve its equations, hold its gauge, and turn a covariance into the frame where it is
 # needed. You can propose loops, verify them, refuse those that surprise, and say what robust weights mend and what they do not.
 #
-# From wheels that lie (lesson 01) you have come to a map of a real building.
+# In lesson 01 you began with wheels that lie, and now you have a map of a real building.
 #
-# **What comes next:** in [lesson 16](16_your_own_slam.ipynb) you write a SLAM of your own, and measure it. On your own logs the
-# package's estimators run already: `slamlab run` takes files of CARMEN and BreezySLAM, and ROS bags.
+# **What comes next:** in [lesson 16](16_your_own_slam.ipynb) you write a SLAM of your own, and
+# measure it. The package's estimators also run on logs of your own: `slamlab run` takes files of
+# CARMEN and BreezySLAM, and ROS bags.
 #
 # The sections below this one are optional.
 #
@@ -1072,9 +1111,10 @@ print("the most it ever costs:", sp.limit(cost, chi2, sp.oo))
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## Deeper: why odds multiply
 #
-# A cell is believed to be occupied with some probability $\pi$. A scan alone would say $\eta$, and a cell of which nobody knows
-# anything has even odds. By Bayes' rule, with what the cell was and what is seen independent but for the cell itself, the
-# probability after is $\pi\eta / (\pi\eta + (1 - \pi)(1 - \eta))$. Its odds:
+# A cell is believed to be occupied with some probability $\pi$. A scan alone would say $\eta$, and
+# a cell about which nothing is known has even odds. If, given the state of the cell, the new scan
+# is independent of the earlier ones, then by Bayes' rule the probability after it is
+# $\pi\eta / (\pi\eta + (1 - \pi)(1 - \eta))$. Its odds:
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 before, scan = sp.symbols("pi eta", positive=True)
@@ -1093,7 +1133,8 @@ print("odds before × odds of the scan − odds after:", sp.simplify(odds[0] * o
 # | chapter 3, first figure | the ends of a corridor meet | the chapter builds nothing that makes them meet | a promise without a program |
 # | further work | areas seen again should be updated | a grid with clamped log odds does | points pile up for ever |
 #
-# The thesis' own matcher, plain ICP over all pairs of points, drives round our corridor:
+# We let the thesis' own matcher, plain ICP over all pairs of points, match the scans of our
+# corridor:
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
 plain = run(corridor, estimators.make("icp-plain", corridor)).trajectory.poses
@@ -1101,4 +1142,5 @@ gap = 100 * np.hypot(*(plain[-1] - truth[-1])[:2])
 print(f"plain ICP misses the start by {gap:.0f} cm, the wheels by {gaps['wheels']:.0f} cm")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# Here it is no better than the wheels: it pairs every point, even what only one of two scans has seen.
+# On this drive it is worse than the wheels: it pairs every point, even points that only one of the
+# two scans has seen.
