@@ -22,7 +22,6 @@ from functools import cache
 
 import numpy as np
 import sympy as sp
-from scipy.stats import norm
 
 from slamlab import models, views
 from slamlab.checks import ask
@@ -326,11 +325,15 @@ sp.factor(story["12"] + story["22"]) / total
 
 
 # %% slideshow={"slide_type": "subslide"} tags=["folded"]
+def normal(x, mean, sigma):
+    return np.exp(-(((x - mean) / sigma) ** 2) / 2) / (np.sqrt(2 * np.pi) * sigma)
+
+
 def on_a_line(drawn_mean, drawn_sigma):
     x = np.random.default_rng(1).normal(drawn_mean, drawn_sigma, 60)
-    w = norm.pdf(x, 0, 1) / norm.pdf(x, drawn_mean, drawn_sigma)
+    w = normal(x, 0, 1) / normal(x, drawn_mean, drawn_sigma)
     s, told = np.linspace(-5, 5, 200), f"mean {x.mean():.2f}, by weights {w @ x / w.sum():.2f}"
-    hills = {"wanted": norm.pdf(s, 0, 1), "drawn from": norm.pdf(s, drawn_mean, drawn_sigma)}
+    hills = {"wanted": normal(s, 0, 1), "drawn from": normal(s, drawn_mean, drawn_sigma)}
     fig, ax = views.curves(s, hills, "x [1]", "density, weight [1]", told, size=(8, 4.4))
     ax.vlines(x, 0, 0.8 * w / w.max(), color=views.COLOURS["sample"], label="samples, by weight")
     ax.set(ylim=(0, 1.1))

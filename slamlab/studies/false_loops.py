@@ -74,10 +74,12 @@ def judged(slam, truth, every=6):
     (m,) bool, whether a pair is false; dict of gate to (m,) bool, whether it passes
     """
     K, graph, edges, rows = slam.keyframes, slam.graph, [], []
-    for i in range(0, len(K), every):
-        for j in range(0, i - loop_closure.APART, every):
-            seen, old = K[i].surface, K[j].surface
-            m = match(seen, loop_closure.submap_around(K, graph.poses, j))
+    for j in range(0, len(K), every):
+        submap, old = loop_closure.submap_around(K, graph.poses, j), K[j].surface
+        first = j + loop_closure.APART + 1
+        for i in range(first + -first % every, len(K), every):
+            seen = K[i].surface
+            m = match(seen, submap)
             edges.append((j, i, m.pose, loop_closure.match_information(m)))
             away = np.hypot(*(graph.poses[j] - graph.poses[i])[:2])
             near = away < loop_closure.NEAR * seen.reach

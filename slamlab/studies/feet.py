@@ -8,7 +8,6 @@ import sys
 from dataclasses import replace
 
 import numpy as np
-from scipy.stats import quantile_test
 
 from slamlab.estimators.dead_reckoning import DeadReckoning
 from slamlab.estimators.foot_mends import MENDS
@@ -149,6 +148,8 @@ def row(errors, baseline):
     -------
     dict of numbers [m]
     """
+    from scipy.stats import quantile_test  # takes long to load, and no lesson needs it
+
     more = errors - baseline
     interval = quantile_test(more, p=0.5).confidence_interval(0.95)
     return {

@@ -3,7 +3,7 @@
 from functools import partial
 
 import numpy as np
-from scipy.stats import chi2
+from scipy.special import gammaincinv
 
 from slamlab.estimators.dead_reckoning import DeadReckoning
 from slamlab.estimators.mak_slam import MakSlam
@@ -26,7 +26,8 @@ MAKERS = {
     **{name: partial(fastslam, samples=n) for n, name in FAST.items()},
 }
 HAIR = 1e-8 * np.eye(3)  # a cloud of equal samples has no width at all
-LIMIT = chi2.ppf(0.95, 3)  # of the NEES of a pose: an honest one is above it in one case of twenty
+# of the NEES of a pose, χ² of 3: an honest one is above it in one case of twenty
+LIMIT = 2 * gammaincinv(3 / 2, 0.95)
 
 
 def lap(seed):

@@ -69,7 +69,7 @@ def test_the_same_source_derives_the_same_bytes(path):
 @each_notebook
 def test_a_notebook_is_valid_and_light(path):
     nbformat.validate(load(path))
-    assert path.stat().st_size < 800_000
+    assert path.stat().st_size < 600_000
 
 
 @each_notebook
