@@ -22,7 +22,7 @@ def test_a_step_that_never_ends_is_ended_and_told():
 
     (trial,) = practise(Endless)
     (mistake,) = trial.result.mistakes
-    assert mistake.startswith("at reading 1 of") and "step took 1.1 s of CPU" in mistake
+    assert mistake.startswith("at reading 1 of") and "step took 1." in mistake
     assert trial.result.points == 0
 
 

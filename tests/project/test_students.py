@@ -61,7 +61,7 @@ def answering(**parts):
     ("make", "told"),
     [
         (answering(step=posing([1, 2])), "pose has shape (2,), expected (3,)"),
-        (answering(step=posing(None)), "pose returned None"),
+        (answering(step=posing(None)), "pose is None after step"),
         (answering(step=posing("here")), "pose returned str"),
         (answering(trajectory=lambda self: None), "trajectory() returned None"),
         (answering(trajectory=lambda self: self.poses[:3]), "trajectory() has shape (3, 3)"),
