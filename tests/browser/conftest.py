@@ -1,6 +1,7 @@
 """A JupyterLab on a copy of the lessons, and pages of it."""
 
 import shutil
+from contextlib import closing
 
 import nbformat
 import pytest
@@ -47,3 +48,37 @@ def visit(browser, lab):
     context = browser.new_context(viewport={"width": 1280, "height": 800}, has_touch=True)
     yield Visit(context.new_page(), lab)
     context.close()
+
+
+@pytest.fixture(scope="module")
+def student(tmp_path_factory):
+    """A student's computer: the course, and what JupyterLab keeps."""
+    home = tmp_path_factory.mktemp("student")
+    for folder in ("notebooks", "exercises"):
+        shutil.copytree(ROOT / folder, home / "course" / folder)
+    return home
+
+
+@pytest.fixture(scope="class")
+def day(browser, student):
+    """A page of a JupyterLab that runs for a day: the notebooks of a class, one after another."""
+    with (
+        jupyterlab(student) as address,
+        closing(browser.new_context(viewport={"width": 1280, "height": 800})) as context,
+    ):
+        yield Visit(context.new_page(), address)
+
+
+@pytest.fixture(scope="class")
+def ran(request, day):
+    """A notebook of which all cells were run: its path. The tests of a class share the run."""
+    day.turn_to(request.param)
+    day.wait_until_clean()
+    day.run_all_and_wait()
+    return request.param
+
+
+@pytest.fixture(scope="module")
+def seen():
+    """By notebook, the alternative texts of the pictures that were there when it was saved."""
+    return {}

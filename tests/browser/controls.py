@@ -2,8 +2,10 @@
 
 from playwright.sync_api import TimeoutError
 
-# what the page sends the kernel: presses, values, and keys for a picture that is driven
+# no control was found yet; from now on, what the page sends the kernel: presses, values, and keys
+# for a picture that is driven
 LISTEN = """() => {
+    document.querySelectorAll("[data-control]").forEach((one) => delete one.dataset.control);
     const { kernel } = window.jupyterapp.shell.currentWidget.sessionContext.session;
     window.slamlabHeard = [];
     kernel.anyMessage.connect((_, { msg, direction }) => {

@@ -59,6 +59,7 @@ LAID_OUT = """(width) => {
     return Math.abs(style.zoom * parseFloat(style.getPropertyValue("--slamlab-width")) - width) < 1;
 }"""
 PAINTED = "() => new Promise((done) => requestAnimationFrame(() => setTimeout(done, 0, true)))"
+SEEN_PAINTED = f"async () => {{ await ({PAINTED})(); return ({SEEN})(); }}"
 
 
 class Lecture:
@@ -85,8 +86,12 @@ class Lecture:
 
     def press(self, key):
         """Press a key and wait until what it does is painted."""
+        self.see(key, PAINTED)
+
+    def see(self, key, script=SEEN_PAINTED):
+        """Press a key and wait until what it does is painted; what is seen then."""
         self.page.keyboard.press(key)
-        promised(self.page, f"the picture after {key}", PAINTED)
+        return promised(self.page, f"the picture after {key}", script)
 
     @property
     def seen(self):
@@ -118,8 +123,7 @@ class Lecture:
         ------
         dict, what is seen at each stop
         """
-        before = None
-        while (seen := self.seen)["stop"] != before:
+        before, seen = None, self.seen
+        while seen["stop"] != before:
             yield seen
-            before = seen["stop"]
-            self.press("PageDown")
+            before, seen = seen["stop"], self.see("PageDown")

@@ -1,104 +1,76 @@
-"""Every lesson and exercise, opened, run, saved, and opened again, in a real browser."""
+"""Every lesson in a real browser: lectured, run, saved, its controls worked, and opened again.
 
-import shutil
-from contextlib import closing
+A lesson is run once, which takes longest: what is asked of it then follows on the same page.
+"""
 
 import pytest
 
-from course.source import ROOT
-from tests.browser.jupyter import Visit, jupyterlab
+from tests.browser import walking
+from tests.browser.controls import Controls
+from tests.browser.lecture import Lecture
+from tests.browser.stops import SCREENS, walk_there_and_back
 
 pytestmark = pytest.mark.walk
-NOTEBOOKS = [
-    path.relative_to(ROOT).as_posix()
-    for folder in ("notebooks", "exercises")
-    for path in sorted((ROOT / folder).glob("*.ipynb"))
-]
-PICTURES = ".jp-OutputArea-output img"
-LIMIT = 800_000  # of a lesson's file [bytes], outputs of a run included
+LESSONS = walking.notebooks("notebooks")
+ZOOMS = {"usual": "0", "large": "0++", "largest": "0++++", "small": "0--", "smallest": "0----"}
+ROBOTS = ("09_slam_with_walls", "14_the_emir_system")  # are driven in them: tried at every zoom
+run = pytest.mark.parametrize("ran", LESSONS, indirect=True)
+STILL = "notebooks/in_print.ipynb"  # the appendix has no controls
+run_moving = pytest.mark.parametrize("ran", [one for one in LESSONS if one != STILL], indirect=True)
 
 
-@pytest.fixture(scope="module")
-def home(tmp_path_factory):
-    """A student's computer: the course, and what JupyterLab keeps."""
-    home = tmp_path_factory.mktemp("walk")
-    for folder in ("notebooks", "exercises"):
-        shutil.copytree(ROOT / folder, home / "course" / folder)
-    return home
+def zooms(lesson):
+    """The zooms at which the controls of a lesson are worked: all, or one after another."""
+    if any(name in lesson for name in ROBOTS):
+        return list(ZOOMS)
+    return [list(ZOOMS)[LESSONS.index(lesson) % len(ZOOMS)]]
 
 
-@pytest.fixture(scope="class")
-def visit(browser, home):
-    """A page of a JupyterLab that runs for a day: the notebooks of a class, one after another."""
-    with (
-        jupyterlab(home) as address,
-        closing(browser.new_context(viewport={"width": 1280, "height": 800})) as context,
-    ):
-        yield Visit(context.new_page(), address)
-
-
-@pytest.fixture(scope="module")
-def seen():
-    """By notebook, the alternative texts of the pictures that were there when it was saved."""
-    return {}
-
-
-def alternatives(visit):
-    """The alternative texts of all pictures."""
-    return visit.page.locator(PICTURES).evaluate_all("all => all.map((one) => one.alt)")
-
-
-def unfold_outputs(visit):
-    """Open the outputs that wait for an answer, of all cells; a file keeps them folded."""
-    # all at once: each that is opened is one fewer to count by
-    folded = visit.page.locator(".jp-OutputPlaceholder:visible")
-    folded.evaluate_all("all => all.forEach((one) => one.click())")
-    assert folded.count() == 0
-
-
-def move_by_keyboard(page, handle):
-    """Move a slider by a step."""
-    before = handle.get_attribute("aria-valuetext")
-    handle.focus()
-    page.keyboard.press("ArrowLeft")
-    if handle.get_attribute("aria-valuetext") == before:  # it stood at its left end
-        page.keyboard.press("ArrowRight")
-    assert handle.get_attribute("aria-valuetext") != before
+@pytest.fixture
+def lecture(day):
+    """A lecture on what is open on a page; afterwards the page is as it was."""
+    size = day.page.viewport_size
+    day.page.set_viewport_size({"width": 1280, "height": 720})
+    shown = Lecture(day)
+    shown.start()
+    yield shown
+    shown.end()
+    day.page.set_viewport_size(size)
 
 
 class TestFirstDay:
-    @pytest.mark.parametrize("notebook", NOTEBOOKS)
-    def test_a_notebook_is_opened_run_and_saved(self, visit, home, seen, notebook):
-        page = visit.page
-        visit.turn_to(notebook)
-        visit.wait_until_clean()
-        visit.run_all_and_wait()
-        visit.look_through()
-        unfold_outputs(visit)
-        wrong = page.locator('[data-mime-type="application/vnd.jupyter.error"]')
-        assert wrong.all_text_contents() == []
-        assert visit.serious_faults() == []
-        for handle in page.get_by_role("slider").all():
-            assert handle.get_attribute("aria-label")
-            move_by_keyboard(page, handle)
-        visit.settle()
-        visit.save()
-        seen[notebook] = alternatives(visit)
-        assert all(seen[notebook])
-        assert visit.faults == []
-        assert visit.abroad == []
-        assert (home / "course" / notebook).stat().st_size < LIMIT
+    @run
+    def test_of_a_lesson_that_was_run_every_stop_fits_both_screens(self, ran, lecture):
+        for screen in SCREENS:
+            lecture.resize(*screen)
+            lecture.press("Home")
+            walk_there_and_back(lecture, ran, screen)
+
+    @run
+    def test_a_lesson_runs_and_is_saved(self, ran, day, student, seen):
+        seen[ran] = walking.is_whole_and_saved(day, student / "course" / ran)
+
+    @run_moving
+    def test_every_control_works_where_it_is_seen_and_by_keys(self, ran, lecture):
+        for zoom in zooms(ran):
+            for key in ZOOMS[zoom]:
+                lecture.press(key)
+            lecture.press("Home")
+            controls = Controls(lecture)
+            wrong, count = [], 0
+            for _ in lecture.walk():
+                while found := list(controls.unworked()):  # one may show others
+                    for kind, place in found:
+                        wrong += controls.work(kind, place)
+                    count += len(found)
+            assert count and wrong == [], f"{zoom} zoom"
+        assert lecture.visit.faults == []
+        assert lecture.visit.abroad == []
 
 
 class TestNextDay:
-    @pytest.mark.parametrize("notebook", NOTEBOOKS)
-    def test_a_saved_notebook_shows_what_it_showed(self, visit, seen, notebook):
+    @pytest.mark.parametrize("notebook", LESSONS)
+    def test_a_saved_lesson_shows_what_it_showed(self, day, seen, notebook):
         if notebook not in seen:
             pytest.skip("it was not run")
-        visit.turn_to(notebook)
-        visit.look_through()
-        visit.wait_until_clean()
-        unfold_outputs(visit)
-        assert alternatives(visit) == seen[notebook]
-        assert visit.page.get_by_text("Error displaying widget").count() == 0
-        assert visit.page.get_by_text("model not found").count() == 0
+        walking.shows(day, notebook, seen[notebook])
