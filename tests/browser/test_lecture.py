@@ -155,6 +155,9 @@ def test_remotes_and_the_keys_of_the_deck(lecture):
         lecture.press(key)
         assert "slamlab-blank" not in layer.get_attribute("class")
     lecture.press("o")
+    cards = lecture.page.locator(".slamlab-overview button")
+    assert f"/ {cards.count()}" in lecture.number
+    assert cards.locator("> small:empty").count() == 0  # each has a picture or says something
     lecture.press("ArrowRight")
     lecture.press("Enter")
     assert lecture.page.locator(".slamlab-overview").count() == 0
