@@ -107,6 +107,13 @@ class Lecture:
         """Press Escape until the deck is gone; a class and a tool need one of their own."""
         until(lambda: not self.runs or self.press("Escape"))
 
+    def end_and_restore(self):
+        """Leave the deck, and leave the lesson as it was before; answers that were shown fold."""
+        self.end()
+        restore = self.page.get_by_role("button", name="Restore it")
+        if restore.count():
+            restore.click()
+
     def go_on_to(self, what, is_seen):
         """Go on from where it is until something is seen."""
         assert any(is_seen() for _ in self.walk()), f"no slide shows {what}"

@@ -72,11 +72,7 @@ def test_no_key_and_no_click_changes_the_file(lecture, lab_folder, lesson, seed)
             other.close()  # the presenter's window
     assert stored(lab_folder, lesson) == before
     sources = [cell["source"] for cell in json.loads(before)["cells"]]
-    if lecture.runs:
-        lecture.end()
-    restore = lecture.page.get_by_role("button", name="Restore it")
-    if restore.count():
-        restore.click()
+    lecture.end_and_restore()
     lecture.visit.save()
     after = [cell["source"] for cell in json.loads(stored(lab_folder, lesson))["cells"]]
     assert after == sources

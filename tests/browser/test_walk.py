@@ -34,7 +34,7 @@ def lecture(day):
     shown = Lecture(day)
     shown.start()
     yield shown
-    shown.end()
+    shown.end_and_restore()
     day.page.set_viewport_size(size)
 
 
