@@ -9,6 +9,9 @@ import pytest
 from course.source import ROOT
 from tests.browser import driving, editing, live, measuring, waiting
 from tests.browser.jupyter import Unavailable, Visit, chromium, jupyterlab
+from tests.browser.lecture import Lecture
+
+pytest.register_assert_rewrite("tests.browser.stops", "tests.browser.walking")
 
 
 @pytest.fixture(scope="module")
@@ -76,6 +79,18 @@ def ran(request, day):
     day.wait_until_clean()
     day.run_all_and_wait()
     return request.param
+
+
+@pytest.fixture
+def lecture_of_day(day):
+    """A lecture on what is open on that page; afterwards the page is as it was."""
+    size = day.page.viewport_size
+    day.page.set_viewport_size({"width": 1280, "height": 720})
+    shown = Lecture(day)
+    shown.start()
+    yield shown
+    shown.end_and_restore()
+    day.page.set_viewport_size(size)
 
 
 @pytest.fixture(scope="module")

@@ -121,7 +121,7 @@ class Controls:
     def _drag(self, place, x, y):
         self.page.mouse.move(*self._middle(place))
         self.page.mouse.down()
-        self.page.mouse.move(x, y, steps=4)
+        self.page.mouse.move(x, y, steps=2)  # at each a figure may be drawn anew
 
     def _press(self, place, *keys):
         place.focus()
