@@ -32,13 +32,14 @@ KINDS = {
     "button": ".jupyter-button",
 }
 
-# whether a handle stands at a share of its track, both measured at once; one of few steps goes to
-# the next
-STANDS = """([handle, share]) => {
+# the share of its track at which a handle stands, both measured at once
+SHARE = """(handle) => {
     const track = handle.closest(".noUi-target").getBoundingClientRect();
     const at = handle.getBoundingClientRect();
-    return Math.abs((at.x + at.width / 2 - track.x) / track.width - share) <= 0.26;
+    return (at.x + at.width / 2 - track.x) / track.width;
 }"""
+# one of few steps goes to the next
+STANDS = f"([handle, share]) => Math.abs(({SHARE})(handle) - share) <= 0.26"
 
 # the controls that can be seen now and had no number yet: marked with one each
 FIND = """(kinds) => {
@@ -130,7 +131,8 @@ class Controls:
 
     def _point_slider(self, handle):
         track = handle.locator("xpath=ancestor::*[contains(@class, 'noUi-target')]")
-        for share in (0.25, 0.75):
+        shares = (0.25, 0.75) if handle.evaluate(SHARE) > 0.5 else (0.75, 0.25)  # it has to move
+        for share in shares:
             box = track.bounding_box()
             at = box["x"] + share * box["width"], box["y"] + box["height"] / 2
 
