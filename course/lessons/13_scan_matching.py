@@ -664,6 +664,7 @@ e.jacobian([d_x, d_y, d_theta]).subs(d_theta, 0)
 # Plain ICP took two dozen rounds on the polygon. Here are the same two scans and the same first guess, by three methods:
 
 # %% slideshow={"slide_type": "fragment"}
+# heading off after each round, from the same first guess, by three methods
 METHODS = {
     "point to point": point_to_point,
     "trimmed, 80 %": lambda p, q, start, **how: point_to_point(p, q, start, keep=0.8, **how),

@@ -1,6 +1,7 @@
 """A JupyterLab on a copy of the lessons, and pages of it."""
 
 import shutil
+from contextlib import closing
 
 import nbformat
 import pytest
@@ -8,6 +9,9 @@ import pytest
 from course.source import ROOT
 from tests.browser import driving, editing, live, measuring, waiting
 from tests.browser.jupyter import Unavailable, Visit, chromium, jupyterlab
+from tests.browser.lecture import Lecture
+
+pytest.register_assert_rewrite("tests.browser.stops", "tests.browser.walking")
 
 
 @pytest.fixture(scope="module")
@@ -47,3 +51,49 @@ def visit(browser, lab):
     context = browser.new_context(viewport={"width": 1280, "height": 800}, has_touch=True)
     yield Visit(context.new_page(), lab)
     context.close()
+
+
+@pytest.fixture(scope="module")
+def student(tmp_path_factory):
+    """A student's computer: the course, and what JupyterLab keeps."""
+    home = tmp_path_factory.mktemp("student")
+    for folder in ("notebooks", "exercises"):
+        shutil.copytree(ROOT / folder, home / "course" / folder)
+    return home
+
+
+@pytest.fixture(scope="class")
+def day(browser, student):
+    """A page of a JupyterLab that runs for a day: the notebooks of a class, one after another."""
+    with (
+        jupyterlab(student) as address,
+        closing(browser.new_context(viewport={"width": 1280, "height": 800})) as context,
+    ):
+        yield Visit(context.new_page(), address)
+
+
+@pytest.fixture(scope="class")
+def ran(request, day):
+    """A notebook of which all cells were run: its path. The tests of a class share the run."""
+    day.turn_to(request.param)
+    day.wait_until_clean()
+    day.run_all_and_wait()
+    return request.param
+
+
+@pytest.fixture
+def lecture_of_day(day):
+    """A lecture on what is open on that page; afterwards the page is as it was."""
+    size = day.page.viewport_size
+    day.page.set_viewport_size({"width": 1280, "height": 720})
+    shown = Lecture(day)
+    shown.start()
+    yield shown
+    shown.end_and_restore()
+    day.page.set_viewport_size(size)
+
+
+@pytest.fixture(scope="module")
+def seen():
+    """By notebook, the alternative texts of the pictures that were there when it was saved."""
+    return {}

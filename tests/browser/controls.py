@@ -2,8 +2,10 @@
 
 from playwright.sync_api import TimeoutError
 
-# what the page sends the kernel: presses, values, and keys for a picture that is driven
+# no control was found yet; from now on, what the page sends the kernel: presses, values, and keys
+# for a picture that is driven
 LISTEN = """() => {
+    document.querySelectorAll("[data-control]").forEach((one) => delete one.dataset.control);
     const { kernel } = window.jupyterapp.shell.currentWidget.sessionContext.session;
     window.slamlabHeard = [];
     kernel.anyMessage.connect((_, { msg, direction }) => {
@@ -30,13 +32,14 @@ KINDS = {
     "button": ".jupyter-button",
 }
 
-# whether a handle stands at a share of its track, both measured at once; one of few steps goes to
-# the next
-STANDS = """([handle, share]) => {
+# the share of its track at which a handle stands, both measured at once
+SHARE = """(handle) => {
     const track = handle.closest(".noUi-target").getBoundingClientRect();
     const at = handle.getBoundingClientRect();
-    return Math.abs((at.x + at.width / 2 - track.x) / track.width - share) <= 0.26;
+    return (at.x + at.width / 2 - track.x) / track.width;
 }"""
+# one of few steps goes to the next
+STANDS = f"([handle, share]) => Math.abs(({SHARE})(handle) - share) <= 0.26"
 
 # the controls that can be seen now and had no number yet: marked with one each
 FIND = """(kinds) => {
@@ -119,7 +122,7 @@ class Controls:
     def _drag(self, place, x, y):
         self.page.mouse.move(*self._middle(place))
         self.page.mouse.down()
-        self.page.mouse.move(x, y, steps=4)
+        self.page.mouse.move(x, y, steps=2)  # at each a figure may be drawn anew
 
     def _press(self, place, *keys):
         place.focus()
@@ -128,7 +131,8 @@ class Controls:
 
     def _point_slider(self, handle):
         track = handle.locator("xpath=ancestor::*[contains(@class, 'noUi-target')]")
-        for share in (0.25, 0.75):
+        shares = (0.25, 0.75) if handle.evaluate(SHARE) > 0.5 else (0.75, 0.25)  # it has to move
+        for share in shares:
             box = track.bounding_box()
             at = box["x"] + share * box["width"], box["y"] + box["height"] / 2
 

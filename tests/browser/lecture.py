@@ -59,6 +59,7 @@ LAID_OUT = """(width) => {
     return Math.abs(style.zoom * parseFloat(style.getPropertyValue("--slamlab-width")) - width) < 1;
 }"""
 PAINTED = "() => new Promise((done) => requestAnimationFrame(() => setTimeout(done, 0, true)))"
+SEEN_PAINTED = f"async () => {{ await ({PAINTED})(); return ({SEEN})(); }}"
 
 
 class Lecture:
@@ -85,8 +86,12 @@ class Lecture:
 
     def press(self, key):
         """Press a key and wait until what it does is painted."""
+        self.see(key, PAINTED)
+
+    def see(self, key, script=SEEN_PAINTED):
+        """Press a key and wait until what it does is painted; what is seen then."""
         self.page.keyboard.press(key)
-        promised(self.page, f"the picture after {key}", PAINTED)
+        return promised(self.page, f"the picture after {key}", script)
 
     @property
     def seen(self):
@@ -101,6 +106,13 @@ class Lecture:
     def end(self):
         """Press Escape until the deck is gone; a class and a tool need one of their own."""
         until(lambda: not self.runs or self.press("Escape"))
+
+    def end_and_restore(self):
+        """Leave the deck, and leave the lesson as it was before; answers that were shown fold."""
+        self.end()
+        restore = self.page.get_by_role("button", name="Restore it")
+        if restore.count():
+            restore.click()
 
     def go_on_to(self, what, is_seen):
         """Go on from where it is until something is seen."""
@@ -118,8 +130,7 @@ class Lecture:
         ------
         dict, what is seen at each stop
         """
-        before = None
-        while (seen := self.seen)["stop"] != before:
+        before, seen = None, self.seen
+        while seen["stop"] != before:
             yield seen
-            before = seen["stop"]
-            self.press("PageDown")
+            before, seen = seen["stop"], self.see("PageDown")

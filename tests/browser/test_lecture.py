@@ -5,18 +5,12 @@ import random
 
 import pytest
 
-from course.source import ROOT
 from tests.browser.lecture import Lecture
+from tests.browser.stops import SCREENS, cells_of, on_slides, walk_there_and_back
 
 pytestmark = pytest.mark.slow
 
 OFTEN = ("04_models_and_jacobians.ipynb", "07_correlations.ipynb")
-SCREENS = ((1280, 720), (1920, 1080))
-LESSONS = sorted(path.name for path in (ROOT / "notebooks").glob("*.ipynb"))
-SMALLEST = 0.75  # of the usual letters
-BASE = 18  # letters at 720 lines [pixels]
-FIGURE_LETTERS = 12  # in figures, at 720 lines [pixels]
-FIGURE = 0.8  # of the width or height that is free, for a figure alone on its page
 CODE = ".jp-CodeCell:not(.slamlab-off):not(.slamlab-later)"  # in sight
 NAMES = """
     PageDown PageUp ArrowRight ArrowLeft ArrowUp ArrowDown Space Shift+Space . b o c n t + - 0 ? h
@@ -48,69 +42,14 @@ def stored(lab_folder, lesson):
 def test_every_stop_fits_and_is_legible_there_and_back(lecture, lesson):
     lecture.visit.open(lesson)
     lecture.start()
-    walk_there_and_back(lecture, lesson, SCREENS[0])
-
-
-@pytest.mark.walk
-@pytest.mark.parametrize("lesson", LESSONS)
-def test_of_a_lesson_that_was_run_every_stop_fits_both_screens(lecture, lesson):
-    lecture.visit.open(lesson)
-    lecture.visit.run_all_and_wait()
-    lecture.start()
-    for screen in SCREENS:
-        lecture.resize(*screen)
-        lecture.press("Home")
-        walk_there_and_back(lecture, lesson, screen)
-
-
-def walk_there_and_back(lecture, lesson, screen):
-    _, height = screen
-    stops = list(lecture.walk())
-    assert [seen["stop"] for seen in stops] == list(range(stops[-1]["stops"]))
-    assert len({seen["shown"] for seen in stops}) == len(stops)  # each key shows something new
-    assert cells_of(stops) == on_slides(lesson)  # and none goes over something
-    small = [seen["stop"] for seen in stops if seen["shrink"] < SMALLEST]
-    faint = [seen["stop"] for seen in stops if seen["letters"] < BASE * height / 720 - 0.01]
-    assert ([seen["stop"] for seen in stops if seen["cut"]], small, faint) == ([], [], [])
-    least = FIGURE_LETTERS * height / 720 - 0.01
-    assert [seen["stop"] for seen in stops if seen["figure_letters"] < least] == []
-    assert [seen["stop"] for seen in stops if seen["figure"] < FIGURE] == []
-    torn = [line for seen in stops for line in seen["telling"] if line.endswith(("(", "[", "{"))]
-    assert torn == []  # a line that stands for folded code says something by itself
-    for seen in reversed(stops[:-1]):
-        lecture.press("PageUp")
-        assert lecture.seen["shown"] == seen["shown"]
-    assert lecture.visit.faults == []
-    assert lecture.visit.abroad == []
-
-
-def cells_of(stops):
-    """Positions of the cells that were shown at some stop."""
-    return {int(cell) for seen in stops for cell in seen["shown"].split("/")[0].split(",")}
-
-
-def on_slides(lesson):
-    """Positions of the cells on slides: neither notes nor skipped, and with something to see."""
-    cells = json.loads((ROOT / "notebooks" / lesson).read_text())["cells"]
-    return {n for n, cell in enumerate(cells) if not is_for_others(cell["metadata"]) and sees(cell)}
-
-
-def is_for_others(metadata):
-    """Whether a cell is for the speaker or for the kernel alone."""
-    return metadata.get("slideshow", {}).get("slide_type") in ("notes", "skip")
-
-
-def sees(cell):
-    """Whether a cell shows anything: text, an output, or code that is not folded away."""
-    hidden = cell["metadata"].get("jupyter", {}).get("source_hidden")
-    return cell["cell_type"] == "markdown" or bool(cell["outputs"]) or not hidden
+    walk_there_and_back(lecture, f"notebooks/{lesson}", SCREENS[0])
 
 
 def test_pages_and_folded_answers_of_long_slides_are_all_shown(lecture):
     lesson = "00_start_here.ipynb"
     lecture.visit.open(lesson)
     lecture.start()
-    assert cells_of(lecture.walk()) == on_slides(lesson)
+    assert cells_of(lecture.walk()) == on_slides(f"notebooks/{lesson}")
 
 
 @pytest.mark.parametrize(("lesson", "seed"), MONKEYS)
@@ -134,11 +73,7 @@ def test_no_key_and_no_click_changes_the_file(lecture, lab_folder, lesson, seed)
             other.close()  # the presenter's window
     assert stored(lab_folder, lesson) == before
     sources = [cell["source"] for cell in json.loads(before)["cells"]]
-    if lecture.runs:
-        lecture.end()
-    restore = lecture.page.get_by_role("button", name="Restore it")
-    if restore.count():
-        restore.click()
+    lecture.end_and_restore()
     lecture.visit.save()
     after = [cell["source"] for cell in json.loads(stored(lab_folder, lesson))["cells"]]
     assert after == sources
@@ -217,6 +152,9 @@ def test_remotes_and_the_keys_of_the_deck(lecture):
         lecture.press(key)
         assert "slamlab-blank" not in layer.get_attribute("class")
     lecture.press("o")
+    cards = lecture.page.locator(".slamlab-overview button")
+    assert f"/ {cards.count()}" in lecture.number
+    assert cards.locator("> small:empty").count() == 0  # each has a picture or says something
     lecture.press("ArrowRight")
     lecture.press("Enter")
     assert lecture.page.locator(".slamlab-overview").count() == 0

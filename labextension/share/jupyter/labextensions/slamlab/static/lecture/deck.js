@@ -4,7 +4,7 @@ import { element, giveBackFocus } from "../element.js";
 import { guard } from "./guard.js";
 import { Bar } from "./bar.js";
 import { keysOf } from "./keys.js";
-import { layOut, pagesOf, zoomOf } from "./fit.js";
+import { cellsOn, layOut, pagesOf, zoomOf } from "./fit.js";
 import { goToCell } from "./place.js";
 import { foldCode, giveFoldingBack, lockCode, takeFolding } from "./code.js";
 import { Signal } from "./signal.js";
@@ -248,7 +248,7 @@ export class Deck {
   }
 
   #signature() {
-    const shown = this.page.querySelectorAll(".jp-Cell:not(.slamlab-off)");
-    return [window.innerWidth, window.innerHeight, ...[...shown].map((one) => one.offsetHeight)].join();
+    const heights = cellsOn(this.page).map((one) => one.offsetHeight);
+    return [window.innerWidth, window.innerHeight, ...heights].join();
   }
 }

@@ -91,7 +91,7 @@ function last(wayAt, cells, notebook) {
 function grown(page, notebook, way, zoom) {
   layOut(page, notebook, way, zoom);
   if (!fits(page)) return undefined;
-  const figures = [...page.querySelectorAll(`.jp-Cell:not(.slamlab-off) ${FIGURE}`)];
+  const figures = inSight(page, FIGURE);
   let least = way.figure, most = figures.length ? LARGEST : least;
   while (most - least > 0.1) {
     const middle = (least + most) / 2;
@@ -122,12 +122,16 @@ export function layOut(page, notebook, { cells, shrink, columns, figure }, zoom)
 const isWhole = (one) => one.scrollWidth <= one.clientWidth + 1;
 
 // wide formulas and tables scroll in a notebook; on a slide nobody can
-const WIDE = [".jp-OutputArea-output", ".jp-RenderedMarkdown", ".cm-scroller"]
-  .map((one) => `.jp-Cell:not(.slamlab-off) ${one}`).join();
+const WIDE = ".jp-OutputArea-output, .jp-RenderedMarkdown, .cm-scroller";
+
+// The cells of the slide on a page.
+export const cellsOn = (page) => [...page.children].filter((one) => one.matches(".jp-Cell:not(.slamlab-off)"));
+
+// What fits a selector on a slide: all other cells of the notebook, which may be many, are not looked through.
+const inSight = (page, selector) => cellsOn(page).flatMap((cell) => [...cell.querySelectorAll(selector)]);
 
 // Whether nothing of a page is cut off.
 export function fits(page) {
-  return page.scrollHeight <= page.clientHeight + 1 && isWhole(page)
-    && [...page.querySelectorAll(WIDE)].every(isWhole)
-    && [...page.querySelectorAll(`.jp-Cell:not(.slamlab-off) ${FIGURE}`)].every((one) => isWhole(one.parentElement));
+  return page.scrollHeight <= page.clientHeight + 1 && isWhole(page) && inSight(page, WIDE).every(isWhole)
+    && inSight(page, FIGURE).every((one) => isWhole(one.parentElement));
 }

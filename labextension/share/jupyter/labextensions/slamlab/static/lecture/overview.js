@@ -1,7 +1,9 @@
-// All slides at a glance: a card each, with its heading and its first picture.
+// All slides at a glance: a card each, with its heading and its first picture, or its first words.
 
 import { element } from "../element.js";
+import { questionIn } from "../questions.js";
 import { htmlOf } from "./stops.js";
+import { tellingLine } from "./telling.js";
 
 const OPEN = ".slamlab-overview";
 
@@ -18,17 +20,27 @@ export function toggleOverview(deck) {
 }
 
 function card(deck, slide, number) {
-  const button = element("button", "", element("b", "", `${number + 1}`), element("span", "", slide.title || "—"));
-  if (slide.minutes) button.append(element("small", "", `${slide.minutes} min`));
-  const html = slide.cells.map((index) => htmlOf(deck.notebook.widgets[index])).join("");
-  const src = /src="(data:image[^"]+)"/.exec(html)?.[1];
-  if (src) button.append(Object.assign(new Image(), { src, alt: "" }));
+  const cells = slide.cells.map((index) => deck.notebook.widgets[index]);
+  const minutes = slide.minutes ? element("small", "", `${slide.minutes} min`) : "";
+  const head = element("span", "", element("b", "", `${number + 1}`), slide.title || "—", minutes);
+  const src = /src="(data:image[^"]+)"/.exec(cells.map(htmlOf).join(""))?.[1];
+  const button = element("button", "", head, src ? Object.assign(new Image(), { src, alt: "" })
+    : element("small", "", cells.map(wordsOf).find(Boolean) ?? ""));
   if (number === deck.slide) button.setAttribute("aria-current", "true");
   button.addEventListener("click", () => {
     deck.layer.querySelector(OPEN).remove();
     deck.goToSlide(number);
   });
   return element("li", "", button);
+}
+
+// What a cell says, by which slides of one heading are told from each other; answers are not told, nor formulas.
+function wordsOf({ model }) {
+  const source = model.sharedModel.getSource();
+  if (questionIn(source)) return "a question";
+  if (model.getMetadata("slamlab")?.answers) return "an answer";
+  if (model.type === "code") return tellingLine(source) ?? "";
+  return source.replace(/^#.*$/gm, "").replace(/\$\$?[^$]+\$\$?/g, "…").replace(/[*`]|\]\(.*?\)|\[/g, "").trim();
 }
 
 function step(list, event) {

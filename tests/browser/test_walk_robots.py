@@ -1,0 +1,20 @@
+"""The lessons in which robots are driven, in a real browser: as all others, but at every zoom."""
+
+import pytest
+
+from tests.browser import walking
+
+pytestmark = pytest.mark.walk
+ROBOTS = ["notebooks/09_slam_with_walls.ipynb", "notebooks/14_the_emir_system.ipynb"]
+
+
+@pytest.mark.parametrize("ran", ROBOTS, indirect=True)
+class TestFirstDay(walking.LessonsFirstDay):
+    def zooms(self, lesson):
+        return walking.ZOOMS
+
+
+class TestNextDay:
+    @pytest.mark.parametrize("notebook", ROBOTS)
+    def test_a_saved_lesson_shows_what_it_showed(self, day, seen, notebook):
+        walking.shows_again(day, notebook, seen)
