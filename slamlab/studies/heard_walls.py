@@ -72,8 +72,8 @@ def errors_of(seed):
 
     Returns
     -------
-    dict, name to (rms [m], (2, 5) NEES, in the map and along arcs, walls in the map), slope to (lines, of them no wall),
-    incidence to (echoes, lines)
+    dict, name to (rms [m], (2, 5) NEES, in the map and along arcs, walls in the map), slope to
+    (lines, of them no wall), incidence to (echoes, lines)
     """
     source = simulation(WORLD, np.random.default_rng(seed))
     slipping = simulation(WORLD, np.random.default_rng(seed), robot=THESIS_ROBOT)
