@@ -103,9 +103,11 @@ class WallSlam(Estimator):
     def warnings(self):
         """What it says where it sees too little, or too little again: list of sentences."""
         P = self.filter.block([0, 1])
+        unsure = hardly_surer(P, self._alone, self._scans)
+        if unsure:  # to lay out all walls costs a tenth of a step
+            unsure += wider_than_map(P, self.walls().reshape(-1, 2), self._scans)
         return [
-            *hardly_surer(P, self._alone, self._scans),
-            *wider_than_map(P, self.walls().reshape(-1, 2), self._scans),
+            *unsure,
             *mostly_unknown(self.counts[ONLY_NEW], self._scans),
             *self.relocalisation.warnings,
         ]
