@@ -104,3 +104,16 @@ def test_what_is_offered_is_every_right_loop_and_as_many_false_ones_as_asked(twi
         assert (~twins.false[offered]).sum() == (~twins.false).sum()
     assert len(twins.offered()) == len(twins.loops)
     assert false_loops.ends(twins.with_gate.graph, []).shape == (0, 4)
+
+
+def test_robust_weights_withstand_two_false_loops_of_the_twins_and_not_three(twins):
+    """What lesson 15 says beside its table of false loops."""
+
+    def off_by(count, phi):
+        return twins.worst(twins.closed(twins.offered(count), phi)[0].poses)
+
+    whole = off_by(0, 11.3)
+    assert off_by(1, np.inf) > 4
+    assert max(off_by(1, 11.3), off_by(2, 11.3)) < whole + 0.05
+    assert off_by(2, 300) > 4 and off_by(2, 1) > 2 * whole
+    assert min(off_by(3, 11.3), off_by(5, 11.3)) > 6

@@ -9,10 +9,17 @@ import pytest
 
 from slamlab import estimators, sources
 from slamlab.cli import main
-from slamlab.estimators.sufficiency import hardly_surer, mostly_unknown, thin_matches
+from slamlab.estimators.sufficiency import (
+    hardly_surer,
+    mostly_unknown,
+    thin_matches,
+    wider_than_map,
+)
 from slamlab.filters.mak import MAK
 from slamlab.simulation.range_scanners import ULTRASONIC
 from slamlab.sources import simulation
+
+WIDER = "wider than all that it has mapped"
 
 
 def told(name, source, steps=None, **options):
@@ -70,6 +77,29 @@ def test_samples_that_see_nothing_again_are_no_surer_than_odometry_and_say_so(na
     assert slam.warnings == [
         "its place is hardly surer than by odometry alone: too little is seen again"
     ]
+
+
+@pytest.mark.parametrize("name", ["mak", "mak-first-estimates", "montecarlo", "fastslam", "walls"])
+def test_who_has_left_all_that_it_mapped_says_that_its_place_is_wider_than_the_map(name):
+    world = "room" if name == "walls" else "landmarks"
+    source = simulation(world, np.random.default_rng(1))
+    slam = estimators.make(name, source)
+    for seen in islice(source, 25):
+        slam.step(seen)
+    assert WIDER not in slam.status
+    blind = seen.scan and replace(seen.scan, ranges=np.full_like(seen.scan.ranges, np.nan))
+    away = replace(seen, odometry=np.array([20.0, 0.0, 0.3]), observations=None, scan=blind)
+    for k in range(60):
+        slam.step(replace(away, time=seen.time + k + 1))
+    assert any(WIDER in each for each in slam.warnings) and WIDER in slam.status
+
+
+def test_a_place_is_wider_than_the_map_where_95_percent_of_the_belief_are():
+    places, P = np.array([[0.0, 0.0], [4.0, 1.0]]), np.diag([0.01, 1.0])
+    assert wider_than_map(P, places, 20) == []
+    (said,) = wider_than_map(1.1 * P, places, 20)
+    assert said.startswith("its place is known to ±2.06 m")
+    assert wider_than_map(1.1 * P, places, 19) == wider_than_map(1.1 * P, places[:1], 20) == []
 
 
 @pytest.mark.slow

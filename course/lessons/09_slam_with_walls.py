@@ -1035,6 +1035,10 @@ Markdown("\n".join(rows))
 # NEES is {= sound["nees"]["cone model"][-1]:.1f =}, above the band of {= sound["band_95"][0]:.1f =} to
 # {= sound["band_95"][1]:.1f =}. With wheels that slip by chance alone it is
 # {= sound["nees"]["cone model, wheels slip"][-1]:.1f =}. So most of what is wrong is odometry's model.
+#
+# Even then one moment, just after a turn, has {= max(sound["nees"]["cone model, wheels slip"]):.1f =}. There the noise is right,
+# but an uncertain heading bends the spread of places into an arc, and an ellipse is straight. Measured along arcs, the largest of
+# the five is {= max(sound["nees_along_arcs"]["cone model, wheels slip"]):.1f =} (`evaluation.pose_nees`).
 
 # %% [markdown] slideshow={"slide_type": "slide"}
 # ## In print

@@ -8,7 +8,7 @@ from slamlab.estimators.landmark_observations import (
     observed_landmarks,
     require_landmarks,
 )
-from slamlab.estimators.sufficiency import hardly_surer
+from slamlab.estimators.sufficiency import hardly_surer, wider_than_map
 from slamlab.filters.data_association import (
     compatible_corners,
     gated_nearest_neighbours,
@@ -90,7 +90,11 @@ class MakSlam(Estimator):
     @property
     def warnings(self):
         """What it says where its landmarks correct hardly anything: list of sentences."""
-        return hardly_surer(self.filter.block([0, 1]), self._alone, self._steps)
+        P = self.filter.block([0, 1])
+        return [
+            *hardly_surer(P, self._alone, self._steps),
+            *wider_than_map(P, self.filter.landmarks(), self._steps),
+        ]
 
     def layers(self):
         """Landmarks and robot with their 95 % covariance ellipses, the trajectory."""

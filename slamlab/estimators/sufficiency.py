@@ -11,6 +11,7 @@ SURER = 0.5  # share of odometry's own standard deviation above which a map help
 # share of scans that show nothing known: a lidar's lines of ultrasound 0.4, in a building 0.26
 UNKNOWN = 1 / 3
 AMBIGUOUS = 1 / 3  # share of observations that are ambiguous above which a map is a muddle
+CONFIDENCE = 1.96  # standard deviations to either side that hold 95 %
 ROUNDING = 1e-6  # m, by which a box may be wider than odometry that makes no error
 
 
@@ -99,6 +100,27 @@ def box_too_wide(bor, alone, scans):
     if len(middles) > 1 and np.any(sides > np.ptp(middles, axis=0)):
         found.append("its box is wider than all that it has mapped")
     return found
+
+
+def wider_than_map(P, places, scans):
+    """Warn of a place so uncertain that 95 % of the belief is longer than all that was mapped.
+
+    Parameters
+    ----------
+    P : (2, 2) covariance of the place, as the filter believes it [m²]
+    places : (n, 2) landmarks, or ends of walls [m]
+    scans : int, readings with something in them so far
+
+    Returns
+    -------
+    list of str
+    """
+    if scans < MIN_STEPS or len(places) < 2:
+        return []
+    reach = CONFIDENCE * np.sqrt(np.linalg.eigvalsh(P[:2, :2])[-1])
+    if 2 * reach <= np.ptp(places, axis=0).max():
+        return []
+    return [f"its place is known to ±{reach:.2f} m: that is wider than all that it has mapped"]
 
 
 def mostly_ambiguous(ambiguous, observed):

@@ -8,7 +8,7 @@ import numpy as np
 
 from slamlab.estimators.base import Estimator
 from slamlab.estimators.mak_slam import predict
-from slamlab.estimators.sufficiency import hardly_surer, mostly_unknown
+from slamlab.estimators.sufficiency import hardly_surer, mostly_unknown, wider_than_map
 from slamlab.estimators.wall_merging import ends_of, merge_pieces
 from slamlab.estimators.wall_observations import observed_walls
 from slamlab.estimators.wall_relocalisation import WallRelocalisation
@@ -102,8 +102,12 @@ class WallSlam(Estimator):
     @property
     def warnings(self):
         """What it says where it sees too little, or too little again: list of sentences."""
+        P = self.filter.block([0, 1])
+        unsure = hardly_surer(P, self._alone, self._scans)
+        if unsure:  # to lay out all walls costs a tenth of a step
+            unsure += wider_than_map(P, self.walls().reshape(-1, 2), self._scans)
         return [
-            *hardly_surer(self.filter.block([0, 1]), self._alone, self._scans),
+            *unsure,
             *mostly_unknown(self.counts[ONLY_NEW], self._scans),
             *self.relocalisation.warnings,
         ]

@@ -4,6 +4,7 @@ Finding the lines costs far more than the residuals: at a pose near by they may 
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -42,20 +43,30 @@ class Pairs:
     pose : (3,) [m, m, rad]
     association : Association, made here or at a pose near by
     points : two of (n,), x and y of the source's points in the target's frame [m]
-    residuals : (n,) r, distances across the target's line [m]
-    J : (3, n) derivative of r with respect to [x, y, θ reach]: all in metres
+    system : (4, n) rows of J, the derivative of r with respect to [x, y, θ reach], then r: all in
+        metres, and in one array, so that one product makes the normal equations
     """
 
     pose: tuple
     association: Association
     points: tuple
-    residuals: np.ndarray
-    J: np.ndarray
+    system: np.ndarray
 
     @property
+    def J(self):
+        """Jacobian (3, n): derivative of the residuals with respect to [x, y, θ reach]."""
+        return self.system[:3]
+
+    @property
+    def residuals(self):
+        """Residuals r (n,): distances across the target's line [m]."""
+        return self.system[3]
+
+    @cached_property
     def ranges(self):
         """Ranges (n,) of the source's points from the target's origin [m]."""
-        return np.hypot(*self.points)
+        x, y = self.points
+        return np.sqrt(x * x + y * y)
 
 
 def find_correspondences(source, target, pose, association=None):
@@ -80,9 +91,9 @@ def find_correspondences(source, target, pose, association=None):
     if association is None:
         association = _associate(source, target, points, (x[n:], y[n:]))
     nx, ny, offset = association.lines
-    J = np.empty((3, n))
-    J[0], J[1], J[2] = nx, ny, (x[:n] * ny - y[:n] * nx) / source.reach
-    return Pairs(pose, association, points, nx * px + ny * py - offset, J)
+    turn = (x[:n] * ny - y[:n] * nx) / source.reach
+    system = np.array((nx, ny, turn, nx * px + ny * py - offset))
+    return Pairs(pose, association, points, system)
 
 
 def _associate(source, target, points, normals):

@@ -158,17 +158,17 @@ def _lines_from_moments(count, x, y, xx, yy, xy, windows=None):
     spreads along and across, the latter with count − 2 degrees of freedom.
     """
     s_xx, s_yy, s_xy = xx - x * x, yy - y * y, xy - x * y
-    mean, half = (s_xx + s_yy) / 2, (s_xx - s_yy) / 2
+    mean, half = 0.5 * (s_xx + s_yy), 0.5 * (s_xx - s_yy)
     direction = 0.5 * np.arctan2(s_xy, half)
     half = np.sqrt(half * half + s_xy * s_xy)
     along = mean + half
     low = np.maximum(mean - half, 0.0)
-    across = low * count / np.maximum(count - 2, 1)
-    good = (count >= 3) & (low < MAX_FLATNESS**2 * along)
+    across = low * count / np.maximum(count - 2.0, 1.0)
+    good = (count >= 3.0) & (low < MAX_FLATNESS**2 * along)
     tilt = across / (count * np.maximum(along, 1e-300))
     nx, ny = -np.sin(direction), np.cos(direction)
     offset = nx * x + ny * y
     if windows is not None:  # the scanner stands before its walls
-        front = np.where(offset > 0, -1.0, 1.0)
+        front = np.copysign(1.0, -offset)
         nx, ny, offset = front * nx, front * ny, front * offset
     return LineFits(nx, ny, offset, across, tilt, good, windows)

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from slamlab.scanmatching.registration import information_floor, robust_weights
+from slamlab.scanmatching.registration import information_floor, robust_kernel, robust_weights
 
 
 @dataclass(frozen=True)
@@ -63,8 +63,9 @@ def observability(source, target, pairs, kernel_width):
     Observability; (3, n) the sensitivity ∂g/∂r of its gradient g to each residual
     """
     # ρ'' turns negative for far pairs, which hold nothing
-    u, w = (pairs.residuals / kernel_width) ** 2, robust_weights(pairs, kernel_width, True)
-    sensitivity = pairs.J * np.maximum(w * (1 - 3 * u) / (1 + u), 0.0)
+    kernel = robust_kernel(pairs, kernel_width)
+    w = robust_weights(pairs, kernel, True)
+    sensitivity = pairs.J * np.maximum(w * (4 * kernel - 3), 0.0)
     values, axes = np.linalg.eigh(sensitivity @ pairs.J.T)
     floor = information_floor(pairs, w, target, values.sum())
     return Observability(values, axes, floor, source.reach), sensitivity

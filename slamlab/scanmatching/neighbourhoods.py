@@ -53,9 +53,10 @@ def sliding_windows(jump, k):
     Windows
     """
     n = len(jump)
-    place = np.arange(n + 2 * k)
-    ring = np.concatenate([place[n - k : n], place[:n], place[:k]])
-    cuts = np.concatenate([[0], np.flatnonzero(jump[ring]) + 1, [n + 2 * k]])
-    own, length = place[k : n + k], cuts[1:] - cuts[:-1]
-    begin, end = (np.repeat(c, length)[k : n + k] for c in (cuts[:-1], cuts[1:]))
-    return Windows(ring, np.maximum(own - k, begin), np.minimum(own + k + 1, end))
+    ring = np.arange(-k, n + k)
+    ring[:k] += n
+    ring[n + k :] -= n
+    cuts = np.concatenate(([0], jump[ring].nonzero()[0] + 1, [n + 2 * k]))
+    length, first = cuts[1:] - cuts[:-1], np.arange(n)
+    begin, end = (c.repeat(length)[k : n + k] for c in (cuts[:-1], cuts[1:]))
+    return Windows(ring, np.maximum(first, begin), np.minimum(first + (2 * k + 1), end))

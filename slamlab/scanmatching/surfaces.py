@@ -96,14 +96,16 @@ class Surface:
     @cached_property
     def _bearing_lookup(self):
         """Lookup table by bearing: the nearest beam in each sector, and whether it is near."""
-        count = SECTORS_PER_BEAM * len(self)
+        n, b = len(self), self.bearings
+        count = SECTORS_PER_BEAM * n
         middles = (np.arange(count + 1) + 0.5) * (FULL_TURN / count) - np.pi
         # a beam more at either end closes the ring
-        b = self.bearings
-        ring = np.concatenate([b[-1:] - FULL_TURN, b, b[:1] + FULL_TURN])
-        place = ((ring[1:] + ring[:-1]) / 2).searchsorted(middles)
+        ring, beam = np.empty(n + 2), np.arange(-1, n + 1)
+        ring[0], ring[1:-1], ring[-1] = b[-1] - FULL_TURN, b, b[0] + FULL_TURN
+        beam[0], beam[-1] = n - 1, 0
+        place = (0.5 * (ring[1:] + ring[:-1])).searchsorted(middles)
         near = np.abs(ring[place] - middles) < MAX_BEARING_GAP * self.step
-        return (place - 1) % len(self), near, count / FULL_TURN
+        return beam[place], near, count / FULL_TURN
 
 
 def rotation(theta):
@@ -137,7 +139,8 @@ def surface(points, name="cloud"):
     x, y = np.ascontiguousarray(points.T)
     bearings = np.arctan2(y, x)
     rows = _bearing_order(bearings)
-    if rows is not None and ((x != 0) | (y != 0)).all():  # the origin itself has no bearing
+    # the origin itself has no bearing
+    if rows is not None and np.count_nonzero(x * x + y * y) == len(points):
         if len(rows):
             x, y, bearings = x[rows], y[rows], bearings[rows]
         return _scan_surface(x, y, bearings, rows if len(rows) else None)

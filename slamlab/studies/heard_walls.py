@@ -11,7 +11,7 @@ import numpy as np
 
 from slamlab.estimators.dead_reckoning import DeadReckoning
 from slamlab.estimators.wall_slam import GATE, WallSlam
-from slamlab.evaluation import band, nees
+from slamlab.evaluation import band, nees, pose_nees
 from slamlab.geometry import wrap
 from slamlab.landmarks.sonar_lines import sonar_lines
 from slamlab.parallel import map_runs
@@ -72,8 +72,8 @@ def errors_of(seed):
 
     Returns
     -------
-    dict, name to (rms [m], (5,) NEES, walls in the map), slope to (lines, of them no wall),
-    incidence to (echoes, lines)
+    dict, name to (rms [m], (2, 5) NEES, in the map and along arcs, walls in the map), slope to
+    (lines, of them no wall), incidence to (echoes, lines)
     """
     source = simulation(WORLD, np.random.default_rng(seed))
     slipping = simulation(WORLD, np.random.default_rng(seed), robot=THESIS_ROBOT)
@@ -107,11 +107,14 @@ def _driven(source, slam):
         poses.append(slam.pose.copy())
         if hasattr(slam, "filter"):
             P.append(slam.filter.block([0, 1, 2]))
-    off = errors(source, np.array(poses))
+    poses = np.array(poses)
+    off = errors(source, poses)
     rms = np.sqrt(np.mean(np.sum(off[:, :2] ** 2, axis=1)))
     if not P:
-        return rms, np.full(5, np.nan), 0
-    return rms, nees(off[STEPS], np.array(P)[STEPS]), len(slam.filter.ids)
+        return rms, np.full((2, 5), np.nan), 0
+    P, true = np.array(P)[STEPS], source.truth.poses[STEPS]
+    size = nees(off[STEPS], P), pose_nees(poses[STEPS], P, true)
+    return rms, np.array(size), len(slam.filter.ids)
 
 
 def study(runs, jobs=None, scheduler=None):
@@ -144,7 +147,8 @@ def study(runs, jobs=None, scheduler=None):
         "band_95": band(3, runs),
         "seed_0": {name: round(float(results[0][name][0]), 6) for name in (*drives, SLIP)},
         "drives": rounded(drives),
-        "nees": {name: [round(float(each), 4) for each in row] for name, row in sizes.items()},
+        "nees": {name: row[0].round(4).tolist() for name, row in sizes.items()},
+        "nees_along_arcs": {name: row[1].round(4).tolist() for name, row in sizes.items()},
         "slopes": [
             dict(zip(("degrees", "lines", "no_wall"), _sums(results, "slope", each), strict=True))
             for each in SLOPES
