@@ -6,9 +6,14 @@ import tempfile
 from datetime import UTC, datetime
 from pathlib import Path
 
-from slamlab.cli.common import UsageError, add_course_options, signals_as_interrupt, term_of
+from slamlab.cli.common import (
+    UsageError,
+    add_course_options,
+    exercise_of,
+    signals_as_interrupt,
+    term_of,
+)
 from slamlab.cli.grade_output import print_summary, with_progress
-from slamlab.exercises import catalogue
 
 
 def add_parser(subparsers):
@@ -149,12 +154,9 @@ def _check(arguments, term):
     if arguments.jobs < 1:
         raise UsageError("--jobs must be at least 1")
     if arguments.exercise is not None:
-        arguments.exercise = catalogue.exercise(arguments.exercise).id
+        arguments.exercise = exercise_of(term, arguments.exercise)
     if arguments.worksheet and not (term and arguments.exercise):
         raise UsageError("--worksheet needs a course file, and --exercise, which it is of")
-    if term and arguments.exercise not in (None, *term.course.exercises):
-        known = ", ".join(term.course.exercises)
-        raise UsageError(f"the course file has no exercise {arguments.exercise}; it has {known}")
     if arguments.isolation is None:
         arguments.isolation = term.course.isolation if term else "strict"
 
