@@ -123,6 +123,32 @@ def term_of(arguments):
     return found
 
 
+def exercise_of(term, id):
+    """The number of the exercise that was said, such as "04" for "4".
+
+    Parameters
+    ----------
+    term : Term or None
+    id : str
+
+    Returns
+    -------
+    str
+
+    Raises
+    ------
+    KeyError : there is none
+    UsageError : the course file has none
+    """
+    from slamlab.exercises import catalogue
+
+    id = catalogue.exercise(id).id
+    if term and id not in term.course.exercises:
+        known = ", ".join(term.course.exercises)
+        raise UsageError(f"the course file has no exercise {id}; it has {known}")
+    return id
+
+
 def add_page_options(parser):
     """Add the options of every command that serves a page to this machine's browser."""
     parser.add_argument("--port", metavar="N", type=int, default=0, help="any free one by default")

@@ -6,9 +6,14 @@ import tempfile
 from datetime import UTC, datetime
 from pathlib import Path
 
-from slamlab.cli.common import UsageError, add_course_options, signals_as_interrupt, term_of
+from slamlab.cli.common import (
+    UsageError,
+    add_course_options,
+    exercise_of,
+    signals_as_interrupt,
+    term_of,
+)
 from slamlab.cli.grade_output import print_summary, with_progress
-from slamlab.exercises import catalogue
 
 
 def add_parser(subparsers):
@@ -111,6 +116,7 @@ def _grade(arguments, scratch):
     """The records of a run, and what else :func:`print_summary` is to tell of it."""
     from slamlab.grading import batch, hand_in_times, isolation, late_policy, storing
     from slamlab.grading.gradebook import Gradebook, default_url
+    from slamlab.grading.judges import Judges
     from slamlab.grading.worker_pool import WorkerPool
 
     term = term_of(arguments)
@@ -125,9 +131,11 @@ def _grade(arguments, scratch):
     policy = late_policy.load(arguments.policy) if arguments.policy else term and term.policy
     if not arguments.scheduler:
         isolation.ensure_level(arguments.isolation)
+    jobs = 1 if arguments.scheduler else min(arguments.jobs, len(found))
     with (
-        Gradebook(arguments.db or default_url(arguments.out), arguments.who) as book,
         WorkerPool(arguments.isolation, preload=batch.named_modules(found)) as workers,
+        Judges(jobs, secret, workers, arguments.exercise) as judges,
+        Gradebook(arguments.db or default_url(arguments.out), arguments.who) as book,
         signals_as_interrupt(),
     ):
         kept = storing.kept_policies(book)
@@ -135,7 +143,7 @@ def _grade(arguments, scratch):
         seen = book.sight(listed)
         found = hand_in_times.without_future(found, listed, known.values(), datetime.now(UTC))
         known = {} if arguments.regrade else known
-        graded = _graded(arguments, found, secret, workers, known)
+        graded = _graded(arguments, found, secret, judges, known)
         words = arguments.out, book, arguments.exercise, policy, arguments.regrade, kept
         records = with_progress(storing.store_records(graded, *words, term, seen), len(found))
         return (records, term.summary(book, records), "student") if term else (records,)
@@ -146,25 +154,18 @@ def _check(arguments, term):
     if arguments.jobs < 1:
         raise UsageError("--jobs must be at least 1")
     if arguments.exercise is not None:
-        arguments.exercise = catalogue.exercise(arguments.exercise).id
+        arguments.exercise = exercise_of(term, arguments.exercise)
     if arguments.worksheet and not (term and arguments.exercise):
         raise UsageError("--worksheet needs a course file, and --exercise, which it is of")
-    if term and arguments.exercise not in (None, *term.course.exercises):
-        known = ", ".join(term.course.exercises)
-        raise UsageError(f"the course file has no exercise {arguments.exercise}; it has {known}")
     if arguments.isolation is None:
         arguments.isolation = term.course.isolation if term else "strict"
 
 
-def _graded(arguments, found, secret, workers, known):
+def _graded(arguments, found, secret, judges, known):
     """Records as they are done, on this machine or a cluster."""
     from slamlab.grading import batch, dask_cluster
 
-    exercise = arguments.exercise
-    if arguments.scheduler:
-        level = arguments.isolation
-        return dask_cluster.grade_on_cluster(
-            arguments.scheduler, found, secret, level, exercise, known
-        )
-    jobs = min(arguments.jobs, len(found))
-    return batch.grade_locally(found, secret, workers, exercise, known, jobs)
+    if not arguments.scheduler:
+        return batch.grade_locally(found, judges, known)
+    level, exercise = arguments.isolation, arguments.exercise
+    return dask_cluster.grade_on_cluster(arguments.scheduler, found, secret, level, exercise, known)

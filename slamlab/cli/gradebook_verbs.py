@@ -85,7 +85,7 @@ def _merge(arguments, book, term, policy):
         with Gradebook(name if "://" in name else default_url(Path(name), new=False)) as other:
             added += book.merge(other)
     count = _write(arguments, book, term, policy)
-    return f"{added} attempts added; {count} submissions: {arguments.out / 'grades.csv'}"
+    return f"{added} attempts added; now {count} submissions: {arguments.out / 'grades.csv'}"
 
 
 def _adjust(arguments, book, term, policy):

@@ -4,7 +4,7 @@ import re
 import sys
 from pathlib import Path
 
-from slamlab.cli.common import UsageError, add_course_options, term_of
+from slamlab.cli.common import UsageError, add_course_options, exercise_of, term_of
 from slamlab.cli.grade_output import printable
 
 VERBS = ("rejudge", "verify", "forget")
@@ -82,10 +82,9 @@ def run(arguments) -> int:
 
 
 def _rejudge(arguments, book, term):
-    from slamlab.exercises import catalogue
     from slamlab.grading import rejudge_report, rejudging
 
-    ids = {catalogue.exercise(id).id for id in arguments.exercises} or None
+    ids = {exercise_of(term, id) for id in arguments.exercises} or None
     with rejudging.LazyWorkers(_level(arguments, term)) as workers:
         judged = list(rejudging.rejudge_all(book, workers, ids))
     found = rejudge_report.changes(judged, book.overrides(), term and term.policy)

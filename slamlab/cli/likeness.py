@@ -2,7 +2,7 @@
 
 import sys
 
-from slamlab.cli.common import UsageError, add_course_options, term_of
+from slamlab.cli.common import UsageError, add_course_options, exercise_of, term_of
 from slamlab.cli.grade_output import printable
 
 MOST = 10  # pairs of an exercise
@@ -25,13 +25,12 @@ def add_parser(subparsers):
 
 def run(arguments) -> int:
     """List the pairs; 0 when done, 2 for wrong use."""
-    from slamlab.exercises import catalogue
     from slamlab.grading.gradebook import Gradebook, GradebookError, default_url
     from slamlab.grading.term.course_file import TermError
 
     try:
         term = term_of(arguments)
-        asked = [catalogue.exercise(id).id for id in arguments.exercises]
+        asked = [exercise_of(term, id) for id in arguments.exercises]
         url = arguments.db or default_url(arguments.out, new=False)
         with Gradebook(url, arguments.who) as book:
             records = _records(book, term)
@@ -60,6 +59,9 @@ def _records(book, term):
 def _told(book, id, records):
     from slamlab.grading.likeness.kept_submissions import likeness_of
 
+    if not records:
+        yield f"{id}: nobody has handed in anything"
+        return
     found = likeness_of(book, records)
     yield f"{id}: {found.of_class.count} submissions compared"
     for pair in found.of_class.pairs[:MOST]:

@@ -5,7 +5,7 @@ import os
 import sys
 from pathlib import Path
 
-from slamlab.cli.common import COURSE, UsageError, add_who_option, term_of
+from slamlab.cli.common import COURSE, UsageError, add_who_option, exercise_of, term_of
 from slamlab.cli.grade_output import printable
 
 VERBS = ("init", "release")
@@ -102,17 +102,13 @@ def _zone_here():
 
 
 def _release(arguments):
-    from slamlab.exercises import catalogue
     from slamlab.grading.gradebook import Gradebook, default_url
     from slamlab.grading.term import course_file, releases
 
     if not (arguments.course or Path(course_file.NAME)).exists():
         raise UsageError("a release needs a course file: slamlab grade init")
     term = term_of(arguments)
-    id = catalogue.exercise(arguments.exercise).id
-    if id not in term.course.exercises:
-        known = ", ".join(term.course.exercises)
-        raise UsageError(f"the course file has no exercise {id}; it has {known}")
+    id = exercise_of(term, arguments.exercise)
     url = arguments.db or default_url(arguments.out, new=False)
     with Gradebook(url, arguments.who) as book:
         mine, gone = term.standings(book)[id], term.gone(book)

@@ -4,8 +4,8 @@ Read in this order:
 
 - ``submissions``, ``notebooks``, ``hand_in_times``: what was handed in, and when; ``preflight``:
   warnings about its form
-- ``judge``, ``task_judging``: one submission; ``batch``, ``joining``, ``dask_cluster``: a folder;
-  ``storing``, ``records``
+- ``judge``, ``task_judging``: one submission; ``batch``, ``judges``, ``joining``,
+  ``dask_cluster``: a folder; ``storing``, ``records``
 - ``worker_pool``, ``zygote``, ``forked_workers``, ``fresh_workers``, ``worker_client``, ``worker``,
   ``wire_protocol``: fork server (zygote) and sandboxed processes, serialisation between them
 - ``staging``, ``import_closure``, ``syntax``, ``hidden_packages``, ``checks_stub``: what a worker

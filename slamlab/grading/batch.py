@@ -1,7 +1,6 @@
 """Batch grading: a folder's submissions, found, dealt out, and graded several at once."""
 
 import re
-import threading
 from concurrent.futures import ThreadPoolExecutor, as_completed, wait
 from hashlib import sha256
 from pathlib import Path
@@ -71,39 +70,41 @@ def select_shard(found, part):
     return in_order(dealt[i - 1 :: n])
 
 
-def grade_locally(found, secret, workers, default=None, known=None, jobs=1):
+def grade_locally(found, judges, known=None):
     """Grade submissions in parallel on this machine and yield records as they are done.
 
     Parameters
     ----------
     found : list of Submission
-    secret : bytes
-    workers : WorkerPool, closed in the end
-    default : str or None, the exercise that all are to be of
+    judges : Judges, closed in the end; the others join the first one when that pays
     known : attempt's key to Record; these attempts are not graded again
-    jobs : int, how many at once; the others join the first one when that pays
 
     Yields
     ------
     Record
     """
-    stop, joining = threading.Event(), Joining(len(found))
-    with ThreadPoolExecutor(max(1, jobs), initializer=joining) as pool:
-        futures = [
-            pool.submit(judge.grade_submission, s, secret, workers, default, known, stop)
-            for s in found
-        ]
+    joining, of_each = Joining(len(found)), attempts_of_each(known)
+    with ThreadPoolExecutor(max(1, judges.count), initializer=joining) as pool:
+        futures = [pool.submit(judges.grade, s, of_each.get(s.name)) for s in found]
         for future in futures:
             future.add_done_callback(joining.done)
         try:
             yield from (future.result() for future in as_completed(futures))
         finally:
-            stop.set()
-            joining.release()
             for future in futures:
                 future.cancel()
+            judges.stop()
+            joining.release()
             wait(futures)
-            workers.close()  # before the threads end that they would die with
+            judges.close()  # before the threads end that workers would die with
+
+
+def attempts_of_each(known):
+    """Submission's name to its attempts, key to Record, of those that are known."""
+    found = {}
+    for key, record in (known or {}).items():
+        found.setdefault(record.submission, {})[key] = record
+    return found
 
 
 def content_hashes(found):

@@ -10,6 +10,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from slamlab.grading import judge
+from slamlab.grading.batch import attempts_of_each
 from slamlab.grading.submissions import MAX_NOTEBOOK_BYTES
 from slamlab.grading.worker_pool import WorkerPool
 from slamlab.parallel import map_runs
@@ -37,9 +38,7 @@ def grade_on_cluster(scheduler, found, secret, level, default=None, known=None):
     ------
     RunError : no scheduler answers, or a machine of the cluster was lost
     """
-    mine = {}
-    for key, record in (known or {}).items():
-        mine.setdefault(record.submission, {})[key] = record
+    mine = attempts_of_each(known)
     for start in range(0, len(found), CHUNK):
         chunk = found[start : start + CHUNK]
         jobs = [_Job(s, secret, level, default, mine.get(s.name)) for s in chunk]

@@ -104,5 +104,8 @@ TEMPLATES.globals |= {"laws_of": laws_of, "classes": CLASSES, "reason": reason}
 
 
 def write_feedback_page(out: Path, mark: Mark):
-    """Write the feedback page to ``out/feedback``."""
-    write_atomically(out / "feedback" / f"{mark.record.stem}.html", feedback_page(mark))
+    """Write the feedback page to ``out/feedback``; one of before its exercise was known goes."""
+    folder, record = out / "feedback", mark.record
+    write_atomically(folder / f"{record.stem}.html", feedback_page(mark))
+    if record.exercise:
+        (folder / f"{record.stem_of_unknown}.html").unlink(missing_ok=True)

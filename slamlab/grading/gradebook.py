@@ -116,14 +116,23 @@ class Gradebook(LedgerBook):
         }
 
     def latest_attempts(self):
-        """The attempt that counts: the latest of each submission.
+        """The attempts that count: of each submission the latest in each exercise.
+
+        What could not be graded counts while nothing was made of the submission later; of which
+        exercise nobody knows, it takes the place of the one before.
 
         Returns
         -------
-        list of Record, sorted by submission
+        list of Record, sorted by submission, of one the oldest first
         """
-        newest = {record.submission: record for record in self.attempts().values()}
-        return [newest[name] for name in sorted(newest)]
+        newest = {}
+        for record in reversed(self.attempts().values()):
+            mine = newest.setdefault(record.submission, {})
+            if [*mine] == [None]:
+                mine[record.exercise] = mine.pop(None)
+            elif record.graded or not mine:
+                mine.setdefault(record.exercise, record)
+        return [one for name in sorted(newest) for one in reversed(newest[name].values())]
 
     def override_points(self, submission, exercise, task, points, reason):
         """Add a manual override: the points of a task set by hand; the newest one counts.

@@ -61,8 +61,10 @@ def parse(data: bytes, lesson=False) -> Notebook:
         content = json.loads(text)
     except RecursionError:
         raise SubmissionError("nested too deeply to be a notebook") from None
-    except ValueError as error:
+    except json.JSONDecodeError as error:
         raise SubmissionError(f"not a notebook, or a part of one: {error}") from None
+    except ValueError:  # of more digits than Python reads
+        raise SubmissionError("not a notebook: a number in it is longer than any is") from None
     if not isinstance(content, dict):
         raise SubmissionError("not a notebook: no cells and no metadata")
     if "worksheets" in content or content.get("nbformat") in (1, 2, 3):

@@ -90,7 +90,12 @@ class Record:
 
     @property
     def stem(self):
-        """A unique and safe file name, whatever the submission is called."""
+        """A unique and safe file name, whatever the submission is called; its exercise's own."""
+        return f"{self.stem_of_unknown}-{self.exercise}" if self.exercise else self.stem_of_unknown
+
+    @property
+    def stem_of_unknown(self):
+        """As :attr:`stem`, while nobody knows of which exercise it is."""
         readable = re.sub(r"[^A-Za-z0-9]+", "-", self.submission.removesuffix(".ipynb")).strip("-")
         return f"{readable[:60]}-{hashlib.sha256(self.submission.encode()).hexdigest()[:8]}"
 

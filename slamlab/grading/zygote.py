@@ -22,6 +22,8 @@ from slamlab.grading import quotas, sandbox, tree_removal, worker
 
 MAX_MESSAGE_BYTES = 1 << 16  # of a control message [bytes]
 NOBODY_UID = 65534  # user and group that root becomes
+ALWAYS_NEEDED = ("resource", "slamlab.checks")
+"""Modules that each worker would import: for its limits, and in a notebook's first cell."""
 QUOTA_CHECK_SECONDS = 0.1
 """Interval at which a worker's quotas are checked [s]."""
 
@@ -40,7 +42,7 @@ def main(control, plan):
         os.setgroups([])
         os.setgid(NOBODY_UID)
         os.setuid(NOBODY_UID)
-    for name in plan["preload"]:
+    for name in (*ALWAYS_NEEDED, *plan["preload"]):
         with contextlib.suppress(ImportError):
             importlib.import_module(name)
     drives = importlib.import_module(plan["drives"]).DRIVES

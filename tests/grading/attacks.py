@@ -378,6 +378,15 @@ faulthandler.dump_traceback_later(1, exit=True)
 """,
     "an alarm": "import signal; signal.alarm(1); signal.setitimer(signal.ITIMER_REAL, 0.5, 0.1)\n",
     "an abort": "import os; os.abort()\n",
+    "a process that stands": "import os, signal; os.kill(os.getpid(), signal.SIGSTOP)\n",
+    "a frame that never ends": """
+import os, struct
+for number in range(3, 20):
+    try:
+        os.write(number, struct.pack("<II", 1000, 0))
+    except OSError:
+        pass
+""",
     "streams closed": """
 import os, sys
 for stream in (sys.stdin, sys.stdout, sys.stderr): harm(stream.close)

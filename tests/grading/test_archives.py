@@ -143,7 +143,7 @@ def test_two_members_of_one_name_both_stay(tmp_path):
 def test_a_damaged_zip_is_told_in_a_line(tmp_path, cut):
     data = in_memory([("a.ipynb", "x" * 100)])
     (tmp_path / "04.zip").write_bytes(data[:cut])
-    with pytest.raises(SubmissionError, match="not a zip, or a part of one"):
+    with pytest.raises(SubmissionError, match=r"04\.zip: not a zip, or a part of one"):
         find_hand_ins(tmp_path / "04.zip", tmp_path / "scratch")
     (tmp_path / "class" / "anna").mkdir(parents=True)
     (tmp_path / "04.zip").rename(tmp_path / "class" / "anna" / "w.zip")

@@ -145,6 +145,21 @@ def test_grading_again_gives_the_same_and_a_new_secret_other_inputs(class_folder
         assert stat.S_IMODE((tmp_path / "a" / "secret").stat().st_mode) == 0o600
 
 
+def test_a_file_name_that_returns_in_another_exercise_keeps_both_marks(tmp_path):
+    folder, out = tmp_path / "class", tmp_path / "out"
+    folder.mkdir()
+    for text in ("{", notebook(fake.SOLUTION), notebook("x = 1", exercise="04")):
+        (folder / "anna.ipynb").write_text(text)
+        assert command("grade", folder, "--out", out) == 0
+    words = "anna.ipynb", "99-turn", "1", "--reason", "later", "--out", out
+    assert main(["grade", "adjust", *map(str, words)]) == 0
+    with open(out / "grades.csv", encoding="utf-8", newline="") as file:
+        rows = {row["exercise"]: row["score"] for row in csv.DictReader(file)}
+    assert rows == {"99": "6.5", "04": "0"}
+    pages = sorted(path.name.split("-")[-1] for path in (out / "feedback").iterdir())
+    assert pages == ["04.html", "99.html"]
+
+
 def test_what_could_not_be_read_stands_once_and_is_graded_when_it_is_mended(tmp_path):
     folder, out = tmp_path / "class", tmp_path / "out"
     folder.mkdir()

@@ -130,6 +130,20 @@ def test_what_could_not_be_graded_is_known_by_its_reason(book):
     assert book.latest_attempts() == [unread]
 
 
+def test_the_same_name_in_two_exercises_counts_in_both(book):
+    first, other = record(), replace(record(sha="c" * 64), exercise="04")
+    unread = Record(first.submission, first.student, sha256="d" * 64, reason="not a notebook")
+    mended = record(sha="e" * 64)
+    for made, counted in (
+        (first, [first]),
+        (other, [first, other]),
+        (unread, [first, unread]),  # nobody can tell what it was meant as: as what came last
+        (mended, [other, mended]),
+    ):
+        book.add(made)
+        assert book.latest_attempts() == counted
+
+
 def test_names_may_hold_anything(book):
     book.add(record(ODD, cells={1: ODD}))
     (found,) = book.latest_attempts()

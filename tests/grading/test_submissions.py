@@ -112,6 +112,7 @@ def test_names_of_any_kind_are_found(tmp_path):
     [
         (b"", "empty"),
         (b" \n", "empty"),
+        (b'{"cells": [], "nbformat": ' + b"9" * 5000 + b"}", "a number in it is longer"),
         (notebook("x = 1").encode()[:60], "not a notebook, or a part of one"),
         (b"\x00\xff\x13PDF", "not a notebook, or a part of one"),
         (b"[1, 2]", "no cells and no metadata"),

@@ -311,6 +311,7 @@ def test_a_term_from_download_to_release_from_the_command_line(folder, capsys):
         (["x", "--course", "no.toml"], "no.toml: No such file"),
         (["release", "04"], "the course file has no exercise 04"),
         (["release", "99"], "there is no gradebook"),
+        (["likeness", "04"], "the course file has no exercise 04; it has 99"),
         (["adjust", "s2", "99-turn", "1", "--reason", "x"], "there is no gradebook"),
     ],
 )

@@ -26,7 +26,10 @@ def find_hand_ins(place, scratch, out=None):
     """
     if not archives.is_archive(place):
         return _with_zips_opened(find_submissions(place, out, zips=True), scratch)
-    refused = archives.unpack(place, scratch / "download")
+    try:
+        refused = archives.unpack(place, scratch / "download")
+    except SubmissionError as error:
+        raise SubmissionError(f"{place}: {error}") from None
     listed = find_submissions(scratch / "download", zips=True)
     # a file of a zip tells no time; nbgrader's note does
     listed = [s if s.has_trusted_time else replace(s, when="") for s in listed]
