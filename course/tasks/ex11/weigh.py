@@ -81,6 +81,7 @@ def log_likelihoods(rows, p, z, R):
         logs[i] = -0.5 * np.sum(v @ np.linalg.inv(R) * v)
     return logs
 """,
+        shaky=True,  # a range of 5 m may be cut off to 4
     ),
     Slip(
         "unwrapped",
