@@ -1,7 +1,8 @@
 """Compile the fingerprints of slips and small mistakes: ``python -m course.fingerprints 06``.
 
 Programs are run on the open inputs twice, the second time as on another processor; rows that move
-are dropped. What ships is numbers and hints, no program.
+are dropped. Of a task whose sources are as they were the table is kept. What ships is numbers and
+hints, no program.
 """
 
 import argparse
@@ -23,18 +24,23 @@ from slamlab.exercises import catalogue, fingerprints
 from slamlab.exercises.drives import StudentError
 from slamlab.exercises.families import FAMILIES
 from slamlab.exercises.task import OPEN_SEED
+from slamlab.grading.import_closure import imported
 
 FOLDER = ROOT / "slamlab" / "data" / "fingerprints"
+MUTATION = ROOT / "course" / "mutation.py"
+OTHER_PROCESSOR = ROOT / "course" / "other_processor"
+TASKS = "slamlab.exercises"
 MUTANT_SECONDS = 2.0
 """Time limit of one mutant, which may never end [s of CPU]."""
 
 
-def compiled(exercise_id) -> dict[str, np.ndarray]:
+def compiled(exercise_id, tasks=None) -> dict[str, np.ndarray]:
     """The tables of an exercise as arrays by name, as ``exercises.fingerprints`` reads them.
 
     Parameters
     ----------
     exercise_id : str
+    tasks : ids of tasks, or None: of all
 
     Raises
     ------
@@ -42,24 +48,40 @@ def compiled(exercise_id) -> dict[str, np.ndarray]:
     """
     arrays, problems = {}, []
     for one in programs(exercise_id):
+        if tasks is not None and one.task.id not in tasks:
+            continue
         try:
-            arrays |= {f"{one.task.id}/{key}": array for key, array in _table(one).items()}
+            table = _table(one) | {"digest": np.array(digest(one))}
+            arrays |= {f"{one.task.id}/{key}": array for key, array in table.items()}
         except ProgramError as error:
             problems.append(str(error))
     if problems:
         raise ProgramError("\n".join(problems))
-    return arrays | {"digest": np.array(digest(exercise_id))}
+    return arrays
 
 
-def digest(exercise_id) -> str:
-    """A hash of the sources from which the tables of an exercise are compiled."""
-    tasks = ROOT / "slamlab" / "exercises" / "tasks" / f"ex{exercise_id}"
-    files = sorted((ROOT / "course" / "tasks" / f"ex{exercise_id}").glob("*.py"))
-    files += [*sorted(tasks.glob("*.py")), ROOT / "course" / "mutation.py"]
-    files += [ROOT / "slamlab" / "exercises" / "drives" / f"ex{exercise_id}.py"]
-    texts = [ast.unparse(ast.parse(file.read_text("utf-8"))) for file in files]
-    texts += [source for one in programs(exercise_id) for source in one.ways.values()]
+def digest(one: Programs) -> str:
+    """A hash of the sources from which a task's table is compiled."""
+    files = _modules(one) | {MUTATION, *OTHER_PROCESSOR.glob("*.py")}
+    texts = [ast.unparse(ast.parse(file.read_text("utf-8"))) for file in sorted(files)]
+    texts += [*one.ways.values(), *sorted(FAMILIES)]
     return hashlib.sha256("\n".join(texts).encode()).hexdigest()
+
+
+def _modules(one):
+    """The files of a task's two modules, its drive, and what they import of their folders."""
+    topic, exercise = one.module.__name__.rpartition(".")[2], f"ex{one.exercise.id}"
+    inside = ("course.tasks.", f"{TASKS}.tasks.", f"{TASKS}.drives.")
+    waiting = [one.module.__name__, f"{TASKS}.tasks.{exercise}.{topic}"]
+    waiting.append(f"{TASKS}.drives.{exercise}")
+    found = set()
+    while waiting:
+        name = waiting.pop()
+        file = ROOT.joinpath(*name.split(".")).with_suffix(".py")
+        if name.startswith(inside) and file not in found and file.is_file():
+            found.add(file)
+            waiting += imported(file, name)
+    return found
 
 
 def prints_of(one: Programs, source, sets, seconds=60.0):
@@ -182,35 +204,64 @@ def stable(arrays, others):
     return arrays, moved
 
 
+def stored(exercise_id) -> dict[str, np.ndarray]:
+    """What was compiled of an exercise's tasks whose sources have not changed since."""
+    file = FOLDER / f"{exercise_id}.npz"
+    if not file.is_file():
+        return {}
+    with np.load(file) as stream:
+        arrays = dict(stream)
+    same = {
+        one.task.id
+        for one in programs(exercise_id)
+        if str(arrays.get(f"{one.task.id}/digest")) == digest(one)
+    }
+    return {key: array for key, array in arrays.items() if key.partition("/")[0] in same}
+
+
 def main():
     """Compile the tables of exercises and say how large they are."""
     parser = argparse.ArgumentParser(prog="python -m course.fingerprints", description=__doc__)
     parser.add_argument("exercise", nargs="*", help="such as 06; default: all")
     parser.add_argument("--to", help=argparse.SUPPRESS)
+    parser.add_argument("--tasks", nargs="*", help=argparse.SUPPRESS)
     arguments = parser.parse_args()
     for id in arguments.exercise or [id for id in catalogue.EXERCISES if programs(id)]:
         try:
-            arrays = compiled(id)
+            if arguments.to:
+                np.savez(arguments.to, **compiled(id, arguments.tasks))
+            else:
+                _compile(id)
         except ProgramError as error:
             sys.exit(str(error))
-        if arguments.to:
-            np.savez(arguments.to, **arrays)
-            continue
-        arrays, moved = stable(arrays, _on_other_processor(id))
-        FOLDER.mkdir(parents=True, exist_ok=True)
-        np.savez_compressed(FOLDER / f"{id}.npz", **arrays)
-        rows = sum(len(a) for key, a in arrays.items() if key.endswith("/prints"))
-        size = (FOLDER / f"{id}.npz").stat().st_size / 1024
-        print(f"{id}: {rows} fingerprints, {moved} dropped that moved, {size:.0f} kB")
 
 
-def _on_other_processor(id):
+def _compile(id):
+    kept = stored(id)
+    tasks = [one.task.id for one in programs(id) if f"{one.task.id}/digest" not in kept]
+    made, moved = compiled(id, tasks), 0
+    if tasks:
+        made, moved = stable(made, _on_other_processor(id, tasks))
+    arrays = {}
+    for one in programs(id):
+        of = made if one.task.id in tasks else kept
+        arrays |= {key: of[key] for key in of if key.startswith(f"{one.task.id}/")}
+    FOLDER.mkdir(parents=True, exist_ok=True)
+    np.savez_compressed(FOLDER / f"{id}.npz", **arrays)
+    rows = sum(len(a) for key, a in arrays.items() if key.endswith("/prints"))
+    size = (FOLDER / f"{id}.npz").stat().st_size / 1024
+    print(f"{id}: {rows} fingerprints, {size:.0f} kB; {moved} dropped that moved; ", end="")
+    print("compiled", *(tasks or ["nothing"]))
+
+
+def _on_other_processor(id, tasks):
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "other.npz"
         command = [sys.executable, "-m", "course.fingerprints", id, "--to", str(file)]
+        command += ["--tasks", *tasks]
         subprocess.run(command, check=True, cwd=ROOT, env=environment())
-        with np.load(file) as stored:
-            return dict(stored)
+        with np.load(file) as there:
+            return dict(there)
 
 
 if __name__ == "__main__":

@@ -328,9 +328,9 @@ check("06-same")
 # may be?
 #
 # **Your task.** Write another step of SLAM, called as `slam_step` is, as good as you can make it. The check
-# drives it through twenty runs of 23 steps and looks at the pose at the end: how far off it is, and whether the
-# filter knows how far (NEES, 3 on average). Points come in four steps; `slam_step` itself reaches the lowest at
-# most.
+# drives it through twenty runs of 23 steps and looks at the pose at the end: how far off it is, also beside a
+# filter that is told which sights are false, and whether yours knows how far (NEES, 3 on average). Points come
+# in four steps; `slam_step` itself reaches the lowest at most.
 
 
 # %%

@@ -387,7 +387,7 @@ def _():
 # - How would you compare a map that trusts one group of loops with a map that trusts another?
 #
 # The error of a map is how far its poses are off (rms, with pose 0 known). Sixteen drives are tried. The first step of the
-# ladder asks for eight maps that are off by less than 0.9 m, the second for eight that are off by less than 0.32 m, and the
+# ladder asks for eight maps that are off by less than 0.9 m, the second for eight that are off by less than 0.38 m, and the
 # third for eleven below 0.6 m. The wheels alone are off by more than a metre, and so is the map that trusts all loops.
 #
 # The edges of the wheels are honest: there is one from each pose to the next, in their order. `poses` is what the wheels make

@@ -60,6 +60,28 @@ def smallest(task, sets, answers, run=None) -> Case | None:
     return None
 
 
+def failing(task, sets, error, run) -> Case:
+    """The smallest case on which a student's functions fail as they did on the random inputs.
+
+    Parameters
+    ----------
+    task, run : as of :func:`smallest`
+    sets : what ``task.draw`` made
+    error : StudentError, met on the random inputs
+
+    Returns
+    -------
+    Case
+    """
+    found = {name: error if name == MAIN else _tried(task, run, sets[name]) for name in sets}
+    cases = [
+        _shrunk(task, Case(task.all_laws[0], name, sets[name], found[name], False), run)
+        for name in sets
+        if _same_failure(found[name], error)
+    ]
+    return min(cases, key=lambda c: (_size(c.inputs), c.probe != MAIN))
+
+
 def _cases(task, law, name, inputs, outputs):
     """Each input of a set on which a law fails."""
     if not task.judges(law, name):
@@ -103,14 +125,19 @@ def _size(inputs):
 
 def _shrunk(task, case, run):
     """A case with fewer or rounder numbers on which the law fails as well."""
-    if isinstance(case.outputs, StudentError):  # which of the rows it was is not known
-        return _halved(task, case, run)
+    failed = isinstance(case.outputs, StudentError)
+    if failed:  # which of the rows it was is not known
+        case = _halved(task, case, run)
     if not task.rounds or not case.one:
         return case
     for name in case.inputs:
         for inputs in rounder(task, case.inputs, name):
             outputs = _tried(task, run, inputs)
-            if _fails(task, case.law, inputs, outputs):
+            if failed:
+                as_before = _same_failure(outputs, case.outputs)
+            else:
+                as_before = _fails(task, case.law, inputs, outputs)
+            if as_before:
                 case = Case(case.law, case.probe, inputs, outputs, True)
                 break
     return case
@@ -155,7 +182,9 @@ def _same_failure(found, error):
     """Whether one row fails as all rows did, and not just because it is one."""
     if not isinstance(found, StudentError) or found.kind != error.kind:
         return False
-    return found.kind == "raised" or found.message == error.message
+    if found.kind == "raised":  # the same exception, perhaps with other numbers
+        return found.message.partition(":")[0] == error.message.partition(":")[0]
+    return found.message == error.message
 
 
 def _tried(task, run, inputs):

@@ -4,9 +4,8 @@ FAMILIES = {
     "sign": "A sign is turned: with one + for a −, or one − for a +, a right solution gives "
     "exactly "
     "your numbers.",
-    "factor": "A number is off: with one constant larger or smaller, a right solution gives "
-    "exactly "
-    "your numbers.",
+    "factor": "A factor is off: with one constant larger or smaller, or with a sum for a mean, a "
+    "right solution gives exactly your numbers.",
     "square": "A square or a root is missing or too many: variances are σ², and C, R and P hold "
     "variances.",
     "transpose": "One matrix is transposed, or lacks its transpose: A P Aᵀ and Aᵀ P A have the "

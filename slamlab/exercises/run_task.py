@@ -49,9 +49,15 @@ def run_and_tell(task: Task, namespace) -> Verdict:
     if verdict.full or verdict.kind not in (None, "raised", "malformed"):
         return verdict
     verdict = recognised(task, verdict, lambda: (sets, answers))
-    tried = {name: sets[name] for name in answers}
+
+    def run_again(inputs):
+        return task.drive(namespace, inputs)
+
     try:
-        case = cases.smallest(task, tried, answers, lambda inputs: task.drive(namespace, inputs))
+        if isinstance(answers[MAIN], StudentError):
+            case = cases.failing(task, sets, answers[MAIN], run_again)
+        else:
+            case = cases.smallest(task, sets, answers, run_again)
     except KeyboardInterrupt:  # the time limit, perhaps: what was judged stays judged
         return verdict
     return replace(verdict, case=case_text.format_case(task, case)) if case else verdict

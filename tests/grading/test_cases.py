@@ -253,6 +253,26 @@ def test_of_an_exception_on_a_probe_the_probe_is_shown():
     assert "and fails: IndexError" in case
 
 
+def test_of_what_fails_everywhere_the_smallest_input_is_shown_with_round_numbers():
+    few = Probe("one right angle", lambda rng: {"v": np.ones((1, 2)), "angle": np.full(1, 2.0)})
+    exact = dataclasses.replace(TURN, probes=(*TURN.probes, few), rounds=False)
+    case = told(lambda v, angle: turn(v, angle) / [][0], exact)
+    assert case.startswith("    For instance, with one right angle:")
+    plain = told(lambda v, angle: turn(v, angle) / [][0], dataclasses.replace(TURN, probes=()))
+    numbers = re.findall(r"-?\d+\.?\d*", plain.split("and fails")[0])
+    assert all(float(number) * 10 == round(float(number) * 10) for number in numbers)
+
+
+def test_a_probe_that_meets_another_exception_is_not_shown_for_the_first():
+    def fails(v, angle):
+        return [][0] if angle else 1 / int(angle)
+
+    verdict = run_and_tell(TURN, {"turn": fails})
+    assert verdict.problem.startswith("IndexError")
+    assert "and fails: IndexError" in verdict.case
+    assert "no angle" not in verdict.case
+
+
 def test_a_row_that_fails_only_because_it_is_one_is_not_taken_for_the_cause():
     total = fake.EXERCISE.task("99-total")  # its answer has 20 entries, whatever it is given
 

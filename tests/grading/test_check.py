@@ -48,7 +48,7 @@ def test_a_wrong_one_is_told_which_law_broke_how_often_and_the_hint_for_its_mist
         (double("raise KeyboardInterrupt"), "stopped before it was done"),
         (double("raise type('Odd', (BaseException,), {})"), "Odd: no message"),
         (double("raise type('Odd', (Exception,), {'__str__': None})"), "Odd: no message"),
-        (double("pass"), "double returned None: does every way"),
+        (double("pass"), "double returned None, where numbers are wanted: does every way"),
         (double("return str(a)"), "double returned str, which is no array of real numbers"),
         (double("return 2j * a"), "double returned complex numbers"),
         (double("return [[1], [1, 2]]"), "double returned list, which is no array"),

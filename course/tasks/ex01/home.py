@@ -118,6 +118,17 @@ SLIPS = (
         DEAD,
     ),
     Slip(
+        "rows at the dock only",
+        "Only the rows at which the robot was docked were put right. What lies between them, and behind the "
+        "last one, was driven by the same wheels.",
+        """
+def home(start, steps, docked):
+    poses = track(start, steps)
+    poses[docked] = start
+    return poses
+""",
+    ),
+    Slip(
         "begun anew",
         "You begin anew at the dock, and leave the lap before it as it was. But that lap is known to "
         "end at its start: its error was made on the way, step by step.",

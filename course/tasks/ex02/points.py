@@ -68,6 +68,13 @@ CS = "c, s = np.cos(frame[2]), np.sin(frame[2])"
 
 SLIPS = (
     Slip(
+        "degrees-not-read",
+        "The angles were made up, as if a reading stood at every degree from 0 on. A scan may begin "
+        "anywhere, and has its own degrees.",
+        (BETA, "-np.radians(np.arange(len(degrees))[back])"),
+        (BETA, "-np.radians(np.linspace(0, 360, len(degrees), endpoint=False)[back])"),
+    ),
+    Slip(
         "counter-clockwise",
         "Your map is mirrored: the device counts its degrees clockwise, everything else here is "
         "counter-clockwise.",

@@ -229,6 +229,12 @@ SLIPS = (
         (NONE, "if abs(determinant) < 0.02:"),
     ),
     Slip(
+        "singular",
+        "Parallel lines have no place in common: their 2 × 2 system is singular, and solving it fails. Ask "
+        "for this case before.",
+        Edit("a 2×2 system", (("1e-12", "-1"),)),
+    ),
+    Slip(
         "parallel-met",
         "A wall that runs along the beam is reported as if it were met.",
         ("        return np.inf\n", "        return np.hypot(d_x, d_y)\n"),
@@ -295,7 +301,6 @@ STUMBLES = (
         (HIT, "t"),
         (HIT, "return np.array([u_x, u_y]) * t"),
     ),
-    Stumble("raised", Edit("a 2×2 system", (("1e-12", "-1"),))),
     Stumble("raised", (D, "d_x, d_y = wall[0] - p.x, wall[1] - p.y")),
 )
 

@@ -69,6 +69,15 @@ DEVIATION = (
 
 SLIPS = (
     Slip(
+        "one-number",
+        "S is taken for one number, which it is with a single measured number only. With more of them it "
+        "is a matrix, and its inverse is needed.",
+        """
+def gain(P, H, R):
+    return P @ H.T / (H @ P @ H.T + R)[0, 0]
+""",
+    ),
+    Slip(
         "S-missing",
         "Nothing is divided by S. P Hᵀ is what error and innovation have in common; how large "
         "innovations are anyway must be divided out. Try the units: what does K make of metres?",

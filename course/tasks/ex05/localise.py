@@ -63,6 +63,14 @@ OUT = "return np.array(xs), np.array(Ps)"
 
 SLIPS = (
     Slip(
+        "start-not-used",
+        "The run begins at the origin, or with a covariance of its own. x and P at the start are given.",
+        (HEAD, f"{HEAD}    x, P = np.zeros(3), np.eye(3)\n"),
+        (HEAD, f"{HEAD}    x, P = np.zeros(3), np.zeros((3, 3))\n"),
+        (HEAD, f"{HEAD}    x = np.zeros(3)\n"),
+        (HEAD, f"{HEAD}    P = np.eye(3)\n"),
+    ),
+    Slip(
         "one-behind",
         "Each entry is one step late: xs[0] is the start. Keep what is believed after the drive and the "
         "sight, not before.",

@@ -76,6 +76,15 @@ OUT = f"return {X}, {P_AFTER}"
 
 SLIPS = (
     Slip(
+        "gated",
+        "A sight that is far off was thrown away. The text asks you to take in every sight, one that "
+        "contradicts the belief as well.",
+        *(
+            (K, f"{K}\n    if v @ np.linalg.solve(S, v) > {gate}:\n        return x, P")
+            for gate in (5.99, 9.21, 13.8)
+        ),
+    ),
+    Slip(
         "sign",
         "The pose moves away from what was seen: v is measured minus predicted, and K v is added.",
         (X, "x - K @ v"),

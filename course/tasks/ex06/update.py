@@ -146,6 +146,8 @@ SLIPS = (
         ("at = 3 + 2 * j", "at = 3 + 2 * ((j + 1) % (len(x) // 2 - 1))"),
         ("H_full(x, j)", "H_full(x, (j + 1) % (len(x) // 2 - 1))"),
         ("at = 3 + 2 * j", "at = 3"),
+        [("at = 3 + 2 * j", "at = 1 + 2 * j"), ("H_full(x, j)", "H_full(x, j - 1)")],
+        [("at = 3 + 2 * j", "at = len(x) - 2"), ("H_full(x, j)", "H_full(x, len(x) // 2 - 2)")],
     ),
     Slip(
         "x-stays",

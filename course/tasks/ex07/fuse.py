@@ -59,6 +59,13 @@ def fuse(a, P_a, b, P_b, P_ab):
 
 SLIPS = (
     Slip(
+        "P-of-one",
+        "x is right, but P is that of one of the two estimates. Both together are surer than either.",
+        (_PAIR, "return a + K @ (b - a), P_a"),
+        (_PAIR, "return a + K @ (b - a), P_b"),
+        (_PAIR, "return a + K @ (b - a), min(P_a, P_b, key=np.trace)"),
+    ),
+    Slip(
         "correlations-ignored",
         "a and b were fused as if independent: P_ab is not in it. What both err by together "
         "cannot be averaged away; this P claims that it was.",

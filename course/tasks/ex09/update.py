@@ -81,6 +81,12 @@ def _P(P, before=""):
 
 SLIPS = (
     Slip(
+        "made-positive",
+        "The expected distance was made positive. Where the estimate has the robot beyond the wall it is "
+        "negative, and stays so.",
+        (V, V.replace("rho - x[0] * c - x[1] * s", "abs(rho - x[0] * c - x[1] * s)")),
+    ),
+    Slip(
         "printed-15",
         "x is K · innovation alone, as printed in Smolec's (15): the old x is lost.",
         _x("K @ v"),
@@ -179,6 +185,7 @@ SLIPS = (
         ("at = 3 + 2 * j", "at = 1 + 2 * j"),
         ("at = 3 + 2 * j", "at = 3 + j"),
         ("at = 3 + 2 * j", "at = 3"),
+        ("at = 3 + 2 * j", "at = len(x) - 2"),
         ("at = 3 + 2 * j", "at = 3 + 2 * ((j + 1) % (len(x) // 2 - 1))"),
         ("rho, alpha = x[at : at + 2]", "rho, alpha = x[3:5]"),
         (H_W, H_W.replace("at : at + 2", "-2:")),

@@ -184,6 +184,7 @@ SLIPS = (
         "This is what the sighting says alone. What was known before still holds.",
         (RESULT, "np.array([right, left])"),
         (RESULT, "np.array([right + turns, left + turns])"),
+        (RESULT, "np.array([wrap(right), wrap(left)])"),
     ),
     Slip(
         "united",

@@ -128,6 +128,11 @@ SLIPS = (
         "Only the longest way is driven. With a shorter one, or backwards, the robot ends elsewhere.",
         (PRODUCTS, "dx, dy = way[1] * np.array(cosines), way[1] * np.array(sines)"),
         (PRODUCTS, "dx, dy = np.max(way) * np.array([cosines, sines])"),
+        (
+            RESULT,
+            "[box[0] + way[1] * cosines[0], box[1] + way[1] * cosines[1], box[2] + way[1] * sines[0], "
+            "box[3] + way[1] * sines[1]]",
+        ),
         before=(),
     ),
     Slip(

@@ -134,6 +134,11 @@ def draw(weights, rng):
         (TEETH, "(0.5 + np.arange(n)) / n"),
         (TEETH, "np.arange(n) / n"),
         (TEETH, "np.linspace(0, 1, n)"),
+        """
+def draw(weights, rng):
+    n = len(weights)
+    return np.searchsorted(np.cumsum(weights), np.arange(n) / n)
+""",
     ),
     Slip("a-seed-of-its-own", OWN, ("rng.random()", "np.random.default_rng(0).random()")),
     Slip(

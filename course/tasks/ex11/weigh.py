@@ -58,6 +58,32 @@ EXP = ("zeros(len(rows))", "ones(len(rows))"), (ADD, f"logs *= np.exp(-{ONE})")
 
 SLIPS = (
     Slip(
+        "whole-innovations",
+        "Innovations were written into an array of whole numbers, which cuts their decimals off. Make it "
+        "an array of floats.",
+        """
+def log_likelihoods(rows, p, z, R):
+    logs = np.zeros(len(rows))
+    for i, x in enumerate(rows):
+        v = np.zeros_like(z)
+        v[:] = z - h(x, p)
+        v[:, 1] = wrap(v[:, 1])
+        logs[i] = -0.5 * np.sum(v @ np.linalg.inv(R) * v)
+    return logs
+""",
+        """
+def log_likelihoods(rows, p, z, R):
+    logs = np.zeros(len(rows))
+    for i, x in enumerate(rows):
+        v = z.copy()
+        v -= h(x, p).astype(v.dtype)
+        v[:, 1] = wrap(v[:, 1])
+        logs[i] = -0.5 * np.sum(v @ np.linalg.inv(R) * v)
+    return logs
+""",
+        shaky=True,  # a range of 5 m may be cut off to 4
+    ),
+    Slip(
         "unwrapped",
         "The innovation's bearing leaves (−π, π]: a landmark right behind, expected at 179° and seen "
         "at −179°, is 2° off, not 358°. Wrap z − h, not z and h one by one.",

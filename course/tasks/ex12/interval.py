@@ -72,6 +72,18 @@ def instead(half, middle="middle = k / n"):
 
 SLIPS = (
     Slip(
+        "n-minus-one",
+        "You divide by n − 1, which is nothing for a single run. It belongs to a variance about a mean that "
+        "the same numbers gave; k/n scatters about p with p (1 − p)/n.",
+        """
+def interval(k, n):
+    p, n, z = k / n, n - 1, 1.96
+    middle = (p + z**2 / (2 * n)) / (1 + z**2 / n)
+    half = z * np.sqrt(p * (1 - p) / n + z**2 / (4 * n**2)) / (1 + z**2 / n)
+    return max(middle - half, 0.0), min(middle + half, 1.0)
+""",
+    ),
+    Slip(
         "wald",
         "p ± 1.96 √(p (1 − p) / n) puts the *counted* share where the true one belongs. At 0 of n it "
         "claims certainty, and for small shares it misses far too often.",

@@ -160,6 +160,7 @@ SLIPS = (
         "Q was not used: the walls alone decide. Odometry knows something as well, and where walls are "
         "silent it is all there is.",
         (P, "P = np.linalg.pinv(J.T @ w @ J)"),
+        (P, "P = np.linalg.inv(J.T @ w @ J)"),
     ),
     Slip(
         "Q-not-inverted",

@@ -111,6 +111,11 @@ SLIPS = (
         _in((ANGLE, "a = x_i[2] - z[2]")),
         _in((ANGLE, "a = x_j[2]")),
         _in((ANGLE, "a = x_j[2] + z[2]")),
+    ),
+    Slip(
+        "turned-forwards",
+        "The angle is right, but you turn the wrong way: e is what is seen from a frame with that heading, "
+        "and (15.2) has the transpose of its rotation.",
         _in((ANGLE, "a = -(x_i[2] + z[2])")),
     ),
     Slip(

@@ -54,7 +54,9 @@ def numbers(value, function):
     """
     if value is None:
         raise StudentError(
-            "malformed", f"{function} returned None: does every way through it end with a return?"
+            "malformed",
+            f"{function} returned None, where numbers are wanted: does every way through it end "
+            "with a return?",
         )
     try:
         if isinstance(value, str | bytes):  # which astype would read as numbers

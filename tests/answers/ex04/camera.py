@@ -50,6 +50,18 @@ def camera(x, p, mount, F):
     return -F * Y / X, du @ D
 """,
     ),
+    (
+        "04-camera",
+        "H as a (1, 5) matrix",
+        """
+def camera(x, p, mount, F):
+    R = np.array([[np.cos(x[2]), np.sin(x[2])], [-np.sin(x[2]), np.cos(x[2])]])
+    body = R @ (p - x[:2])
+    X, Y = body - mount
+    D = np.column_stack([-R, [body[1], -body[0]], R])
+    return -F * Y / X, np.array([[F * Y / X**2, -F / X]]) @ D
+""",
+    ),
 ]
 
 WRONG = [
@@ -246,18 +258,6 @@ def camera(x, p, mount, F):
     v = np.concatenate([x, p])
     u = column(v)
     return u, np.array([(column(v + e) - u) / 1e-13 for e in 1e-13 * np.eye(5)])
-""",
-    ),
-    (
-        "04-camera",
-        "H as a (1, 5) matrix",
-        """
-def camera(x, p, mount, F):
-    R = np.array([[np.cos(x[2]), np.sin(x[2])], [-np.sin(x[2]), np.cos(x[2])]])
-    body = R @ (p - x[:2])
-    X, Y = body - mount
-    D = np.column_stack([-R, [body[1], -body[0]], R])
-    return -F * Y / X, np.array([[F * Y / X**2, -F / X]]) @ D
 """,
     ),
     (

@@ -45,6 +45,23 @@ def merge(x, P, i, j):
     return y[o] - G @ y[d], Q[np.ix_(o, o)] - G @ Q[np.ix_(d, o)]
 """,
     ),
+    (
+        "06-false-sights",
+        "half a metre as a gate",
+        """
+def careful_step(x, P, ids, u, seen, z, C, R):
+    x, P = predict(x, P, u, C)
+    for i, one in zip(seen, z):
+        if i in ids:
+            j = ids.index(i)
+            if abs(one[0] - h(x[:3], x[3 + 2 * j : 5 + 2 * j])[0]) < 0.5:
+                x, P = update(x, P, one, j, R)
+        else:
+            x, P = augment(x, P, one, R)
+            ids = ids + [i]
+    return x, P, ids
+""",
+    ),
 ]
 
 WRONG = [
@@ -384,23 +401,6 @@ def careful_step(x, P, ids, u, seen, z, C, R):
 def careful_step(x, P, ids, u, seen, z, C, R):
     keep = [k for k, i in enumerate(seen) if i not in ids]
     return slam_step(x, P, ids, u, [seen[k] for k in keep], z[keep], C, R)
-""",
-    ),
-    (
-        "06-false-sights",
-        "half a metre as a gate",
-        """
-def careful_step(x, P, ids, u, seen, z, C, R):
-    x, P = predict(x, P, u, C)
-    for i, one in zip(seen, z):
-        if i in ids:
-            j = ids.index(i)
-            if abs(one[0] - h(x[:3], x[3 + 2 * j : 5 + 2 * j])[0]) < 0.5:
-                x, P = update(x, P, one, j, R)
-        else:
-            x, P = augment(x, P, one, R)
-            ids = ids + [i]
-    return x, P, ids
 """,
     ),
     (

@@ -53,6 +53,23 @@ def slam_step(x, P, ids, u, seen, z, C, R):
     return x, P, new_ids
 """,
     ),
+    (
+        "06-slam",
+        "an array of ids comes back, and floats at that",
+        """
+def slam_step(x, P, ids, u, seen, z, C, R):
+    x, P = predict(x, P, u, C)
+    ids = np.array(ids, dtype=float)
+    for i, one in zip(seen, z):
+        at = np.flatnonzero(ids == i)
+        if at.size:
+            x, P = update(x, P, one, int(at[0]), R)
+        else:
+            x, P = augment(x, P, one, R)
+            ids = np.append(ids, i)
+    return x, P, ids
+""",
+    ),
 ]
 
 WRONG = [
@@ -248,23 +265,6 @@ def slam_step(x, P, ids, u, seen, z, C, R):
         else:
             x, P = augment(x, P, one, R)
             known.append(i)
-    return x, P, ids
-""",
-    ),
-    (
-        "06-slam",
-        "an array of ids comes back, and floats at that",
-        """
-def slam_step(x, P, ids, u, seen, z, C, R):
-    x, P = predict(x, P, u, C)
-    ids = np.array(ids, dtype=float)
-    for i, one in zip(seen, z):
-        at = np.flatnonzero(ids == i)
-        if at.size:
-            x, P = update(x, P, one, int(at[0]), R)
-        else:
-            x, P = augment(x, P, one, R)
-            ids = np.append(ids, i)
     return x, P, ids
 """,
     ),

@@ -73,6 +73,27 @@ def find_pillar(points, band, largest, needed, tries, rng):
     return centre, radius, best
 """,
     ),
+    (
+        "08-pillar",
+        "lstsq on three readings on a line: a circle that is none",
+        FIT
+        + """
+def find_pillar(points, band, largest, needed, tries, rng):
+    if len(points) < 3:
+        return None
+    best = np.zeros(len(points), dtype=bool)
+    for _ in range(tries):
+        centre, radius = fit_circle(points[rng.choice(len(points), 3, replace=False)])
+        if radius > largest:
+            continue
+        inside = np.abs(np.hypot(*(points - centre).T) - radius) <= band
+        if inside.sum() > best.sum():
+            best = inside
+    if best.sum() < needed:
+        return None
+    return *fit_circle(points[best]), best
+""",
+    ),
 ]
 
 WRONG = [
@@ -183,27 +204,6 @@ def find_pillar(points, band, largest, needed, tries, rng):
         r = np.sqrt(max(d + cx**2 + cy**2, 0))
         inside = np.abs(np.hypot(points[:, 0] - cx, points[:, 1] - cy) - r) <= band
         if r <= largest and inside.sum() > best.sum():
-            best = inside
-    if best.sum() < needed:
-        return None
-    return *fit_circle(points[best]), best
-""",
-    ),
-    (
-        "08-pillar",
-        "lstsq on three readings on a line: a circle that is none",
-        FIT
-        + """
-def find_pillar(points, band, largest, needed, tries, rng):
-    if len(points) < 3:
-        return None
-    best = np.zeros(len(points), dtype=bool)
-    for _ in range(tries):
-        centre, radius = fit_circle(points[rng.choice(len(points), 3, replace=False)])
-        if radius > largest:
-            continue
-        inside = np.abs(np.hypot(*(points - centre).T) - radius) <= band
-        if inside.sum() > best.sum():
             best = inside
     if best.sum() < needed:
         return None

@@ -10,9 +10,18 @@ from slamlab.exercises.tasks.ex02.walls import as_outputs, crossing, distance_is
 # so many that one who mistakes an argument for another meets some wall, too
 AHEAD, BEHIND, BESIDE, PARALLEL = 44, 10, 16, 4
 KINDS = ("ahead", "behind", "beside", "parallel")
+HAIR = 1e-12  # [rad]
+FARTHEST = 1e3  # no wall is farther [m]; where parallel lines would meet hangs on rounding
 
 
-def beams(rng, t=(0.7, 5), length=(1, 4), counts=(AHEAD, BEHIND, BESIDE, PARALLEL), turns=0):
+def beams(
+    rng,
+    t=(0.7, 5),
+    length=(1, 4),
+    counts=(AHEAD, BEHIND, BESIDE, PARALLEL),
+    turns=0,
+    slant=(0.05, 1.4),
+):
     """Beams and walls, most of which meet, and three ways of not meeting.
 
     Parameters
@@ -21,6 +30,7 @@ def beams(rng, t=(0.7, 5), length=(1, 4), counts=(AHEAD, BEHIND, BESIDE, PARALLE
     t, length : (low, high), the way to the wall and the wall's length [m]
     counts : how many walls stand ahead, behind, beside, along
     turns : int, whole turns added to phi
+    slant : (low, high), angle between beam and wall [rad]
     """
     kind = np.repeat(KINDS, counts)
     n = len(kind)
@@ -30,12 +40,13 @@ def beams(rng, t=(0.7, 5), length=(1, 4), counts=(AHEAD, BEHIND, BESIDE, PARALLE
     beside = np.flatnonzero(kind == "beside")
     s[beside] = np.where(beside % 2, rng.uniform(-1.2, -0.03, len(beside)), 2 - s[beside])
     p, phi = rng.uniform(-2, 2, (n, 2)), rng.uniform(-np.pi, np.pi, n)
-    across = phi + rng.uniform(0.05, 1.4, n) * rng.choice([-1, 1], n)
+    across = phi + rng.uniform(*slant, n) * rng.choice([-1, 1], n)
     across += np.pi * rng.integers(0, 2, n)  # walls are drawn from either side
     w = rng.uniform(*length, (n, 1)) * unit(across)
     begin = p + way[:, None] * unit(phi) - s[:, None] * w
-    along = kind == "parallel"  # to the beam's left, by the last bit or not
-    w[along] = np.hypot(*w[along].T)[:, None] * unit(phi[along])
+    along = kind == "parallel"  # but for a hair, so that no last bit decides what is computed
+    hair = HAIR * (-1.0) ** np.arange(along.sum())
+    w[along] = np.hypot(*w[along].T)[:, None] * unit(phi[along] + hair)
     begin[along] = p[along] + unit(phi[along] + rng.uniform(0.3, 1.2, along.sum()))
     return {"p": p, "phi": phi + 2 * np.pi * turns, "wall": np.hstack([begin, begin + w])}
 
@@ -102,7 +113,7 @@ def _law(kind, points, says, asks):
 
 def _parts(inputs, outputs):
     kind = kinds(inputs)
-    both = np.column_stack([outputs["met"], outputs["distance"]])
+    both = np.column_stack([outputs["met"], np.clip(outputs["distance"], -FARTHEST, FARTHEST)])
     return {name: both[kind == name] for name in KINDS}
 
 
@@ -164,6 +175,10 @@ RAY_WALL = Task(
         Probe("walls nearer than a metre", lambda rng: beams(rng, t=(0.005, 0.9))),
         Probe("long walls far away", lambda rng: beams(rng, (40, 90), (50, 99), (6, 3, 4, 2))),
         Probe("a direction beyond a whole turn", lambda rng: beams(rng, turns=-2)),
+        Probe(
+            "posts of a few centimetres, almost along the beam",
+            lambda rng: beams(rng, length=(0.02, 0.08), slant=(0.004, 0.02)),
+        ),
     ),
     diagnoses=(NEVER_MET,),
     parts=_parts,

@@ -119,8 +119,8 @@ def _why_narrows(i, o):
 
 def _certain(i, o):
     """Whether 0 of n, or n of n, is taken for certain."""
-    low, high = o["result"].T
-    return (high[i["k"] == 0] < SLACK).all() or (low[i["k"] == i["n"]] > 1 - SLACK).all()
+    of_none, of_all = (o["result"][i["k"] == k] for k in (0, i["n"]))
+    return (np.abs(of_none) < SLACK).all() or (np.abs(of_all - 1) < SLACK).all()
 
 
 INTERVAL = Task(
