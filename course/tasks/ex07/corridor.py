@@ -107,6 +107,21 @@ SLIPS = (
         ("H[0], H[i] = -1, 1", "H[0], H[i] = 1, -1"),
     ),
     Slip(
+        "expected-as-a-sum",
+        "What is expected is the distance from the robot to the door, x_i − x_0; here both places were "
+        "taken away from z, or added.",
+        (_x, "x + K * (z - x[i] - x[0])"),
+        (_x, "x + K * (z + x[i] + x[0])"),
+    ),
+    Slip(
+        "nothing-expected",
+        "What was expected is missing from the innovation: it is z less x_i − x_0, or less one of them "
+        "only.",
+        (_x, "x + K * z"),
+        (_x, "x + K * (z - x[i])"),
+        (_x, "x + K * (z + x[0])"),
+    ),
+    Slip(
         "sides-lost",
         "A door behind the robot has a negative distance, and the sign is lost on the way.",
         (_x, "x + K * (abs(z) - abs(H @ x))"),

@@ -52,6 +52,8 @@ NEAR = "errors <= limit"
 NONE = "    if len(near) == 0:\n        return 0\n"
 END = "near[-1] + 1 if near[-1] < len(errors) - 1 else -1"
 FAR = "def lost_since(errors, limit):\n    far = errors > limit\n    "
+NOT_YET = "def lost_since(errors, limit):\n    near = np.flatnonzero(errors <= limit)\n    "
+WITHIN = "    return since if since < len(errors) else -1"
 BACK, MEMORY = "counted back from the end", "forward, with a memory"
 
 SLIPS = (
@@ -82,12 +84,14 @@ SLIPS = (
         "one-early",
         "One reading too early: this is the last near one. Lost begins with the next.",
         (END, "near[-1] if near[-1] < len(errors) - 1 else -1"),
+        NOT_YET + "since = near[-1] if len(near) else 0\n" + WITHIN,
     ),
     Slip(
         "one-late",
         "One reading too late: counted from 0, or the reading after the first one that never came back.",
         (END, END.replace("+ 1", "+ 2")),
         [(NONE, NONE.replace("0\n", "1\n")), (END, END.replace("+ 1", "+ 2"))],
+        NOT_YET + "since = near[-1] + 2 if len(near) else 0\n" + WITHIN,
     ),
     Slip(
         "last-reading-missed",
