@@ -1,10 +1,15 @@
 """Practice in a notebook: what is tried there ends, says what went wrong, and floods nothing."""
 
+from contextlib import contextmanager
+
 import numpy as np
 import pytest
 
 from course.project.template import MySlam
+from slamlab.exercises.drives import StudentError
+from slamlab.exercises.time_limit import TimeLimitExceeded
 from slamlab.project import practice
+from slamlab.project.driving import Budget
 from slamlab.project.practice import Trial, practise, table
 from tests.project.test_points import arena
 
@@ -24,6 +29,17 @@ def test_a_step_that_never_ends_is_ended_and_told():
     (mistake,) = trial.result.mistakes
     assert mistake.startswith("at reading 1 of") and "step took 1." in mistake
     assert trial.result.points == 0
+
+
+def test_what_the_guard_ends_is_told_whatever_the_clock_says():
+    @contextmanager
+    def strikes(seconds):
+        raise TimeLimitExceeded
+        yield
+
+    budget = Budget(guard=strikes, clock=lambda: 0.0)
+    with pytest.raises(StudentError, match="step took 1.0 s of CPU"):
+        budget.timed(lambda: None, 1.0, "step")
 
 
 def test_what_is_printed_is_cut(capsys):
