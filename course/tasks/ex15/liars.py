@@ -182,8 +182,9 @@ SLIPS = (
     ),
     Slip(
         "refused-without-drift",
-        "A loop was refused because the wheels say otherwise, by metres or by its own Λ. The wheels "
-        "drift: ask how far they may be off between these two poses.",
+        "Hardly a loop was used: the maps are those of the wheels. If each was refused because the wheels say "
+        "otherwise, by metres or by its own Λ: the wheels drift, so ask how far they may be off between "
+        "these two poses.",
         REFUSED.format(test="np.hypot(e[0], e[1]) < 0.3"),
         REFUSED.format(test="e @ information @ e < 11.3"),
     ),
