@@ -22,6 +22,7 @@ JUDGE = (
     "slamlab.exercises.run_task",
     "slamlab.exercises.task",
     "slamlab.exercises.tasks",
+    "slamlab.exercises.time_limit",
     "slamlab.exercises.verdict",
     "slamlab.checks.ladder",
     "slamlab.grading.judge",
