@@ -86,10 +86,12 @@ def format_numbers(name, array) -> str:
     """Format a name and its numbers, short and rounded: "P = [[0.1, 0], [0, 0.2]]"."""
     array = np.asarray(array)
     if name in WRITTEN and array.ndim == 1:
-        return f"{name} = {WRITTEN[name](array.astype(int))}"
+        written = f"{name} = {WRITTEN[name](array.astype(int))}"
+        return textwrap.fill(written, WIDTH, subsequent_indent=" " * len(f"{name} = "))
     if array.dtype.kind == "f":  # neither -0 nor rounding's dust
         most = np.abs(array[np.isfinite(array)]).max(initial=0)
         array = np.where(np.abs(array) <= 1e-12 * most, 0.0, array)  # NaN stays NaN
+    label = "" if name == "result" else f"{name} = "
     text = np.array2string(
         array,
         precision=4,
@@ -97,10 +99,9 @@ def format_numbers(name, array) -> str:
         threshold=MOST,
         edgeitems=2,
         separator=", ",
-        max_line_width=WIDTH,
+        max_line_width=WIDTH - len(label),
         formatter={"float_kind": _short} if array.dtype.kind == "f" else None,
     )
-    label = "" if name == "result" else f"{name} = "
     size = f"   {array.shape}" if array.size > MOST else ""
     return f"{label}{text}{size}".replace("\n", "\n" + " " * len(label))
 

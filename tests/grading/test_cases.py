@@ -394,6 +394,14 @@ def test_any_array_can_be_told(array):
     assert all(len(line) <= case_text.WIDTH + 10 for line in text.splitlines())
 
 
+def test_long_bytes_and_long_names_are_wrapped():
+    for name in ("data", "a name that is long"):
+        lines = case_text.format_numbers(name, np.arange(10.0, 60)).splitlines()
+        assert len(lines) > 1
+        assert all(len(line) <= case_text.WIDTH for line in lines)
+        assert all(line.startswith(" " * len(f"{name} = ")) for line in lines[1:])
+
+
 NUMBER = re.compile(r"\d\.\d{2,}")
 LEAKY = {
     "wrong": "return 2 * v",
