@@ -430,6 +430,7 @@ def _():
 # Only places are scored: how far all poses of all tracks are off (the root of the mean square,
 # rms). Sixteen robots drive one route. Points come in three steps: for less than 2.2 m, for less
 # than 0.7 m and for less than 0.165 m. Dead reckoning is off by about 4 m.
+# The check stops after 10 s.
 #
 # There is at least one lap. Each lap is a round trip to the left or to the right in steps of about
 # half a metre, and all its turns together, including the one in the dock, are one full turn. A

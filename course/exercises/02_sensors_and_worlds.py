@@ -377,7 +377,7 @@ ask(
 # We try forty sensors. An answer is judged by the factor by which `error` is off, and by the
 # difference of `blocked`. Points come in four steps. For the first three the *median* over all
 # sensors counts: a factor of 1.35, 1.17 and 1.08 (and a difference of 0.04, 0.03 and 0.03). The
-# last step asks that 31 of the 40 be within a factor of 1.16 (and 0.06).
+# last step asks that 31 of the 40 be within a factor of 1.16 (and 0.06). The check stops after 10 s.
 
 
 # %% name="busy-fit"

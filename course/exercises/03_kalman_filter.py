@@ -384,7 +384,7 @@ def ghost_drive(rng, steps=50):
 # is on a typical drive, compared with the lesson's filter; how far off it is compared with a filter
 # that is *told* which readings are ghosts; and whether its $P$ is honest, which is the hardest of
 # the three. The first steps of a drive do not count, and neither does the worst tenth of the drives
-# for its $P$.
+# for its $P$. The check stops after 10 s.
 
 
 # %% name="wary-filter"

@@ -410,7 +410,7 @@ ask(
 # `localise` is, and it may use the whole run, from its start to its end. The check drives thirty robots
 # through forty steps and looks at the last ten: how far off they are, and whether $P$ knows how far (NEES,
 # 3 on average). Other runs have at least 25 steps. Points come in four steps; `localise` reaches the
-# lowest at most. The thirty runs must be done in ten seconds.
+# lowest at most. The check stops after 10 s.
 
 
 # %%

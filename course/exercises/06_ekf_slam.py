@@ -189,6 +189,7 @@ def _():
 # **Your task.** Return the state, the covariance and the ids after the step, computed with your functions. The
 # check drives your filter through ten runs. It asks whether robot and map err as much as $P$ says, and whether
 # $P$ is as sure as least squares over the whole run is: nothing lost, and nothing counted twice.
+# The check stops after 10 s.
 
 
 # %%
@@ -330,7 +331,7 @@ check("06-same")
 # **Your task.** Write another step of SLAM, called as `slam_step` is, as good as you can make it. The check
 # drives it through twenty runs of 23 steps and looks at the pose at the end: how far off it is, also beside a
 # filter that is told which sights are false, and whether yours knows how far (NEES, 3 on average). Points come
-# in four steps; `slam_step` itself reaches the lowest at most.
+# in four steps; `slam_step` itself reaches the lowest at most. The check stops after 10 s.
 
 
 # %%

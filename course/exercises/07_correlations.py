@@ -294,7 +294,7 @@ def _():
 # **Your task.** Write one step: drive, then see. There may be any number of doors from one on, and
 # robot and doors may share errors from the start. The robot's variance may be 0, and so may `d` and
 # `q`; `r` is positive. The check also drives 60 walks with your step, and asks whether the errors
-# at the end are as large as your $P$ says (NEES).
+# at the end are as large as your $P$ says (NEES). The check stops after 10 s.
 
 
 # %%
@@ -400,7 +400,7 @@ ask(
 # say when which door was read, and where it seemed to be. Mornings and doors are counted from 0,
 # and none is left out. Each morning has at least two readings, of different doors, and any two
 # doors are linked by a chain of doors in which neighbours were passed on the same morning. The size
-# of the corridor varies.
+# of the corridor varies. The check stops after 10 s.
 
 
 # %%

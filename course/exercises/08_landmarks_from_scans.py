@@ -249,7 +249,7 @@ ask(
 # The readings come in no order. There may be fewer than three. Some that you draw may lie *exactly* on one line; no
 # circle goes through those, and your function has to go on. Whether you pass over such a guess or let least squares
 # make some circle of it is up to you: too few agree with it to be the best. Do not change the points that you are
-# given.
+# given. The check stops after 10 s.
 
 
 # %%
@@ -363,6 +363,7 @@ ask(
 #
 # averaged over scans; it is 1 if all is right. True walls with fewer than eight readings are passed over. There are
 # four steps, from 0.7 to 0.92. The grader draws other rooms, so leave some margin above the step that you aim at.
+# The check stops after 10 s.
 #
 # If you do not know how to begin: find the line that most readings agree on, take these readings away, and look for
 # the next. Then ask yourself three questions. Which guesses are worth making? How wide should the band be near and

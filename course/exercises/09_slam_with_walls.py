@@ -354,7 +354,7 @@ ask(
 # **Your task.** Return the walls of the room, as good a list as you can make of the whole drive. The
 # first scan is taken at the start, before the first drive. A wall is right if it is off by less than
 # 50 cm, as seen from the middle of the way, and 0.2 rad. Each counts once. Points come in four steps, and
-# the lesson's rule reaches the lowest. You may use all the functions above.
+# the lesson's rule reaches the lowest. You may use all the functions above. The check stops after 10 s.
 
 
 # %%

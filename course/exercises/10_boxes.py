@@ -378,7 +378,7 @@ def look(robot, heading, objects, z, bounds):
 # There may be one object, many, or none at all, and they may stand in the robot's box. left − right
 # is at most 4 rad. Ranges and bearings are off by at most `bounds`, which are above 0, and no range is
 # less than its bound. Bearings lie in $(-\pi, \pi]$. Some pose always agrees with everything. A robot
-# should not take longer than a tenth of a second.
+# should not take longer than a tenth of a second. The check stops after 20 s.
 
 
 # %%

@@ -164,7 +164,7 @@ def _():
 # 3. If the cloud is now worth less than half its samples, (11.6), draw anew. All weights are equal then.
 #
 # **Your task.** Return the samples and the weights after the step. The weights that you are given are positive and sum to
-# one. All samples may be metres off, and the wheels may hardly err at all.
+# one. All samples may be metres off, and the wheels may hardly err at all. The check stops after 10 s.
 
 
 # %%
@@ -287,7 +287,7 @@ ask(
 # **Your task.** Write a step that finds the robot again soon, and that false sightings do not lead astray. Any method
 # will do. It gets as many samples as it must return, with weights that are not negative, and all that it knows of the
 # past is in them. Sixteen drives are scored by how far the samples are from the robot on average,
-# each counted by its weight.
+# each counted by its weight. The check stops after 10 s.
 
 # %%
 ROOM, REACH, GHOSTS = np.array([10.0, 8.0]), 10.0, 0.1

@@ -400,7 +400,7 @@ ask(
 # position is off by more than 0.3 m. As long as nobody lifts the robot, hardly any reading may stray.
 # After the lift, readings count from the third sight of a bay's own post, since nobody can know the bay
 # before; the fewer of them stray, the more points there are. The numbers of this hall hold in all
-# drives. All drives together may take 10 s, so 0.4 s each.
+# drives. The check stops after 10 s, so each drive may take 0.4 s.
 
 
 # %% name="relocalise"

@@ -381,7 +381,7 @@ def _():
 #
 # Both clouds come in the order of the beams, each in its robot's frame. They may differ in size, and each has 90 points at
 # least. Rooms are about 7 m wide and have no right angles; three boxes stand about. In one more try the guess is nearly right, and
-# more points are shared. Aim at 0.05 s a match: a check stops after 10 s. Here are two functions to use as you like.
+# more points are shared. Aim at 0.05 s a match: the check stops after 10 s. Here are two functions to use as you like.
 
 
 # %% name="ready"

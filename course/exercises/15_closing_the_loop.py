@@ -389,6 +389,7 @@ def _():
 # The error of a map is how far its poses are off (rms, with pose 0 known). Sixteen drives are tried. The first step of the
 # ladder asks for eight maps that are off by less than 0.9 m, the second for eight that are off by less than 0.38 m, and the
 # third for eleven below 0.6 m. The wheels alone are off by more than a metre, and so is the map that trusts all loops.
+# The check stops after 10 s.
 #
 # The edges of the wheels are honest: there is one from each pose to the next, in their order. `poses` is what the wheels make
 # of them, so it is the map without a loop. There is at least one loop, and a true one errs by about 5 cm and 1°, as its

@@ -12,9 +12,12 @@ Read in this order:
 
 import os
 import sys
+import warnings
 from difflib import get_close_matches
 
 from slamlab.exercises.drives import describe
+
+WARNINGS = 3  # of Python's that a check tells
 
 
 def check(task_id):
@@ -142,6 +145,7 @@ def _offer_hint():
 
 
 def _check(task_id, namespace):
+    from slamlab.checks import ladder
     from slamlab.checks.borrowed import borrowed
     from slamlab.coursework import progress_records
     from slamlab.exercises import catalogue, report
@@ -149,10 +153,10 @@ def _check(task_id, namespace):
     task = _task(task_id)
     if task is None:
         return 0.0
-    printed = {}
+    printed, warned = {}, {}
 
     def judge_one(one):
-        verdict, printed[one.id] = _run(one, namespace, tell=one is task)
+        verdict, printed[one.id], warned[one.id] = _run(one, namespace, tell=one is task)
         return verdict
 
     namespace.setdefault("hint", hint)  # what a check offers is there to be called
@@ -163,10 +167,12 @@ def _check(task_id, namespace):
         verdict = task.failed("borrowed", problem)
     if printed.get(task.id):
         print(f"your code printed:\n{printed[task.id]}\n")
+    if warned.get(task.id):
+        print(f"{warned[task.id]}\n")
     print(report.coloured(report.format_verdict(task, verdict)))
     progress_records.keep_check(task.id, float(verdict.points), float(task.points))
-    if verdict.laws and not verdict.full:
-        print(f'    hint("{task.id}") asks a question that leads on.')
+    if not verdict.full and (offered := ladder.offered(task, verdict)):
+        print(f'    hint("{task.id}") {offered}.')
     return float(min(verdict.points, task.points))
 
 
@@ -177,7 +183,7 @@ def _run(task, namespace, tell):
 
     if not time_limit.can_limit_time():
         print("no time limit can be set here: should the check hang, interrupt the kernel")
-    with time_limit.capture_output() as printed:
+    with time_limit.capture_output() as printed, warnings.catch_warnings(record=True) as caught:
         try:
             with time_limit.time_limit(task.drive.seconds):
                 if tell:
@@ -194,7 +200,22 @@ def _run(task, namespace, tell):
             verdict = task.failed("time", said)
         except KeyboardInterrupt:
             verdict = task.failed("stopped", "stopped before it was done")
-    return verdict, printed.text
+    return verdict, printed.text, _told(caught)
+
+
+def _told(caught):
+    """What Python warned of, each thing once; "" where it did not."""
+    from slamlab.exercises.case_text import wrapped
+    from slamlab.exercises.drives import place
+
+    said = dict.fromkeys(
+        f"{each.category.__name__}: {each.message}{place(each.filename, each.lineno)}"
+        for each in caught
+    )
+    lines = [wrapped(f"Python warned: {one}") for one in list(said)[:WARNINGS]]
+    if len(said) > WARNINGS:
+        lines.append(f"… and of {len(said) - WARNINGS} more")
+    return "\n".join(lines)
 
 
 _offer_hint()

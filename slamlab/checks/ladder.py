@@ -9,6 +9,29 @@ from slamlab.exercises.task import OPEN_SEED
 
 _climbed = {}  # (task's id, law's name) to how often a hint was asked for, in this kernel
 
+_STEP = "a step on the way"
+_LATER = "Hints go on once there is an answer to judge."
+_LAST = "That was the last hint on this law."
+_ONLY = "That is the only hint on this law: check tells all else that is known of it."
+
+
+def offered(task, verdict) -> str:
+    """What ``hint`` would say next of a task, as the end of a sentence; "" where nothing is new.
+
+    Parameters
+    ----------
+    task : Task
+    verdict : Verdict of that task, not full
+    """
+    broken = {result.name for result in verdict.laws if result.failed}
+    law = next((law for law in task.all_laws if law.name in broken), None)
+    if law is None:
+        return ""
+    climbed = _climbed.get((task.id, law.name), 0)
+    if climbed == 0:
+        return "asks a question that leads on"
+    return f"shows {_STEP}" if climbed == 1 and law.step else ""
+
 
 def next_rung(task, namespace) -> str:
     """What to say next of the first law that a student's functions break: a question, then a step.
@@ -30,7 +53,7 @@ def next_rung(task, namespace) -> str:
         begin = (
             f"A question to begin with: {first.asks}" if first.asks else f"It asks: {first.says}"
         )
-        return f"{error.message}\n{begin}"
+        return case_text.wrapped(f"{error.message}\n{begin}\n{_LATER}")
     try:
         case = cases.smallest(task, sets, answers, lambda inputs: task.drive(namespace, inputs))
     except KeyboardInterrupt:  # the time limit, perhaps: a case that is not shrunk will do
@@ -40,23 +63,24 @@ def next_rung(task, namespace) -> str:
     rung = _climbed.get((task.id, case.law.name), 0)
     _climbed[task.id, case.law.name] = rung + 1
     asks = case.law.asks or f"Where does your answer leave this law: {case.law.says}?"
+    asks = case_text.wrapped(f"A question: {asks}")
+    text, step = case_text.format_case(task, case), _step(case)
+    if not (text or step):
+        return f"{asks}\n{_ONLY}"
     if rung == 0:
-        more = "\nCalled again, hint shows a step on the way." if case.law.step else ""
-        return f"A question: {asks}{more}"
-    return _step(task, case, asks)
+        more = _STEP if step else "the case that fails" if case.one else "what came out of it all"
+        return f"{asks}\nCalled again, hint shows {more}."
+    return "\n".join(filter(None, ["" if step else asks, text, step, _LAST]))
 
 
-def _step(task, case, asks):
-    """What a right solution finds on the way, at the smallest case."""
-    text = case_text.format_case(task, case) or ""
+def _step(case):
+    """What a right solution finds on the way, at the smallest case; "" where no law tells it."""
     quantities = case.law.step(case.inputs) if case.law.step else {}
-    if not quantities:
-        return f"A question: {asks}\n{text}"
     shown = [
         "      " + case_text.format_numbers(name, _first(value, case.one)).replace("\n", "\n      ")
         for name, value in quantities.items()
     ]
-    return "\n".join([text, "    On the way a right solution finds", *shown])
+    return "\n".join(["    On the way a right solution finds", *shown]) if shown else ""
 
 
 def _first(value, one):

@@ -9,9 +9,9 @@ from slamlab.exercises.cases import Case
 from slamlab.exercises.drives import StudentError
 from slamlab.exercises.drives.arguments import CHANGED, NAMES
 
-WIDTH = 92  # of what is said [letters]
+WIDTH = 92  # of what is said, beside its margin [letters]
 MOST = 60  # numbers of an array that are shown
-INDENT = "      "
+MARGIN, INDENT = "    ", "      "
 WRITTEN = {  # whole numbers that stand for something else, by their arrays' names
     "codes": lambda codes: repr("".join(chr(code) for code in codes if code > 0)),
     "data": lambda data: f"{bytes(data[data >= 0].tolist()).hex(' ')}   (bytes)",
@@ -39,7 +39,6 @@ def format_case(task, case: Case) -> str | None:
     if isinstance(case.outputs, StudentError):
         why = re.split(r", at `| \(line", case.outputs.message)[0]  # the rest was told before
         fails = f"{'and' if given else function} fails: {why}"
-        fails = textwrap.fill(fails, WIDTH, subsequent_indent="      ")
         return _joined([begin, *given, fails])
     if case.law.name == "unchanged":
         names = NAMES.get(task.id) or list(case.inputs)
@@ -87,10 +86,12 @@ def format_numbers(name, array) -> str:
     """Format a name and its numbers, short and rounded: "P = [[0.1, 0], [0, 0.2]]"."""
     array = np.asarray(array)
     if name in WRITTEN and array.ndim == 1:
-        return f"{name} = {WRITTEN[name](array.astype(int))}"
+        written = f"{name} = {WRITTEN[name](array.astype(int))}"
+        return textwrap.fill(written, WIDTH, subsequent_indent=" " * len(f"{name} = "))
     if array.dtype.kind == "f":  # neither -0 nor rounding's dust
         most = np.abs(array[np.isfinite(array)]).max(initial=0)
         array = np.where(np.abs(array) <= 1e-12 * most, 0.0, array)  # NaN stays NaN
+    label = "" if name == "result" else f"{name} = "
     text = np.array2string(
         array,
         precision=4,
@@ -98,10 +99,9 @@ def format_numbers(name, array) -> str:
         threshold=MOST,
         edgeitems=2,
         separator=", ",
-        max_line_width=WIDTH,
+        max_line_width=WIDTH - len(label),
         formatter={"float_kind": _short} if array.dtype.kind == "f" else None,
     )
-    label = "" if name == "result" else f"{name} = "
     size = f"   {array.shape}" if array.size > MOST else ""
     return f"{label}{text}{size}".replace("\n", "\n" + " " * len(label))
 
@@ -126,4 +126,21 @@ def _named(arrays, one):
 
 
 def _joined(lines):
-    return "\n".join(line if line.startswith(INDENT) else f"    {line}" for line in lines)
+    return "\n".join(line if line.startswith(INDENT) else wrapped(line, MARGIN) for line in lines)
+
+
+def wrapped(text, margin="") -> str:
+    """Wrap each line of a text: JupyterLab breaks longer ones in the middle of a word.
+
+    Parameters
+    ----------
+    text : str
+    margin : str, before each line
+    """
+    width = len(MARGIN) + WIDTH
+    first, later = margin, margin + INDENT[len(MARGIN) :]
+    filled = (
+        textwrap.fill(line.strip(), width, initial_indent=first, subsequent_indent=later)
+        for line in text.splitlines()
+    )
+    return "\n".join(filled)

@@ -54,9 +54,11 @@ def smallest(task, sets, answers, run=None) -> Case | None:
     with np.errstate(all="ignore"):
         for law in task.all_laws:
             cases = [c for name in sets for c in _cases(task, law, name, sets[name], found[name])]
+            if cases and run:  # the random one may become rounder than any probe is
+                ends = [[c for c in cases if (c.probe == MAIN) == of] for of in (True, False)]
+                cases = [_shrunk(task, _smallest_of(some), run) for some in ends if some]
             if cases:
-                case = min(cases, key=lambda c: (_size(c.inputs), c.probe != MAIN))
-                return _shrunk(task, case, run) if run else case
+                return _smallest_of(cases)
     return None
 
 
@@ -79,6 +81,10 @@ def failing(task, sets, error, run) -> Case:
         for name in sets
         if _same_failure(found[name], error)
     ]
+    return _smallest_of(cases)
+
+
+def _smallest_of(cases):
     return min(cases, key=lambda c: (_size(c.inputs), c.probe != MAIN))
 
 
@@ -124,11 +130,14 @@ def _size(inputs):
 
 
 def _shrunk(task, case, run):
-    """A case with fewer or rounder numbers on which the law fails as well."""
+    """A case with fewer or rounder numbers on which the law fails as well.
+
+    A probe's numbers stay: rounded they may no longer be what its name says.
+    """
     failed = isinstance(case.outputs, StudentError)
     if failed:  # which of the rows it was is not known
         case = _halved(task, case, run)
-    if not task.rounds or not case.one:
+    if not task.rounds or not case.one or case.probe != MAIN:
         return case
     for name in case.inputs:
         for inputs in rounder(task, case.inputs, name):

@@ -3,7 +3,7 @@ degeneracy."""
 
 import numpy as np
 
-from slamlab.exercises.drives import StudentError
+from slamlab.exercises.drives import StudentError, wrong_shape
 from slamlab.exercises.drives.arguments import CHANGED
 from slamlab.exercises.law import ROUNDING
 
@@ -90,20 +90,12 @@ def _malformed(function, shapes, inputs, outputs):
                 return f"{what} answered {got[0] if got else 0} of {count} calls"
             got = got[1:]
         if len(got) != len(want) or any(w not in (None, g) for g, w in zip(got, want, strict=True)):
-            turned = " (transposed?)" if got == want[::-1] else ""
-            return f"{what} returned shape {got}, expected {_shape(want)}{turned}"
+            return wrong_shape(what, got, want)
         longest = max((g for g, w in zip(got, want, strict=True) if w is None), default=0)
         if longest > MAX_ROWS:
-            return f"{what} returned {longest} entries: too many"
+            return f"{what} returned {longest} entries: at most {MAX_ROWS} are allowed"
         if not np.isfinite(outputs[name]).all():
             return f"{what} returned NaN or infinity"
         if outputs[name].size and np.abs(outputs[name].astype(float)).max() > MAX_MAGNITUDE:
             return f"{what} returned numbers larger than any that is asked for"
     return None
-
-
-def _shape(shape):
-    if not shape:
-        return "() (one number)"
-    sizes = ", ".join("n" if n is None else str(n) for n in shape)
-    return f"({sizes},)" if len(shape) == 1 else f"({sizes})"

@@ -42,7 +42,7 @@ def format_verdict(task: Task, verdict: Verdict) -> str:
     lines = [f"{mark} {task.id} · {task.title}: {earned}"]
     if verdict.problem:
         lines.append(f"  {verdict.problem}")
-    lines += [f"  {format_law(law, mark)}" for law, mark in marked_laws(verdict, task)]
+    lines += [f"  {format_law(law, mark, task)}" for law, mark in marked_laws(verdict, task)]
     problems = dict.fromkeys(p for law in verdict.laws for p in law.where.values() if p)
     lines += [f"  {problem}" for problem in problems]
     # JupyterLab breaks longer lines in the middle of a word
@@ -86,20 +86,22 @@ def reason(law, mark):
     return ""
 
 
-def format_law(law, mark) -> str:
+def format_law(law, mark, task) -> str:
     """Format the result of one law: what it asks, whether it holds, which inputs broke it.
 
     Parameters
     ----------
     law : LawResult
     mark : str, of :func:`marked_laws`
+    task : Task or None, of that law
     """
     if mark == KEPT and law.points == law.max_points:
         return f"{KEPT} {law.says} ({points(law.points)})"
     why, lost = reason(law, mark), f"0 of {points(law.max_points)}"
     if mark == KEPT:
         return f"{mark} {law.says} ({lost}: {why})"
-    return f"{mark} {law.says}{f': {why}' if why else _broken(law)} ({lost})"
+    why = why or broken_by(law, task)
+    return f"{mark} {law.says}{f': {why}' if why else ''} ({lost})"
 
 
 def coloured(text, wanted=None) -> str:
@@ -117,13 +119,20 @@ def coloured(text, wanted=None) -> str:
     return text
 
 
-def _broken(law):
-    """Which inputs broke a law, in words."""
+def broken_by(law, task) -> str:
+    """Which inputs broke a law, in words; "" where it speaks of all of them together.
+
+    Parameters
+    ----------
+    law : LawResult
+    task : Task or None, of that law
+    """
     if MAIN in law.where:
-        return f": broken by {law.failed} of {law.tried} inputs" if law.tried > 1 else ""
+        as_a_whole = law.tried <= (task.sets_judged(law.name) if task else 1)
+        return "" if as_a_whole else f"broken by {law.failed} of {law.tried} inputs"
     probes = list(law.where)
     also = f" and {len(probes) - 1} more" if len(probes) > 1 else ""
-    return f": broken with {probes[0]}{also}" if probes else ""
+    return f"broken with {probes[0]}{also}" if probes else ""
 
 
 def _in_notebook():

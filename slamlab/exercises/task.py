@@ -127,6 +127,12 @@ class Task:
         laws = next(probe.laws for probe in self.probes if probe.name == name)
         return law is UNCHANGED or (law.main if laws is None else law.name in laws)
 
+    def sets_judged(self, law_name):
+        """On how many sets of inputs a law is judged, by its name; none where there is no such."""
+        names = (MAIN, *(probe.name for probe in self.probes))
+        laws = [law for law in self.all_laws if law.name == law_name]
+        return sum(self.judges(law, name) for law in laws for name in names)
+
     def failed(self, kind, problem) -> Verdict:
         """The verdict of a failure: no outputs that can be judged.
 

@@ -1,7 +1,7 @@
 """One submission as plain data: its cells beside its verdict, and how the class did."""
 
 from slamlab.exercises import catalogue
-from slamlab.exercises.report import reason
+from slamlab.exercises.report import broken_by, reason
 from slamlab.grading import feedback, remarks
 from slamlab.grading.ledger.contents import ContentError
 from slamlab.grading.local_times import local_time
@@ -77,7 +77,7 @@ def _task(state, mark, task):
         "hint": verdict.hint if verdict else None,
         "laws": [
             {"mark": mark, "kind": feedback.CLASSES[mark], "says": law.says, "points": law.points,
-             "most": law.max_points, "why": reason(law, mark) or _broken(law)}
+             "most": law.max_points, "why": reason(law, mark) or broken_by(law, task)}
             for law, mark in laws
         ],
         "class": class_report.counts,
@@ -86,10 +86,6 @@ def _task(state, mark, task):
             for text, count in class_report.mistakes
         ],
     }  # fmt: skip
-
-
-def _broken(law):
-    return f"broken by {law.failed} of {law.tried}" if law.failed else ""
 
 
 def _code(state, record):

@@ -96,7 +96,10 @@ def test_the_case_fails_the_law_and_is_no_larger_than_any_that_was_tried(which, 
     v, angle = shown.inputs["v"][0], shown.inputs["angle"][0]
     np.testing.assert_array_equal(shown.outputs["result"], [somewhere_wrong(v, angle)])
     assert not np.allclose(shown.outputs["result"], [turn(v, angle)])
-    for name, array in tried.inputs.items():  # rounder, but the same place
+    for name, array in shown.inputs.items():
+        assert not shown.probe or any(np.array_equal(array[0], a) for a in SETS[shown.probe][name])
+    for name, array in tried.inputs.items() if shown.probe == tried.probe else ():
+        # rounder, but the same place
         assert np.abs(shown.inputs[name] - array).max() <= 0.5 * np.abs(array).max()
 
 
@@ -108,14 +111,14 @@ def test_a_mistake_made_everywhere_is_shown_at_round_numbers():
 
 
 def test_it_says_what_was_given_returned_and_wanted():
-    case = told(lambda v, angle: 2 * v)
+    case = told(lambda v, angle: turn(v, angle) if angle else 2 * v)
     lines = [line.strip() for line in case.splitlines()]
     assert lines[0] == "For instance, with no angle:"
     assert lines[1] == "turn is given"
     v = np.array(json.loads(lines[2].removeprefix("v = ")))
     assert lines[3] == "angle = 0"
     assert lines[4] == "it returns"
-    np.testing.assert_allclose(json.loads(lines[5]), 2 * v)
+    np.testing.assert_allclose(json.loads(lines[5]), 2 * v, rtol=1e-3)
     assert lines[6] == "and should return"
     np.testing.assert_allclose(json.loads(lines[7]), v)
 
@@ -128,11 +131,27 @@ def test_numbers_that_look_alike_are_told_where_they_differ():
     assert "most of all" not in told(lambda v, angle: 2 * v)
 
 
+def test_what_is_said_to_be_a_probe_is_one():
+    quarter = Probe(
+        "quarter turns", lambda rng: {"v": np.ones((2, 2)), "angle": np.pi / 2 * QUARTERS}
+    )
+    task = dataclasses.replace(TURN, probes=(quarter,))
+    case = told(lambda v, angle: turn(v, angle) * (1 if 0 < angle < 1.3 else 2), task)
+    assert case.startswith("    For instance, with quarter turns:\n")
+    assert re.search(r"angle = (1.571|-3.142)\n", case)
+    everywhere = told(lambda v, angle: 2 * turn(v, angle), task)
+    assert everywhere.startswith("    For instance:\n")
+    assert "v = [2, 1]\n      angle = 1\n" in everywhere
+
+
+QUARTERS = np.array([1.0, -2.0])
+
+
 def test_a_law_that_builds_on_a_broken_one_is_not_told_as_broken_too():
     turned = TURN.laws[0]
     later = dataclasses.replace(turned, name="far", says="and so it is far off", after=("turned",))
     task = dataclasses.replace(TURN, laws=(turned, later))
-    verdict = run_and_tell(task, {"turn": lambda v, angle: 2 * v})
+    verdict = run_and_tell(task, {"turn": lambda v, angle: 2 * v + angle})
     said = format_verdict(task, verdict)
     assert verdict.points == 0
     assert "✗ turns left: broken by" in said
@@ -194,6 +213,32 @@ def test_of_a_law_on_all_inputs_together_only_the_reason_is_told():
     law = dataclasses.replace(law, why=lambda i, o: f"{len(o['result'])} vectors.")
     probe = "    Taken together, with no angle:\n    2 vectors."
     assert told(turn, dataclasses.replace(TURN, laws=(law,))) == probe
+    law = dataclasses.replace(
+        law, why=lambda i, o: "Of the maps that were drawn many are off. " * 9
+    )
+    lines = told(turn, dataclasses.replace(TURN, laws=(law,))).splitlines()
+    assert len(lines) > 3
+    assert max(map(len, lines)) <= case_text.WIDTH + 4
+    assert " ".join(line.strip() for line in lines[1:]) == law.why(0, 0).strip()
+
+
+def test_a_law_on_all_inputs_together_is_not_broken_by_so_many_of_them():
+    said = {
+        name: format_verdict(task, run_and_tell(task, {"turn": lambda v, angle: 2 * v + angle}))
+        for name, task in (
+            ("each", TURN),
+            ("all", dataclasses.replace(TURN, laws=(Law("all", 2, "all", lambda i, o: False),))),
+        )
+    }
+    assert "✗ turns left: broken by 22 of 22 inputs (0 of 2 points)" in said["each"]
+    assert "✗ all (0 of 2 points)" in said["all"]
+
+    def changes(v, angle):
+        v += 1
+        return turn(v - 1, angle)
+
+    said = format_verdict(TURN, run_and_tell(TURN, {"turn": changes}))
+    assert "✗ the arguments are after the call what they were before it (0 of 0.5 points)" in said
 
 
 def test_of_an_exception_the_row_is_shown_that_met_it():
@@ -347,6 +392,14 @@ def test_any_array_can_be_told(array):
     text = case_text.format_numbers("x", array)
     assert text.startswith("x = ")
     assert all(len(line) <= case_text.WIDTH + 10 for line in text.splitlines())
+
+
+def test_long_bytes_and_long_names_are_wrapped():
+    for name in ("data", "a name that is long"):
+        lines = case_text.format_numbers(name, np.arange(10.0, 60)).splitlines()
+        assert len(lines) > 1
+        assert all(len(line) <= case_text.WIDTH for line in lines)
+        assert all(line.startswith(" " * len(f"{name} = ")) for line in lines[1:])
 
 
 NUMBER = re.compile(r"\d\.\d{2,}")

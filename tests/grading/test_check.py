@@ -2,11 +2,14 @@
 
 import contextlib
 import io
+import re
 import threading
 
+import numpy as np
 import pytest
 
-from slamlab.checks import attempt, check
+from slamlab.checks import WARNINGS, attempt, check
+from slamlab.exercises.drives import StudentError, shaped, wrong_shape
 from tests.grading import fake
 
 
@@ -54,7 +57,7 @@ def test_a_wrong_one_is_told_which_law_broke_how_often_and_the_hint_for_its_mist
         (double("return [[1], [1, 2]]"), "double returned list, which is no array"),
         (double("return [a, a]"), "double returned shape (2,), expected () (one number)"),
         (double("return [a] * int(a * 10)"), "double returned arrays of different shapes"),
-        (double("return np.zeros(10**7)"), "double returned 10000000 numbers: too many"),
+        (double("return np.zeros(10**7)"), "10000000 numbers: at most 500000 are allowed"),
         (double("return a / 0 if a < 0 else np.inf"), "double returned NaN or infinity"),
         (double("return a") + "del double\n", "double is not defined yet: run the cell above"),
         (
@@ -119,6 +122,36 @@ def test_what_functions_print_is_shown_once_and_not_without_end():
     assert printed.startswith("your code printed:\nsoso")
     assert "characters more" in printed
     assert len(printed) < 1000
+
+
+def test_what_python_warns_of_is_not_said_to_be_printed():
+    many = "[np.array(1) / 0, np.log(0 * a), np.sqrt(-a), np.array(0) / 0]; "
+    printed, _ = checked(double(f"print('so'); {many}return 2 * a"))
+    assert re.match(r"your code printed:\nso\n(so\n)*", printed)
+    assert (
+        "\nPython warned: RuntimeWarning: divide by zero encountered in divide (line 15 of"
+        in printed
+    )
+    assert printed.count("Python warned") == WARNINGS
+    assert "\n… and of 1 more\n" in printed
+    assert "RuntimeWarning" not in checked("", "99-double")[0]
+
+
+@pytest.mark.parametrize(
+    ("what", "said"),
+    [
+        ("close_loops", "close_loops returned shape (24, 2), expected (24, 3)"),
+        ("corner's P", "corner's P has shape (24, 2), expected (24, 3)"),
+        (
+            "what relocalise returned",
+            "what relocalise returned has shape (24, 2), expected (24, 3)",
+        ),
+    ],
+)
+def test_a_wrong_shape_is_told_in_one_way(what, said):
+    assert wrong_shape(what, (24, 2), (24, 3)) == said
+    with pytest.raises(StudentError, match=re.escape(said)):
+        shaped(np.zeros((24, 2)), what, (24, 3))
 
 
 def test_under_nbgrader_the_points_are_the_value_of_the_cell(monkeypatch):

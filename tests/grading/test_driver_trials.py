@@ -10,6 +10,7 @@ from slamlab.exercises.tasks.ex14 import driver_trials, faulty_drivers
 
 TRIALS = next(one for one in programs("14") if one.task.id == "14-trials")
 WEAK = {  # the name of the diagnosis that belongs to some ways
+    "none": "",
     "too much": "way(1, [127] * 999), way(1, [])",
     "no byte": "([0, 200], [0, 200])",
     "half a round": "way(0, [128])",

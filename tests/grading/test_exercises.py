@@ -8,6 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from course import source as sources
+from course.programs import programs
 from slamlab.exercises import catalogue
 from slamlab.exercises.drives import arguments
 from slamlab.exercises.drives.input_sets import MAIN
@@ -52,6 +54,24 @@ def test_an_argument_that_is_told_as_changed_has_the_name_that_it_has_in_the_not
         for function in set(task.drive.functions) & set(defined):
             names = [argument.arg for argument in defined[function].args.args]
             assert names == told[: len(names)], (task.id, function)
+
+
+LONG = 300
+"""Mutants of a task, at most, where the compiler of fingerprints takes few as a run takes long."""
+
+
+@pytest.mark.parametrize("id", EXERCISES)
+def test_where_a_run_takes_long_the_text_tells_when_a_check_stops(id):
+    texts, text = {}, ""
+    for cell in sources.read(next((ROOT / "course" / "exercises").glob(f"{id}_*.py"))).cells:
+        text += cell.text if cell.type == "markdown" else ""
+        if cell.check:
+            texts[cell.check], text = text, ""
+    for one in programs(id):
+        told = re.findall(r"check\s+stops\s+after\s+(\d+)\s+s\b", texts[one.task.id])
+        limit = [f"{one.task.drive.seconds:g}"]
+        assert told in ([], limit), one.task.id
+        assert told or getattr(one.module, "MUTANTS", LONG) >= LONG, one.task.id
 
 
 CONSTANTS = [0.0, 1.0, -1.0, 5e-324, 1e3, -1e6, MAX_MAGNITUDE, -MAX_MAGNITUDE]

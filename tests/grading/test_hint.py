@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from slamlab.checks import check, hint, ladder
-from slamlab.exercises.law import equals
+from slamlab.exercises.law import Law, equals
 from slamlab.exercises.time_limit import TimeLimitExceeded
 from tests.grading import fake
 from tests.grading.test_cases import SETS, TURN, turn, want
@@ -62,6 +62,8 @@ def test_a_question_comes_first_and_then_a_step_at_the_case_that_is_shown(said):
     assert float(SINE.search(second)[1]) == pytest.approx(np.sin(angle), abs=1e-4)
     assert "corner = [[1, 0],\n" in second
     assert third == second
+    assert "last hint" not in first
+    assert second.endswith("That was the last hint on this law.\n")
 
 
 def test_each_law_has_a_ladder_of_its_own(said, monkeypatch):
@@ -72,9 +74,21 @@ def test_each_law_has_a_ladder_of_its_own(said, monkeypatch):
     )
     monkeypatch.setattr(fake, "EXERCISE", exercise)
     first, second = said(right_turn), said(right_turn)
-    assert first == "A question: Where does your answer leave this law: turns left?\n"
+    question = "A question: Where does your answer leave this law: turns left?\n"
+    assert first == question + "Called again, hint shows the case that fails.\n"
     assert "it returns" in second
     assert "On the way" not in second
+    assert second.endswith("That was the last hint on this law.\n")
+
+
+def test_where_a_question_is_all_there_is_it_says_so(said, monkeypatch):
+    law = Law("turned", 2, "turns left", lambda i, o: False, asks="Which way is left? " * 9)
+    task = dataclasses.replace(fake.EXERCISE.tasks[0], laws=(law,))
+    monkeypatch.setattr(fake, "EXERCISE", dataclasses.replace(fake.EXERCISE, tasks=(task,)))
+    first = said(right_turn)
+    assert "That is the only hint on this law" in first
+    assert said(right_turn) == first
+    assert max(map(len, first.splitlines())) <= 96
 
 
 def test_of_a_right_answer_there_is_nothing_to_hint_at(said):
@@ -92,7 +106,8 @@ def test_of_a_right_answer_there_is_nothing_to_hint_at(said):
 def test_what_cannot_be_judged_yet_is_led_to_its_first_question(said, function, begins):
     text = said(function)
     assert text.startswith(begins)
-    assert text.endswith("A question to begin with: Where does the point (1, 0) go?\n")
+    assert "\nA question to begin with: Where does the point (1, 0) go?\n" in text
+    assert text.endswith("Hints go on once there is an answer to judge.\n")
 
 
 @pytest.mark.parametrize("id", ["99-nope", "98-double", "", 7, None])
@@ -151,6 +166,16 @@ def test_a_check_that_offers_a_hint_brings_it_along(capsys):
     assert 'hint("99-turn")' in capsys.readouterr().out
     eval("hint('99-turn')", names)
     assert "A question: Where does the point (1, 0) go?" in capsys.readouterr().out
+
+
+def test_a_check_offers_what_hint_has_not_said_yet(capsys):
+    offered = []
+    for _ in range(3):
+        eval("check('99-turn')", {"check": check, "turn": right_turn})
+        offered.append(re.findall(r'hint\("99-turn"\) (.*)', capsys.readouterr().out))
+        eval("hint('99-turn')", {"hint": hint, "turn": right_turn})
+        capsys.readouterr()
+    assert offered == [["asks a question that leads on."], ["shows a step on the way."], []]
 
 
 def test_in_a_notebook_a_hint_is_there_before_the_first_check():

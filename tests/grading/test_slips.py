@@ -2,6 +2,7 @@
 
 import functools
 import os
+import re
 import warnings
 
 import numpy as np
@@ -121,6 +122,17 @@ def test_each_law_is_broken_by_some_slip_and_asks_something(id):
     laws = {law.name for law in one.task.laws}
     assert laws <= broken
     assert all(law.asks for law in one.task.laws)
+
+
+def test_an_id_in_place_of_an_index_is_told_in_plain_words():
+    one = PROGRAMS["06-slam"]
+    (raised,) = (stumble for stumble in one.module.STUMBLES if stumble.kind == "raised")
+    said = told("06-slam", one.source(raised.programs[0])).problem
+    j, wanted = re.search(
+        r"j = (\d+) is a landmark's id; what is wanted is its place .* is ids\.index\((\d+)\)$",
+        said,
+    ).groups()
+    assert j == wanted
 
 
 @pytest.mark.parametrize("id", PROGRAMS)

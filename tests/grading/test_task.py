@@ -66,6 +66,7 @@ def test_laws_that_want_the_same_ask_for_it_once():
         ({"result": np.array(1.0)}, "answered 0 of 20 calls"),
         ({"result": RIGHT[:, :1]}, r"shape \(1,\), expected \(2,\)"),
         ({"result": RIGHT[:, :, None]}, r"shape \(2, 1\), expected \(2,\)"),
+        ({"result": RIGHT[:, :, None]}, "turn returned shape"),
         ({"result": RIGHT * np.nan}, "NaN or infinity"),
         ({"result": RIGHT * 1e18}, "larger than any"),
         ({"result": np.full(RIGHT.shape, -(2**63))}, "larger than any"),
@@ -124,4 +125,4 @@ def test_of_several_functions_the_one_not_attempted_is_named():
 def test_an_output_of_any_length_may_not_be_of_every_length():
     task = dataclasses.replace(TURN, shapes={"points": (None, 2)})
     verdict = task.judge(SETS, {MAIN: {"points": np.zeros((2001, 2))}})
-    assert "2001 entries: too many" in verdict.problem
+    assert "2001 entries: at most 2000 are allowed" in verdict.problem

@@ -64,7 +64,7 @@ RETURN = "return T"
 SLIPS = (
     Slip(
         "not-trimmed",
-        "All pairs were fitted: those who stand in one scan only drag the pose along.",
+        "All pairs were fitted: those that are in one scan only drag the pose along.",
         (KEPT, "kept = np.arange(len(source))"),
     ),
     Slip(

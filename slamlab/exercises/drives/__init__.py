@@ -69,7 +69,10 @@ def numbers(value, function):
         if array.dtype.kind not in "biufO":
             raise TypeError
         if array.size > MAX_NUMBERS:
-            raise StudentError("malformed", f"{function} returned {array.size} numbers: too many")
+            raise StudentError(
+                "malformed",
+                f"{function} returned {array.size} numbers: at most {MAX_NUMBERS} are allowed",
+            )
         return array.astype(float)
     except StudentError:
         raise
@@ -95,9 +98,25 @@ def shaped(value, what, shape):
     """
     array = numbers(value, what)
     if array.shape != shape:
-        turned = " (transposed?)" if array.shape == shape[::-1] else ""
-        raise StudentError("malformed", f"{what} has shape {array.shape}, expected {shape}{turned}")
+        raise StudentError("malformed", wrong_shape(what, array.shape, shape))
     return array
+
+
+def wrong_shape(what, got, want) -> str:
+    """Say that a function returned an array of a wrong shape, or that a value of it has one.
+
+    Parameters
+    ----------
+    what : str, the function, or words for the value
+    got : tuple of int
+    want : tuple of int, None for any length
+    """
+    sizes = ", ".join("n" if n is None else str(n) for n in want)
+    expected = f"({sizes},)" if len(want) == 1 else f"({sizes})"
+    number = "" if want else " (one number)"
+    turned = " (transposed?)" if got == want[::-1] and got != want else ""
+    verb = "returned" if what.isidentifier() else "has"
+    return f"{what} {verb} shape {got}, expected {expected}{number}{turned}"
 
 
 def rows(inputs: Arrays):
@@ -217,6 +236,11 @@ def describe(error: BaseException) -> str:
     except Exception:  # an exception class of the student's own may fail at this, too
         text = []
     return f"{type(error).__name__}: {text[0][:300] if text else 'no message'}{where}"
+
+
+def place(file, number) -> str:
+    """Say which line of a cell it is: " (line 2 of the cell)"; "" where a file is no cell."""
+    return f" (line {number} of the cell)" if _CELL.search(file) else ""
 
 
 def _line(frame, number):

@@ -74,8 +74,8 @@ def _tell_id_from_index(error, seen):
         if frame.f_code.co_name in ("update", "H_full") and isinstance(j, int) and j in seen:
             raise StudentError(
                 "raised",
-                f"{describe(error)}. There j = {j} is an id; the index of landmark i in the state "
-                "is ids.index(i)",
+                f"{describe(error)}. There j = {j} is a landmark's id; what is wanted is its "
+                f"place in the state, counted from 0, which is ids.index({j})",
             ) from None
 
 

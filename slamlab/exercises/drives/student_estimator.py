@@ -56,13 +56,13 @@ class StudentEstimator:
         pose = _called(lambda: self._theirs.pose, "pose")
         if pose is None:
             raise StudentError("malformed", NO_POSE)
-        pose = _near(_called(pose, "pose") if callable(pose) else pose, "pose", (3,))
+        pose = _near(_called(pose, "pose") if callable(pose) else pose, "its pose", (3,))
         claimed = _called(lambda: getattr(self._theirs, "covariance", None), "covariance")
         if callable(claimed):
             claimed = _called(claimed, "covariance")
         if claimed is None:
             return pose, np.full((3, 3), np.nan)
-        P = _finite(claimed, "covariance", (3, 3))
+        P = _finite(claimed, "its covariance", (3, 3))
         if np.isfinite(P).all() and not np.allclose(P, P.T, rtol=1e-4, atol=1e-9):
             raise StudentError("malformed", HALF_OF_P)
         return pose, P

@@ -50,10 +50,15 @@ def objection(o):
     """What is wrong with trials by themselves: name and sentence; None if they can be used."""
     ways = ways_of(o)
     readings = len(o["values"])
-    if not ways or readings > READINGS or len(ways) > WAYS:
+    if not ways:
+        return "none", (
+            f"There are no trials. At least one way must be tried, and at most {WAYS}, with "
+            f"{READINGS} readings at most."
+        )
+    if readings > READINGS or len(ways) > WAYS:
         return "too much", (
-            f"Your trials are {len(ways)} ways with {readings} readings in all. At least one way "
-            f"and at most {WAYS} may be tried, with {READINGS} readings at most."
+            f"Your trials are {len(ways)} ways with {readings} readings in all. At most {WAYS} "
+            f"ways may be tried, with {READINGS} readings at most."
         )
     for k, (values, counts) in enumerate(ways, 1):
         whole = (values == np.rint(values)) & (values >= -128) & (values <= 127)
@@ -158,6 +163,11 @@ TRIALS = Task(
     shapes={"values": (None,), "counts": (None,), "lengths": (None,)},
     laws=tuple(_law(*step, asks) for step, asks in zip(STEPS, ASKS, strict=True)),
     diagnoses=(
+        _objected(
+            "none",
+            "A list without trials tests no driver: begin with one way, such as a few steps ahead "
+            "and back.",
+        ),
         _objected(
             "too much",
             "Trials cost a robot's time. One way that holds many cases does the work of many ways.",
