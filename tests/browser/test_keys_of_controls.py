@@ -71,7 +71,7 @@ def test_a_slider_goes_up_and_down(place):
 
 def test_a_button_is_pressed_once_by_each_of_its_keys(place):
     press(place, BUTTON, "Enter", "Space")
-    place.get_by_text("2 times").wait_for()
+    place.get_by_text("2 times", exact=True).wait_for()
 
 
 @pytest.mark.parametrize("control", [LIST, BUTTON, SLIDER])
@@ -82,6 +82,16 @@ def test_no_key_on_a_control_changes_the_cells_of_a_lecture(page, visit, control
     for key in EDITS.split():
         press(page, control, key)
         assert page.evaluate(CELLS) == before, key
+
+
+def test_on_a_slide_the_cell_whose_control_was_touched_is_run(page, visit):
+    Lecture(visit).start()
+    page.keyboard.press("PageDown")
+    page.locator(BUTTON).click()
+    page.get_by_text("1 times", exact=True).wait_for()
+    page.keyboard.press("Control+Enter")
+    page.get_by_text("0 times", exact=True).wait_for()
+    assert page.locator(LIST).is_visible()  # the slide stays
 
 
 def test_what_is_no_control_s_key_stays_the_notebook_s(page, visit):
