@@ -131,7 +131,7 @@ class Controls:
 
     def _point_slider(self, handle):
         track = handle.locator("xpath=ancestor::*[contains(@class, 'noUi-target')]")
-        shares = (0.25, 0.75) if handle.evaluate(SHARE) > 0.5 else (0.75, 0.25)  # it has to move
+        shares = (0.2, 0.8) if handle.evaluate(SHARE) > 0.5 else (0.8, 0.2)  # it has to move
         for share in shares:
             box = track.bounding_box()
             at = box["x"] + share * box["width"], box["y"] + box["height"] / 2

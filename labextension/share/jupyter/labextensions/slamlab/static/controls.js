@@ -3,6 +3,7 @@
 import { forEachElement } from "./watching.js";
 
 const TEXT = ".jp-OutputArea-output, .jp-MarkdownOutput";
+const OUTPUT = ".jp-OutputArea-output";
 const DEAD = "Run this cell for its controls.";
 
 export function nameParts(panel) {
@@ -46,6 +47,18 @@ export function nameControls(panel) {
   forEachElement(panel, ".jupyter-widgets textarea[title]", (field) => {
     field.setAttribute("aria-label", field.title);
   });
+}
+
+// Keys on a control in an output are its own: JupyterLab, which listens first, would cut a cell by x
+// and go to the next by an arrow. It looks for shortcuts from the focus outwards, up to this mark.
+export function keepKeys() {
+  const keep = (event) => {
+    const { target } = event;
+    if (!target.parentElement?.closest(OUTPUT)) return; // wide text is an output itself
+    const lab = event.ctrlKey || event.metaKey || event.altKey || (event.shiftKey && event.key === "Enter");
+    target.toggleAttribute("data-lm-suppress-shortcuts", !lab || Boolean(target.closest(".slamlab-deck")));
+  };
+  window.addEventListener("keydown", keep, true);
 }
 
 export function tellDeadWidgets(panel) {

@@ -2,7 +2,7 @@
 
 import { keepFolded, openAnswers } from "./answers.js";
 import { keepClean } from "./clean.js";
-import { nameControls, nameParts, tellDeadWidgets } from "./controls.js";
+import { keepKeys, nameControls, nameParts, tellDeadWidgets } from "./controls.js";
 import { lecturePlugin } from "./lecture/plugin.js";
 import { playDerivations } from "./derivations.js";
 import { showProgress } from "./progress.js";
@@ -39,6 +39,12 @@ export function plugins(offered) {
     forEachNotebook("dead", "Controls without a kernel say how they come alive.", tellDeadWidgets),
     forEachNotebook("derivations", "Derivations are played line by line.", playDerivations),
     forEachNotebook("progress", "The head of a notebook shows how far one is.", showProgress),
+    {
+      id: "slamlab:keys",
+      description: "Keys on a control are the control's.",
+      autoStart: true,
+      activate: keepKeys,
+    },
     {
       id: "slamlab:folded",
       description: "Answers stay folded when they are run.",

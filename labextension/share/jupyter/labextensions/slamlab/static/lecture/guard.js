@@ -5,7 +5,8 @@ const CONTROL = ".jp-OutputArea-output input, .jp-OutputArea-output button, .jp-
   + ".jp-OutputArea-output summary, .jp-OutputArea-output a, .slamlab-layer *";
 const POINTED = `${CONTROL}, .jp-OutputArea-output .jupyter-widgets`; // a slider's track takes no key
 const EDITOR = ".slamlab-unlocked .cm-content";
-const REMOTE = new Set(["PageDown", "PageUp", "F5", "Shift+F5", "Escape"]);
+// what remotes send, and what runs a cell: no control and no editor has use for it
+const ALWAYS = new Set(["PageDown", "PageUp", "F5", "Shift+F5", "Escape", "Ctrl+Enter", "Shift+Enter"]);
 const SHORT = new Set([".", "i", "p"]); // remotes and tools, but while one types
 const BROWSER = new Set(["F11", "F12", "Tab"]); // what the deck leaves to the browser
 
@@ -26,11 +27,11 @@ export function guard(deck) {
     const name = nameOf(event);
     const focus = event.target instanceof Element ? event.target : document.body;
     if (focus.closest(EDITOR)) {
-      if (REMOTE.has(name) || name === "Ctrl+Enter" || name === "Shift+Enter") act(name, event);
+      if (ALWAYS.has(name)) act(name, event);
       return;
     }
     const typing = focus.matches("input:not([type=range]), textarea, select, [contenteditable=true]");
-    const own = REMOTE.has(name) || (SHORT.has(name) && !typing); // no control has use for these
+    const own = ALWAYS.has(name) || (SHORT.has(name) && !typing); // no control has use for these
     if (focus.closest(CONTROL) && !own) return;
     if (act(name, event)) return;
     event.stopImmediatePropagation();
@@ -46,8 +47,9 @@ export function guard(deck) {
 
   // clicks beside controls select, fold or edit cells in a notebook
   const pointer = (event) => {
-    if (!panel.node.contains(event.target) || event.target.closest(`${POINTED}, ${EDITOR}`)) return;
+    if (!panel.node.contains(event.target)) return;
     if (event.type === "pointerdown") deck.touched = event.target.closest(".jp-Cell") ?? deck.touched;
+    if (event.target.closest(`${POINTED}, ${EDITOR}`)) return;
     stop(event);
   };
   const inside = (event) => {
