@@ -89,7 +89,7 @@ def test_words_that_explain_an_answer_open_with_it_and_show_no_line_before(visit
     asked = cell_of(visit, '"04-streak"')
     run_cell(visit, asked)
     folded = asked.locator("xpath=following-sibling::*").locator(".jp-Placeholder")
-    told = visit.page.locator(".jp-RenderedMarkdown", has_text="The streak lies across the way")
+    told = visit.page.locator(".jp-RenderedMarkdown", has_text="The streak lies across the path")
     folded.nth(0).scroll_into_view_if_needed()
     assert [each.inner_text().strip() for each in folded.all()[:2]] == ["", ""]  # picture, words
     assert told.count() == 0
