@@ -11,7 +11,7 @@ from slamlab.readings import Reading, Scan
 
 NAME = "MySlam"
 RANGE_MIN, RANGE_MAX = 0.1, 8.0  # of the lidar [m]
-SHORT_RANGE = 5.0  # of the one in the ring, which sees no walls of before after a gap [m]
+SHORT_RANGE = 5.0  # of the one in the ring, which after a gap sees next to nothing of before [m]
 WHEELS_ONLY = "MySlam still believes the wheels alone: its poses are those of odometry"
 NO_CLAIM = "MySlam claims no covariance: not attempted yet"
 SECONDS = 20.0
