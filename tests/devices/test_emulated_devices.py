@@ -5,7 +5,7 @@ import threading
 import numpy as np
 import pytest
 
-from slamlab import estimators, worlds
+from slamlab import worlds
 from slamlab.devices.clock import SimulatedClock
 from slamlab.devices.emir import Calibration, Emir
 from slamlab.devices.emir.wheel_odometry import Odometry
@@ -18,7 +18,7 @@ from slamlab.devices.recording.decoding import statuses, turns
 from slamlab.devices.recording.playback import playback
 from slamlab.devices.rplidar import RPLidar
 from slamlab.files.errors import SourceError
-from slamlab.geometry import between
+from slamlab.geometry import between, compose
 from slamlab.sources import emulated_devices
 from tests.laws import assert_same_pose
 from tests.patience import PATIENCE
@@ -30,6 +30,13 @@ def rehearsed(path, seed=0):
     return record_synthetic_drive(path, worlds.polygon(), np.random.default_rng(seed), COURSE)
 
 
+def misfit(world, pose, scan):
+    """How far a scan's ranges are, in the median, from those seen at a pose of the world [m]."""
+    hits = scan.valid
+    ranges = world.cast(pose[:2], pose[2] + scan.angles[hits])
+    return np.median(np.abs(scan.ranges[hits] - ranges))
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("tcp", [False, True])
 @pytest.mark.usefixtures("busy_machine")
@@ -37,23 +44,24 @@ def test_readings_come_through_ports_and_the_truth_is_known_of_each(tcp, monkeyp
     if tcp:
         monkeypatch.setattr(emulated_devices, "FALLBACK_ADDRESS", ("127.0.0.1", 0, 0))
     counts = Calibration(path=COUNT_SIZE[0], angle=COUNT_SIZE[1])
-    rng = np.random.default_rng(0)
-    with emulated_devices.EmulatedDevices(worlds.polygon(), rng, counts) as devices:
-        estimator = estimators.make("icp", devices)
+    driven, world = np.zeros(3), worlds.polygon()
+    with emulated_devices.EmulatedDevices(world, np.random.default_rng(0), counts) as devices:
         for k, reading in enumerate(devices):
-            estimator.step(reading)
+            driven = compose(driven, reading.odometry)
             if k == 3:
-                devices.drive((0.2, 0.4))
+                devices.drive((0.05, 0.4))  # a circle that touches nothing, however long it takes
             if k == 15:
                 devices.drive((0.0, 0.0))
-            if k == 25:
+            truth = devices.truth
+            stands = k >= 25 and np.ptp(truth.poses[-5:], axis=0).max() == 0
+            # on a busy machine turns of the drive may still be on their way
+            if stands and misfit(world, truth.poses[-1], reading.scan) < 0.02:
                 break
-        truth = devices.truth
-        assert len(truth) == 26
+            assert k < 1000
+        assert len(truth) == k + 1
         assert truth.times[-1] == pytest.approx(reading.time)
         assert_same_pose(truth.poses[0], np.zeros(3))
-        assert np.hypot(*truth.poses[-1, :2]) > 0.05
-        assert_same_pose(estimator.pose, truth.poses[-1], 0.05)
+        assert np.abs(driven).max() > 0.05 and np.ptp(truth.poses, axis=0).max() > 0.05
     devices.close()
     assert not [t for t in threading.enumerate() if t.name == "emulator"]
 

@@ -46,7 +46,8 @@ def _course(rng, often, far, ids, behind):
     if behind:
         away = places[rows] - xs[:, :2]
         xs[:, 2] = wrap(np.arctan2(away[:, 1], away[:, 0]) + np.pi)
-    R = covariances(rng, SIGMA[None])[0]
+    sigma = SIGMA / [1, max(1, far[0] / 5)]  # aside in metres, which is what bends h, as near by
+    R = covariances(rng, sigma[None])[0]
     return {"xs": xs, "ids": ids[rows], "zs": _measured(rng, xs, places[rows], R), "R": R}
 
 
