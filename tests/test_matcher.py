@@ -12,6 +12,7 @@ from slamlab.geometry import between, compose, inverse, transform, wrap
 from slamlab.scanmatching import match, surface
 from slamlab.scanmatching.correlative_search import candidate_poses
 from slamlab.scanmatching.local_line_fits import fit_scan_lines, range_noise
+from slamlab.scanmatching.registration import all_above
 from slamlab.simulation.range_scanners import RPLIDAR_A2, Scanner
 from slamlab.worlds import ring
 from slamlab.worlds.world import World
@@ -281,6 +282,16 @@ def test_ready_surfaces_give_what_their_clouds_give():
         ready = match(surface(source), surface(target), guess)
         assert np.array_equal(plain.pose, ready.pose)
         assert np.array_equal(plain.covariance, ready.covariance)
+
+
+@given(seeds, st.floats(-4, 0), st.floats(0, 1))
+def test_all_eigenvalues_are_above_a_floor_below_the_least_and_none_else(seed, least, middle):
+    values = np.array([1.0, 10 ** (least * middle), 10**least])  # a matrix's floor is 1e-4 of them
+    axes = np.linalg.qr(np.random.default_rng(seed).standard_normal((3, 3)))[0]
+    A = (axes * values) @ axes.T
+    assert all_above(A, 0.99 * values[2])
+    for value in values:
+        assert not all_above(A, 1.01 * value)
 
 
 def test_history_runs_from_the_guess_to_the_result():

@@ -91,8 +91,10 @@ def find_correspondences(source, target, pose, association=None):
     if association is None:
         association = _associate(source, target, points, (x[n:], y[n:]))
     nx, ny, offset = association.lines
-    turn = (x[:n] * ny - y[:n] * nx) / source.reach
-    system = np.array((nx, ny, turn, nx * px + ny * py - offset))
+    system = np.empty((4, n))
+    system[0], system[1] = nx, ny
+    np.divide(x[:n] * ny - y[:n] * nx, source.reach, out=system[2])
+    np.subtract(nx * px + ny * py, offset, out=system[3])
     return Pairs(pose, association, points, system)
 
 

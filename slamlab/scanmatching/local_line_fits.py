@@ -72,7 +72,9 @@ def range_noise(r, step):
 def quantile(values, share):
     """Quantile (upper) of an array that holds no NaN, quicker than numpy's."""
     # a scan's few hundred: sorting is quicker than partitioning where many are nearly equal
-    return float(np.sort(values)[int(share * len(values))])
+    ordered = np.array(values)
+    ordered.sort()
+    return float(ordered[int(share * len(ordered))])
 
 
 def median(values):

@@ -175,7 +175,7 @@ def _wrapped_pose(pairs):
 def _mean_residual(pairs):
     """Mean point-to-line residual of the inlier pairs [m]; NaN without any."""
     sizes = np.abs(pairs.residuals[pairs.association.used])
-    return float(sizes.mean()) if len(sizes) else np.nan
+    return float(sizes.sum()) / len(sizes) if len(sizes) else np.nan
 
 
 def _as_round(pairs, source, target):

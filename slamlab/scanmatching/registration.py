@@ -16,7 +16,6 @@ SPURIOUS_INFORMATION = 3.0  # times the information that the normals' noise feig
 OSCILLATION_ROUNDS, OSCILLATION_STEP = 10, 0.5
 RENEWAL_STEP = 0.5  # share of the noise by which the pose moves before pairs are found anew [1]
 STEP_TOLERANCE = 0.2  # converged when a step is below this share of the pose's standard deviation
-IDENTITY = np.eye(3)
 
 
 def align(source, target, pose, rounds, callback=None):
@@ -64,6 +63,7 @@ def align(source, target, pose, rounds, callback=None):
         step, well_constrained = gauss_newton_step(pairs, w, target)
         if fine:
             step *= over_relaxation(kernel, w)
+        step = step.tolist()  # Python's floats are quicker than numpy's
         past_poses.append(pose)
         pose = pose[0] + step[0], pose[1] + step[1], pose[2] + step[2] / reach
         limit = STEP_TOLERANCE * noise / sqrt(len(sizes))
@@ -134,12 +134,22 @@ def gauss_newton_step(pairs, w, target):
     equations = (pairs.J * w) @ pairs.system.T
     A, b = equations[:, :3], equations[:, 3]
     floor = information_floor(pairs, w, target, A[0, 0] + A[1, 1] + A[2, 2])
-    # every eigenvalue above the floor: A less the floor is still positive definite
-    if lapack.dpotrf(A - floor * IDENTITY)[1] == 0:
+    if all_above(A, floor):
         return -lapack.dposv(A, b)[1], True
     values, axes = np.linalg.eigh(A)
     axes, values = axes[:, values > floor], values[values > floor]
     return -axes @ (axes.T @ b / values), False
+
+
+def all_above(A, floor):
+    """Whether all eigenvalues of a symmetric A (3, 3) are above a floor.
+
+    A less the floor is positive definite then: its leading minors are above zero (Sylvester).
+    """
+    (a, b, c), (_, d, e), (_, _, f) = A.tolist()
+    a, d, f = a - floor, d - floor, f - floor
+    minor = a * d - b * b
+    return a > 0 and minor > 0 and minor * f + 2 * b * c * e > a * e * e + d * c * c
 
 
 def information_floor(pairs, w, target, trace):
