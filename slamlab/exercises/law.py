@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from slamlab.exercises.drives import Arrays
+from slamlab.exercises.drives.input_sets import MAIN
 
 TOLERANCE = 1e-5
 """Share of the largest number wanted: differences of a model err by 1e-6, wrong forms by far
@@ -111,9 +112,11 @@ class Diagnosis(Mistake):
     ----------
     name, hint : as of :class:`Mistake`
     matches : (inputs, outputs) -> bool
+    on : str, the set that it looks at: the random inputs, or a probe by its name
     """
 
     matches: Callable[[Arrays, Arrays], bool]
+    on: str = MAIN
 
 
 def equals(name, points, says, want, parts=None, angles=None, tolerance=TOLERANCE, **more) -> Law:

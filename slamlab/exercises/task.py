@@ -165,7 +165,7 @@ class Task:
         with np.errstate(all="ignore"), one_judging():
             idle = came_back.degenerate(sets[MAIN], found[MAIN])
             results = tuple(self._result(law, sets, found, idle) for law in self.all_laws)
-            matching = (d for d in self.diagnoses if _safely(d.matches, sets[MAIN], found[MAIN]))
+            matching = (d for d in self.diagnoses if _safely(d.matches, sets[d.on], found[d.on]))
             wrong = any(result.failed for result in results)
             mistake = next(matching, IDLE if idle else None) if wrong else None
         results = self._worth_something(results)

@@ -1,6 +1,7 @@
 """Right ways and slips of 01-drift."""
 
 from course.tasks import Slip, Stumble
+from slamlab.exercises.tasks.ex01.drift import SIMULATED
 
 TASK = "01-drift"
 
@@ -149,9 +150,8 @@ SLIPS = (
         (RESULT, "n * d * np.cos(sigma)"),
     ),
     Slip(
-        "drawn by chance",
-        "You simulate: another call gives another number, and it is never exact. Add up the variances of "
-        "the errors instead.",
+        SIMULATED.name,
+        SIMULATED.hint,
         """
 def drift(n, d, sigma):
     errors = sigma * np.random.default_rng(0).standard_normal((400, n))

@@ -140,6 +140,16 @@ def home(start, steps, docked):
         "You share out by how much a lap misses its place. It also misses its heading, and that is what "
         "has bent it: share out the heading first.",
         _shared(headings=NOT),
+        """
+def home(start, steps, docked):
+    poses, a = track(start, steps), 0
+    for b in docked:
+        gap = start[:2] - poses[b, :2]
+        poses[a : b + 1, :2] += np.linspace(0, 1, b - a + 1)[:, None] * gap
+        poses[b + 1 :, :2] += gap
+        a = b
+    return poses
+""",
         before=("begun anew",),
     ),
     Slip(

@@ -2,6 +2,7 @@
 
 from course.tasks import Edit, Slip, Stumble
 from course.tasks.ex02 import echo_ways
+from slamlab.exercises.tasks.ex02 import echo
 
 TASK = "02-echo"
 WAYS = echo_ways.WAYS
@@ -29,9 +30,8 @@ SLIPS = (
         FAN.format(beams=1).replace("phi - half, phi + half", "phi, phi"),
     ),
     Slip(
-        "a-fan-of-beams",
-        "A fan of beams comes close, but the nearest place lies between two of them, and so may a whole "
-        "post. Which places of a wall can be the nearest at all?",
+        echo.FAN.name,
+        echo.FAN.hint,
         FAN.format(beams=25),
         FAN.format(beams=101),
     ),

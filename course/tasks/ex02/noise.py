@@ -71,27 +71,19 @@ PROGRAMS = {
         (LOST, "np.arange(len(ranges)) < dropouts * len(ranges)"),
         (LOST, "np.random.default_rng(1).random(len(ranges)) < dropouts"),
     ),
+    "a-fixed-number-lost": (
+        (LOST, "rng.choice(len(ranges), round(dropouts * len(ranges)), replace=False)"),
+        (LOST, "rng.choice(len(ranges), int(dropouts * len(ranges)), replace=False)"),
+        (LOST, "rng.permutation(len(ranges)) < dropouts * len(ranges)"),
+    ),
+    "all-or-none": (
+        (LOST, "rng.random() < dropouts"),
+        (LOST, "np.repeat(rng.random(len(ranges) // 5 + 1), 5)[: len(ranges)] < dropouts"),
+    ),
 }
 
 SLIPS = (
     *(Slip(mistake.name, mistake.hint, *PROGRAMS[mistake.name]) for mistake in MISTAKES),
-    Slip(
-        "a-fixed-number-lost",
-        "In every scan just as many are lost. Each beam is lost by itself, whatever the others do, so "
-        "the number varies from scan to scan.",
-        (
-            LOST,
-            "rng.choice(len(ranges), round(dropouts * len(ranges)), replace=False)",
-        ),
-        (LOST, "rng.permutation(len(ranges)) < dropouts * len(ranges)"),
-    ),
-    Slip(
-        "all-or-none",
-        "One number decides about all beams of a scan, or about a whole run of them. Each is lost by "
-        "itself.",
-        (LOST, "rng.random() < dropouts"),
-        (LOST, "np.repeat(rng.random(len(ranges) // 5 + 1), 5)[: len(ranges)] < dropouts"),
-    ),
     Slip(
         "the-largest-errors-lost",
         "The same number decides how much a beam errs and whether it is lost: then the large errors "

@@ -57,6 +57,7 @@ def merge(x, P, i, j):
 }
 
 S = "S = D @ P @ D.T"
+OF_I, OF_J = "D[:, 3 + 2 * i : 5 + 2 * i]", "D[:, 3 + 2 * j : 5 + 2 * j]"
 GONE = "gone = [3 + 2 * j, 4 + 2 * j]"
 STEP = "x, P = x - K @ D @ x, P - K @ S @ K.T"
 
@@ -176,6 +177,15 @@ def merge(x, P, i, j):
         "counted from 0.",
         (GONE, "gone = [2 * j, 1 + 2 * j]"),
         (GONE, "gone = [3 + j, 4 + j]"),
+        [(OF_I, "D[:, 2 * i : 2 * i + 2]"), (OF_J, "D[:, 2 * j : 2 * j + 2]")],
+        *(
+            [
+                (OF_I, f"D[:, {i} : {i} + 2]"),
+                (OF_J, f"D[:, {j} : {j} + 2]"),
+                (GONE, f"gone = [{j}, {j} + 1]"),
+            ]
+            for i, j in (("2 * i", "2 * j"), ("1 + 2 * i", "1 + 2 * j"), ("3 + i", "3 + j"))
+        ),
     ),
 )
 

@@ -131,6 +131,13 @@ SLIPS = (
         _blocks(rest="pass"),
     ),
     Slip(
+        "those-in-sight-untouched",
+        "The others follow, and those in sight stay as they were: of these x_seen and P_seen say all "
+        "that is known now.",
+        _blocks().replace("    x[seen] = x_seen\n", ""),
+        _blocks().replace("    new[np.ix_(seen, seen)] = P_seen\n", ""),
+    ),
+    Slip(
         "gain-without-inverse",
         "P of all with those in sight says how they err together. To say how far one moves when "
         "the other does, it has to be divided by how far that one errs.",
@@ -183,11 +190,12 @@ SLIPS = (
         "unsure of, P_seen, reaches the others as well.",
         (_P, "P - G @ P_ss @ G.T"),
         (_P, "P - G @ P[seen]"),
+        _blocks(rest="new[np.ix_(rest, rest)] -= G @ P[np.ix_(seen, rest)]"),
     ),
     Slip(
         "what-is-left-for-what-is-learned",
-        "P_seen is what those in sight are still unsure of. What is to be taken off is what they "
-        "have learned, and that is a difference.",
+        "What those in sight are still unsure of, P_seen, stands where what they have learned "
+        "belongs, or the other way round. What they have learned is a difference.",
         (_P, "P - G @ P_seen @ G.T"),
         (_P, "P + G @ P_seen @ G.T"),
     ),

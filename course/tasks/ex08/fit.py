@@ -2,6 +2,7 @@
 
 from course.tasks import Edit, Slip, Stumble
 from course.tasks.ex08 import ways
+from slamlab.exercises.tasks.ex08.fit import HALF_TURN
 
 TASK = "08-fit-line"
 WAYS = ways.FIT
@@ -181,9 +182,8 @@ def fit_line(points):
         ("if rho < 0:", "if rho > 0:"),
     ),
     Slip(
-        "half-turn",
-        "For some walls α is off by π: where ρ came out negative, its sign was changed, but α was not "
-        "turned with it (or the other way round).",
+        HALF_TURN.name,
+        HALF_TURN.hint,
         ("rho, alpha = -rho, wrap(alpha + np.pi)", "rho = abs(rho)"),
         ("rho, alpha = -rho, wrap(alpha + np.pi)", "alpha = wrap(alpha + np.pi)"),
     ),

@@ -155,6 +155,17 @@ SLIPS = (
          "J, J_beta = np.linalg.solve(N, B), np.linalg.solve(N, b)\n    J[:, 2] = r * across"),
     ),
     Slip(
+        "beam-does-not-swing",
+        "When the robot turns, or the beam does, your end moves along the beam alone, as its range "
+        "changes. The beam swings as well: where does that carry a point r metres ahead?",
+        ("J, J_beta = np.linalg.solve(N, B), np.linalg.solve(N, b)",
+         "J, J_beta = np.linalg.solve(N, B), np.linalg.solve(N, b)\n    J[:, 2] -= r * across"),
+        ("J, J_beta = np.linalg.solve(N, B), np.linalg.solve(N, b)",
+         "J, J_beta = np.linalg.solve(N, B), np.linalg.solve(N, b)\n    J_beta = J_beta - r * across"),
+        ("J, J_beta = np.linalg.solve(N, B), np.linalg.solve(N, b)",
+         "J, J_beta = np.linalg.solve(N, B), np.linalg.solve(N, b)\n    J[:, 2] -= r * across\n    J_beta = J[:, 2]"),
+    ),
+    Slip(
         "lever-sign",
         "A lever arm has the wrong sign: look which way the end goes when the wall, or the robot, turns "
         "left.",

@@ -1,6 +1,6 @@
 """Programs of 10-predict: extremes inside an interval, products of intervals, boxes of starts."""
 
-from course.tasks import Slip, Stumble
+from course.tasks import Edit, Slip, Stumble
 
 TASK = "10-predict"
 
@@ -106,11 +106,29 @@ SLIPS = (
         "only-largest",
         "The cosine's largest value is found inside the interval, its smallest is not: at π it is −1.",
         ("-1 if met(np.pi) else ends.min()", "ends.min()"),
+        [("-1 if met(np.pi) else ends.min()", "ends.min()"), (MET, "return low <= angle <= high")],
     ),
     Slip(
         "only-smallest",
         "The cosine's smallest value is found inside the interval, its largest is not: at 0 it is 1.",
         ("1 if met(0) else ends.max()", "ends.max()"),
+        [("1 if met(0) else ends.max()", "ends.max()"), (MET, "return low <= angle <= high")],
+    ),
+    Slip(
+        "an-extreme-left-out",
+        "Some multiple of π/2 between low and high is not among yours: counting begins one behind the "
+        "first, or stops one before the last. range and arange leave their end out.",
+        Edit("extremes listed", (("last + 1", "last"),)),
+        Edit("extremes listed", (("arange(first", "arange(first + 1"),)),
+        Edit("extremes listed", (("arange(first, last + 1", "arange(first + 1, last"),)),
+    ),
+    Slip(
+        "an-extreme-outside",
+        "A multiple of π/2 that lies outside the interval is taken along, just below low or just above "
+        "high: the box holds drives that are never driven.",
+        Edit("extremes listed", (("np.ceil", "np.floor"),)),
+        Edit("extremes listed", (("last + 1", "last + 2"),)),
+        Edit("extremes listed", (("np.ceil", "np.floor"), ("last + 1", "last + 2"))),
     ),
     Slip(
         "two-products",

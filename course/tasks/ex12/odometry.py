@@ -229,7 +229,11 @@ SLIPS = (
         "small-turns-ignored",
         "A small turn is taken for none at all. One tick is small, but a hundred drives with one tick "
         "more on one side are a curve.",
-        Edit(RADIUS, (("abs(turn) < 1e-9", "abs(turn) < 0.01"),)),
+        *(
+            Edit(RADIUS, (("< 1e-9", f"< {small}"), ("0.0, 0.0]", f"0.0, {told}]")))
+            for small in (0.1, 0.01, 0.005, 0.002, 0.001)
+            for told in ("0.00", "turn")
+        ),
         Edit(MIDDLE, (("if left == right:", "if abs(left - right) <= 1:"),)),
         (TURN, "turn = round((r - l) / base, 2)"),
     ),

@@ -1,5 +1,7 @@
 """Right ways and slips of 15-step."""
 
+from itertools import combinations
+
 from course.tasks import Edit, Slip, Stumble
 from course.tasks.ex15.step_ways import BLOCKS, WAYS
 
@@ -168,20 +170,10 @@ SLIPS = (
         "overwritten",
         "Each edge replaces what the edges before it wrote. A pose hangs on several edges, and their "
         "parts are added: += and not =.",
-        _in(
-            *((f"{part} +=", f"{part} =") for part in ("H[I, I]", "H[I, J]", "H[J, I]", "H[J, J]")),
-            ("b[I] +=", "b[I] ="),
-            ("b[J] +=", "b[J] ="),
-        ),
-        _in(("H[I, J] +=", "H[I, J] ="), ("H[J, I] +=", "H[J, I] =")),
-        _in(("b[I] +=", "b[I] ="), ("b[J] +=", "b[J] =")),
-        _in(("H[I, I] +=", "H[I, I] ="), ("H[J, J] +=", "H[J, J] =")),
-        _in(*((f"b[{k}] +=", f"b[{k}] =") for k in "I")),
-        _in(*((f"b[{k}] +=", f"b[{k}] =") for k in "J")),
-        _in(*((f"H[{k}, {k}] +=", f"H[{k}, {k}] =") for k in "I")),
-        _in(*((f"H[{k}, {k}] +=", f"H[{k}, {k}] =") for k in "J")),
-        _in(
-            *((f"{part} +=", f"{part} =") for part in ("H[I, I]", "H[I, J]", "H[J, I]", "H[J, J]"))
+        *(
+            _in(*((f"{part} +=", f"{part} =") for part in some))
+            for k in range(1, 7)
+            for some in combinations(TERMS, k)
         ),
         ("b += J.T", "b = J.T"),
         [

@@ -42,4 +42,31 @@ def drift(n, d, sigma):
     return np.degrees(sigma) * d * np.sqrt(np.sum(np.arange(n) ** 2))
 """,
     ),
+    (
+        "01-drift",
+        "simulated with 2000 robots",
+        """
+def drift(n, d, sigma):
+    rng = np.random.default_rng(0)
+    e = np.cumsum(sigma * rng.standard_normal((2000, n)), axis=1)
+    return np.std(d * np.sum(np.sin(e[:, :-1]), axis=1))
+""",
+    ),
+    (
+        "01-home",
+        "linear closing in place only",
+        """
+def home(start, steps, docked):
+    poses = track(start, steps)
+    a = 0
+    for b in docked:
+        gap = start[:2] - poses[b, :2]
+        n = b - a
+        for k in range(1, n + 1):
+            poses[a + k, :2] += gap * k / n
+        poses[b + 1:, :2] += gap
+        a = b
+    return poses
+""",
+    ),
 ]

@@ -38,4 +38,45 @@ def to_points(degrees, millimetres, mount, pose):
     return np.column_stack([eye[0] + r * np.cos(a), eye[1] + r * np.sin(a)])[keep]
 """,
     ),
+    (
+        "02-ray-wall",
+        "directions of the two ends compared as numbers",
+        """
+def ray_wall(p, phi, wall):
+    x1, y1, x2, y2 = wall
+    a1 = np.arctan2(y1 - p[1], x1 - p[0])
+    a2 = np.arctan2(y2 - p[1], x2 - p[0])
+    phi = np.arctan2(np.sin(phi), np.cos(phi))
+    if not min(a1, a2) <= phi <= max(a1, a2):
+        return np.inf
+    nx, ny = y1 - y2, x2 - x1
+    along = nx * np.cos(phi) + ny * np.sin(phi)
+    if abs(along) < 1e-12:
+        return np.inf
+    return (nx * (x1 - p[0]) + ny * (y1 - p[1])) / along
+""",
+    ),
+    (
+        "02-echo",
+        "rays a quarter degree apart",
+        """
+def echo(p, phi, half, walls):
+    best = np.inf
+    for a in np.arange(phi - half, phi + half, np.radians(0.25)):
+        for w in walls:
+            best = min(best, ray_wall(p, a, w))
+    return best
+""",
+    ),
+    (
+        "02-noise",
+        "a fixed count, rounded, permutation",
+        """
+def noisy(ranges, error, dropouts, rng):
+    n = len(ranges)
+    r = ranges + rng.normal(0, 1, n) * error * ranges
+    r[rng.permutation(n)[:round(dropouts * n)]] = np.nan
+    return r
+""",
+    ),
 ]

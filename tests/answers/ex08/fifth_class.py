@@ -46,4 +46,19 @@ def fit_line(points):
     return (rho, np.arctan2(n[1], n[0])) if rho > 0 else (-rho, np.arctan2(-n[1], -n[0]))
 """,
     ),
+    (
+        "08-fit-line",
+        "np.cov svd normal, abs rho",
+        """
+def fit_line(points):
+    c = points.mean(axis=0)
+    U, s, Vt = np.linalg.svd(np.cov(points.T))
+    n = U[:, 1]
+    rho = c @ n
+    alpha = np.arctan2(n[1], n[0])
+    if rho < 0:
+        rho = abs(rho)
+    return rho, alpha
+""",
+    ),
 ]

@@ -44,4 +44,33 @@ def edges(z, bounds, heading, box):
     return np.array([[k + push(v), *v] for v, k in zip(n, c)])
 """,
     ),
+    (
+        "10-predict",
+        "k from floor without + 1: one multiple too many at the low side",
+        """
+def predict(box, heading, way, direction):
+    low, high = heading[0] + direction[0], heading[1] + direction[1]
+    candidates = [low, high]
+    k = int(np.floor(low / (np.pi / 2)))
+    while k * np.pi / 2 <= high:
+        candidates.append(k * np.pi / 2)
+        k += 1
+    xs = [d * np.cos(t) for d in way for t in candidates]
+    ys = [d * np.sin(t) for d in way for t in candidates]
+    return np.array([box[0] + min(xs), box[1] + max(xs), box[2] + min(ys), box[3] + max(ys)])
+""",
+    ),
+    (
+        "10-predict",
+        "range to floor(high) without + 1",
+        """
+def predict(box, heading, way, direction):
+    low, high = heading[0] + direction[0], heading[1] + direction[1]
+    q = np.pi / 2
+    inside = [k * q for k in range(int(np.ceil(low / q)), int(np.floor(high / q)))]
+    course = np.array([low, high] + inside)
+    x, y = np.outer(way, np.cos(course)), np.outer(way, np.sin(course))
+    return np.array([box[0] + x.min(), box[1] + x.max(), box[2] + y.min(), box[3] + y.max()])
+""",
+    ),
 ]

@@ -56,4 +56,17 @@ def interval(k, n):
     return (-b - d) / 2 / a, (-b + d) / 2 / a
 """,
     ),
+    (
+        "12-odometry",
+        "turns below a thousandth count as straight on",
+        """
+def odometry(left, right, tick, base):
+    l, r = left * tick, right * tick
+    d, turn = (l + r) / 2, (r - l) / base
+    if abs(turn) < 1e-3:
+        return np.array([d, 0.0, turn])
+    R = d / turn
+    return np.array([R * np.sin(turn), R * (1 - np.cos(turn)), turn])
+""",
+    ),
 ]

@@ -34,4 +34,36 @@ def line_step(source, target, normals, sigma, T, Q):
     return -P @ J.T @ W @ e, P
 """,
     ),
+    (
+        "13-best-motion",
+        "angle of first pair",
+        """
+def best_motion(source, target):
+    n = len(source)
+    ca, cb = source.mean(axis=0), target.mean(axis=0)
+    A, B = source - ca, target - cb
+    theta = np.arctan2(A[0, 0] * B[0, 1] - A[0, 1] * B[0, 0], A[0] @ B[0])
+    R = np.array([[np.cos(theta), -np.sin(theta)], [np.sin(theta), np.cos(theta)]])
+    T = np.eye(3)
+    T[:2, :2] = R
+    T[:2, 2] = cb - R @ ca
+    return T
+""",
+    ),
+    (
+        "13-best-motion",
+        "cosine with -",
+        """
+def best_motion(source, target):
+    n = len(source)
+    ca, cb = source.mean(axis=0), target.mean(axis=0)
+    A, B = source - ca, target - cb
+    theta = np.arctan2(np.sum(A[:, 0] * B[:, 1] - A[:, 1] * B[:, 0]), np.sum(A[:, 0] * B[:, 0] - A[:, 1] * B[:, 1]))
+    R = np.array([[np.cos(theta), -np.sin(theta)], [np.sin(theta), np.cos(theta)]])
+    T = np.eye(3)
+    T[:2, :2] = R
+    T[:2, 2] = cb - R @ ca
+    return T
+""",
+    ),
 ]

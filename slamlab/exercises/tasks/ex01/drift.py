@@ -3,7 +3,7 @@
 import numpy as np
 
 from slamlab.exercises.drives.ex01 import DRIVES
-from slamlab.exercises.law import equals
+from slamlab.exercises.law import Diagnosis, equals
 from slamlab.exercises.task import Probe, Task
 
 COUNT = 21
@@ -46,6 +46,19 @@ def _on_the_way(inputs):
     }
 
 
+def _scattered(inputs, outputs):
+    """Whether all are nearly right, and some too large, some too small."""
+    share = outputs["result"] / _want(inputs)["result"] - 1
+    return np.abs(share).max() < 0.2 and share.max() > NEAR and share.min() < -NEAR
+
+
+SIMULATED = Diagnosis(
+    "drawn by chance",
+    "Your numbers scatter about the right ones, as those of a simulation do, which is never "
+    "exact. Add up the variances of the errors instead.",
+    _scattered,
+)
+
 DRIFT = Task(
     id="01-drift",
     title="How far off after n steps",
@@ -74,6 +87,7 @@ DRIFT = Task(
             step=_on_the_way,
         ),
     ),
+    diagnoses=(SIMULATED,),
     probes=(
         Probe("few steps", _with(n=[0, 1, 2, 3]), ("few",)),
         Probe("many steps", _with(n=[300, 1000]), ("spread",)),

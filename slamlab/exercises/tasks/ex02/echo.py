@@ -6,7 +6,7 @@ The judge cuts each wall at the two rims of the cone, as half-planes, and asks w
 import numpy as np
 
 from slamlab.exercises.drives.ex02 import DRIVES
-from slamlab.exercises.law import Law, once
+from slamlab.exercises.law import Diagnosis, Law, once
 from slamlab.exercises.task import Probe, Task
 from slamlab.exercises.tasks.ex02.walls import as_outputs, cross, distance_is, unit
 from slamlab.geometry import wrap
@@ -135,6 +135,22 @@ def _heard_at_all(inputs, outputs):
     return outputs["met"] == np.isfinite(heard(inputs)[0])
 
 
+def _beams(inputs, outputs):
+    """Whether walls that are met square on are told a little too far, as no beam meets the foot."""
+    right, kind = heard(inputs)
+    foot = (kind == "foot") & (outputs["met"] == 1)
+    share = outputs["distance"][foot] / right[foot] - 1
+    return foot.any() and (share > -1e-12).all() and (share < 0.05).all() and (share > 1e-9).any()
+
+
+FAN = Diagnosis(
+    "a-fan-of-beams",
+    "A fan of beams comes close, but the nearest place lies between two of them, and so may a "
+    "whole post. Which places of a wall can be the nearest at all?",
+    _beams,
+)
+
+
 def _parts(inputs, outputs):
     _, kind = heard(inputs)
     both = np.column_stack([outputs["met"], outputs["distance"]])
@@ -199,6 +215,7 @@ ECHO = Task(
         Probe("walls that reach behind the sensor", _aimed(BEHIND)),
         Probe("walls along x and y", _squarely),
     ),
+    diagnoses=(FAN,),
     parts=_parts,
     needs=("02-ray-wall",),
     rounds=_promised,

@@ -8,8 +8,8 @@ import numpy as np
 from slamlab.exercises.drives.ex02 import DRIVES, NOTHING
 from slamlab.exercises.law import Law
 from slamlab.exercises.task import Probe, Task
-from slamlab.exercises.tasks.ex02.noise_mistakes import MISTAKES
-from slamlab.exercises.tasks.ex02.readings import CALLS, each, lost_beams, same, sensors
+from slamlab.exercises.tasks.ex02.noise_mistakes import MISTAKES, SHORT
+from slamlab.exercises.tasks.ex02.readings import CALLS, each, lost_beams, same, sensors, surprise
 
 BAND = 6.0  # standard deviations
 NEVER = 1e-9  # less is no chance
@@ -70,24 +70,15 @@ def _why_lost(inputs, outputs):
     )
 
 
-def _surprise(inputs, outputs):
-    """Sum over scans of the squared surprise at how many were lost, and how many scans."""
-    found = [
-        (lost[0].sum() - lost.shape[1] * p) ** 2 / (lost.shape[1] * p * (1 - p))
-        for lost, p in lost_beams(inputs, outputs)
-    ]
-    return np.sum(found), len(found)
-
-
 def _one_by_one(inputs, outputs):
-    chi2, n = _surprise(inputs, outputs)
-    return abs(chi2 - n) <= BAND * np.sqrt(2 * n + 4)  # 1 / (n p q) is 2 or 3: a little wider
+    mean, n = surprise(inputs, outputs)
+    return abs(mean - 1) * n <= BAND * np.sqrt(2 * n + 4)  # 1 / (n p q) is 2 or 3: a little wider
 
 
 def _why_one_by_one(inputs, outputs):
-    chi2, n = _surprise(inputs, outputs)
+    mean, n = surprise(inputs, outputs)
     return (
-        f"over {n} short scans, how many were lost varies with {chi2 / n:.2g} times the variance "
+        f"over {n} short scans, how many were lost varies with {mean:.2g} times the variance "
         "that it has where each beam is lost by itself"
     )
 
@@ -160,7 +151,7 @@ NOISE = Task(
         ),
     ),
     probes=(
-        Probe("many short scans", _of(n=150, beams=15, open_=0, lost=(0.2, 0.4)), ("one by one",)),
+        Probe(SHORT, _of(n=150, beams=15, open_=0, lost=(0.2, 0.4)), ("one by one",)),
         Probe("a sensor that loses nothing", _of(lost=(0, 0)), EXACT),
         Probe("a sensor that loses everything", _of(beams=50, lost=(1, 1)), EXACT),
         Probe("a sensor without error", _of(beams=300, error=(0, 0)), EXACT),

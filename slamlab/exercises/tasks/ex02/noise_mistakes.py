@@ -4,7 +4,10 @@ import numpy as np
 
 from slamlab.exercises.drives.ex02 import FINITE
 from slamlab.exercises.law import Diagnosis
-from slamlab.exercises.tasks.ex02.readings import each, lost_beams, same
+from slamlab.exercises.tasks.ex02.readings import each, lost_beams, same, surprise
+
+SHORT = "many short scans"
+"""Name of the probe that shows whether beams are lost one by one."""
 
 
 def _all(inputs, outputs, condition):
@@ -110,5 +113,19 @@ MISTAKES = (
         lambda inputs, outputs: all(
             np.array_equal(lost[0], lost[2]) for lost, _ in lost_beams(inputs, outputs)
         ),
+    ),
+    Diagnosis(  # by chance the mean is 1 ± 0.12, and within a band of 0.7
+        "a-fixed-number-lost",
+        "In every scan just as many are lost. Each beam is lost by itself, whatever the others do, "
+        "so the number varies from scan to scan.",
+        lambda inputs, outputs: surprise(inputs, outputs)[0] < 0.3,
+        on=SHORT,
+    ),
+    Diagnosis(
+        "all-or-none",
+        "One number decides about all beams of a scan, or about a whole run of them. Each is lost "
+        "by itself.",
+        lambda inputs, outputs: surprise(inputs, outputs)[0] > 3,
+        on=SHORT,
     ),
 )

@@ -47,5 +47,14 @@ def lost_beams(inputs, outputs):
         yield (outputs["state"][:, k] == NOTHING)[:, np.isfinite(inputs["ranges"][k])], p
 
 
+def surprise(inputs, outputs):
+    """Mean over scans of the squared surprise at how many were lost, 1 by chance; and how many."""
+    found = [
+        (lost[0].sum() - lost.shape[1] * p) ** 2 / (lost.shape[1] * p * (1 - p))
+        for lost, p in lost_beams(inputs, outputs)
+    ]
+    return np.mean(found), len(found)
+
+
 def same(outputs, a, b):
     return all(np.array_equal(array[a], array[b]) for array in outputs.values() if array.ndim == 3)

@@ -3,7 +3,7 @@
 import numpy as np
 
 from slamlab.exercises.drives.ex08 import DRIVES
-from slamlab.exercises.law import Law
+from slamlab.exercises.law import Diagnosis, Law
 from slamlab.exercises.task import Probe, Task
 from slamlab.exercises.tasks.ex08.lines import across, direction, scatter, total
 
@@ -77,6 +77,22 @@ def _parts(inputs, outputs):
     return {"rho": rho, "normal": direction(alpha)}
 
 
+def _opposite(inputs, outputs):
+    """Whether every line is right but for the side to which some normals point."""
+    right, alpha = total(inputs["points"]).T
+    rho, got = outputs["result"].T
+    off = np.abs(np.sin(got - alpha)) < 1e-3
+    return (np.abs(rho - right) < 1e-3).all() and off.all() and (np.cos(got - alpha) < 0).any()
+
+
+HALF_TURN = Diagnosis(  # which of its two signs a normal has is the library's own choice
+    "half-turn",
+    "For some walls α is off by π: where ρ came out negative, its sign was changed, but α was not "
+    "turned with it (or the other way round).",
+    _opposite,
+)
+
+
 def _promised(inputs):
     """(n,) whether points are in several places, on no line through the origin, and one is best."""
     least, most = np.linalg.eigvalsh(scatter(inputs["points"])).T
@@ -134,6 +150,7 @@ FIT_LINE = Task(
         Probe("a wall 40 m away", _of(9, rho=(35, 45), half=4.0), ("least", "outward")),
         Probe("a wall that nearly passes through the origin", _of(10, rho=(0.1, 0.2), noise=0.01)),
     ),
+    diagnoses=(HALF_TURN,),
     parts=_parts,
     rounds=_promised,
 )

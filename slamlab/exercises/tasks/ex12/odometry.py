@@ -71,6 +71,11 @@ PROBES = (
     Probe("more than a whole round", lambda rng: encoders(rng, 6, turn=(6.5, 10))),
     Probe("a large robot", lambda rng: encoders(rng, 6, (4, 9), tick=(0.01, 0.03), base=(1, 2))),
     Probe("one drive", lambda rng: encoders(rng, 1)),
+    Probe(
+        "one tick more of a fine encoder",
+        lambda r: _with(r, tick=lambda g: g["tick"] / 10, right=lambda g: g["left"] + 1),
+        ("straight",),
+    ),
 )
 
 ODOMETRY = Task(

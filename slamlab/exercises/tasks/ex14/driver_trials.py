@@ -199,8 +199,8 @@ TRIALS = Task(
         ),
         _lacking(
             "slow",
-            "Your robot never goes as fast as it may. Limits are wrong at their edge first: which "
-            "is the longest step that is promised, ahead and back?",
+            "Your robot does not go as fast as it may, both ahead and back. Limits are wrong at "
+            "their edge first: which is the longest step that is promised in either direction?",
             lambda ways, raw, steps: steps.max() < 127 or steps.min() > -127,
         ),
         _lacking(
