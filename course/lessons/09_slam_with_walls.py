@@ -171,7 +171,7 @@ flows = [
     ("pair", "update", f"{count['known']}\nknown"),
     ("pair", "welcome", f"{count['new']} new"),
     ("pair", "unclear", f"{count['unclear']}"),
-    ("welcome", "map", f"{count['entered']} enter"),
+    ("=map", "welcome", f"{count['entered']} enter"),
     ("=map", "merge", f"{count['merged']} merged"),
     *(("=map", name, "") for name in ("predict", "update")),
     *(("map", "pair", ""), ("=waiting", "welcome", "")),
