@@ -10,6 +10,7 @@ import pytest
 from slamlab import estimators, sources
 from slamlab.cli import main
 from slamlab.estimators.sufficiency import (
+    against_odometry,
     hardly_surer,
     mostly_unknown,
     thin_matches,
@@ -18,6 +19,7 @@ from slamlab.estimators.sufficiency import (
 from slamlab.filters.mak import MAK
 from slamlab.simulation.range_scanners import ULTRASONIC
 from slamlab.sources import simulation
+from slamlab.sources.simulated_robot import THESIS_LIDAR
 
 WIDER = "wider than all that it has mapped"
 
@@ -41,6 +43,7 @@ def told(name, source, steps=None, **options):
         ("graph", "most matches rest on under 60 points"),
         ("walls", "hardly surer than by odometry alone"),
         ("mak", "hardly surer than by odometry alone"),
+        ("walls-foot", "hardly surer than by odometry alone"),
     ],
 )
 @pytest.mark.parametrize("seed", [1, 2])
@@ -153,11 +156,38 @@ def test_a_run_says_it_on_the_terminal_and_in_its_summary(tmp_path, capsys):
     assert "warning" not in capsys.readouterr().out
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", [1, 2, 3])
+@pytest.mark.parametrize("world", ["situation-1", "situation-2"])
+def test_the_listing_as_printed_leaves_what_odometry_allows_and_says_so(world, seed):
+    assert "one of the two is wrong" in told(
+        "walls-foot", simulation(world, np.random.default_rng(seed), lidar=THESIS_LIDAR)
+    )
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_feet_with_all_mends_in_a_room_say_nothing(seed):
+    source = simulation("room", np.random.default_rng(seed), lidar=THESIS_LIDAR)
+    assert told("walls-foot", source, mends="all") == ""
+
+
+def test_a_pose_is_against_odometry_six_standard_deviations_from_its_own():
+    alone = MAK(np.array([1.0, 0.0, 3.1]), np.diag([0.1, 0.2, 0.05]) ** 2)
+    for off, says in (([0.59, 0, 0], 0), ([0.61, 0, 0], 1), ([0, 0, 0.29], 0), ([0, 0, 0.31], 1)):
+        assert len(against_odometry(alone.pose + off, alone, 20)) == says
+    around = alone.pose + np.array([0, 0, 2 * np.pi])
+    assert against_odometry(around, alone, 20) == []
+    assert against_odometry(alone.pose + np.array([9.0, 0, 0]), alone, 19) == []
+
+
 def test_of_a_few_steps_nothing_is_said():
     unsure = MAK(np.zeros(3), np.eye(3))
     assert thin_matches(19, 19, 0) == mostly_unknown(19, 19) == []
     assert hardly_surer(unsure.block([0, 1]), unsure, 19) == []
     assert len(hardly_surer(unsure.block([0, 1]), unsure, 20)) == len(mostly_unknown(7, 20)) == 1
+    assert thin_matches(0, 9, 0, since=19) == []
+    assert "last 20 steps" in thin_matches(0, 9, 0, since=20)[0]
     assert len(thin_matches(11, 20, 0)) == 1 and "no match" in thin_matches(0, 9, 11)[0]
 
 

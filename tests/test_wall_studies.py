@@ -6,7 +6,7 @@ import pytest
 from slamlab import estimators
 from slamlab.estimators.wall_slam import WallSlam
 from slamlab.sources import simulation
-from slamlab.studies import corridor, heard_walls, line_truth, spoilt_walls
+from slamlab.studies import corridor, heard_walls, line_truth, spoilt_walls, wall_loop
 from slamlab.studies.spoilt_walls import RIGHT, VARIANTS
 from slamlab.studies.study_command import stored
 
@@ -31,6 +31,16 @@ def test_the_small_loop_believes_what_the_packages_does(room, found):
     np.testing.assert_allclose(loop.mak.P, whole.filter.P, atol=1e-9)
     assert len(maps) == len(P) == len(room)
     assert len(maps[-1]) == len(loop.mak.ids)
+
+
+@pytest.mark.slow
+def test_a_tally_loses_no_line_and_no_wall(room, found):
+    count = wall_loop.tally(room, found)
+    assert count["steps"] == len(room)
+    assert count["lines"] == count["known"] + count["new"] + count["unclear"]
+    assert count["walls"] == count["entered"] - count["merged"]
+    _, _, maps = spoilt_walls.driven(room, VARIANTS[RIGHT](room), found)
+    assert count["walls"] == len(maps[-1])
 
 
 @pytest.mark.slow

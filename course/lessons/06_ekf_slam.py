@@ -167,6 +167,48 @@ sigma_apart, sigma_together = (np.sqrt(S[1, 1]) for S in expected(P_doubt))
 # | **augment** | a landmark is seen for the first time | appends two numbers |
 # | **update** | a landmark is seen again | corrects all numbers |
 
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# ### The three in pictures
+
+# %% slideshow={"slide_type": "fragment"} tags=["folded"]
+STARS = np.array([[1.2, 1.6], [2.6, 1.9], [3.6, 0.6], [2.4, -0.9]])
+rng, R_STAR = np.random.default_rng(1), np.diag([0.1, 0.04]) ** 2
+WAYS = {"truth": np.array([1.3, -0.1, 0.0]), "predicted": np.array([1.3, 0.25, 0.2])}
+seen = [models.h(pose, STARS) for pose in (np.zeros(3), WAYS["truth"])]
+seen = [z + rng.multivariate_normal([0, 0], R_STAR, len(STARS)) for z in seen]
+one = MAK(np.zeros(3), np.zeros((3, 3)))
+one.add(range(4), seen[0], R_STAR)
+maps = [one.landmarks()]
+one.predict(WAYS["predicted"], np.diag([0.2, 0.3, 0.15]) ** 2)
+one.update(range(4), seen[1], R_STAR)
+maps.append(one.landmarks())
+still_off = 100 * np.hypot(*(one.pose - WAYS["truth"])[:2])
+was_off = 100 * np.hypot(*(WAYS["predicted"] - WAYS["truth"])[:2])
+
+# %% slideshow={"slide_type": "fragment"} tags=["folded"]
+believed = [Poses("predicted", [WAYS["predicted"]]), Poses("truth", [WAYS["truth"]])]
+placed = Points("scan", models.g(WAYS["predicted"], seen[1]))
+pictures = {
+    "augment": [Points("landmark", maps[0]), Poses("truth", [np.zeros(3)])],
+    "predict, then look": [Points("landmark", maps[0]), placed, *believed],
+    "update": [Points("landmark", maps[1]), *believed, Poses("corrected", [one.pose])],
+}
+fig, _ = views.side_by_side(pictures, size=(11, 4.2))
+for marks in fig.findobj(lambda artist: getattr(artist, "get_marker", str)() == "."):
+    marks.set(marker="*", markersize=10)
+views.show(
+    fig,
+    "A robot places four landmarks. Driven on by its wheels, it sees all four beside where it placed "
+    f"them. The update brings it from {was_off:.0f} cm to {still_off:.0f} cm beside its true place.",
+)
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# Stars are landmarks. From an exactly known pose the robot places four of them. Then it drives, and
+# its wheels lead it astray. What it sees now (orange) lies beside all four, and in the same way: that
+# one robot is wrong is likelier than that four landmarks are. The update moves it back, to within
+# {= still_off:.0f =} cm of its true place instead of {= was_off:.0f =} cm. It does not get there: the
+# sensor errs, too.
+
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=5
 # ## Predict: the landmarks stand still
 #

@@ -45,7 +45,7 @@ from slamlab.sources.simulated_robot import THESIS_LIDAR
 from slamlab.studies import corridor, feet, line_truth, spoilt_walls
 from slamlab.studies.line_truth import lines_of
 from slamlab.studies.study_command import stored
-from slamlab.studies.wall_loop import WallLoop
+from slamlab.studies.wall_loop import WallLoop, tally
 from slamlab.worlds import World
 
 ORIGIN = [[0, 0, 0.4, 0], [0, 0, 0, 0.4]]  # the axes of the world
@@ -139,6 +139,58 @@ views.show(
 #
 # Pairing and waiting are those of lesson 08. The walls of the first scan need not wait: they define
 # the map's frame, and nothing has drifted yet.
+
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# ### What is kept, and what is forgotten
+
+# %% slideshow={"slide_type": "fragment"} tags=["folded"]
+found = {name: spoilt_walls.found_by(source) for name, source in sources.items()}
+count = tally(sources["situation-1"], found["situation-1"])
+step, kept, lost = (partial(views.Box, kind) for kind in ("step", "kept", "lost"))
+boxes = {
+    "wheels": views.Box("device", "wheels", 0.75, 2.9, 1.2),
+    "lidar": views.Box("device", "lidar", 0.75, 1.75, 1.2),
+    "predict": step("predict", 3.1, 2.9),
+    "extract": step("extract", 3.1, 1.75),
+    "pair": step("pair", 5.15, 2.325, 1.1, 1.85),
+    "update": step("update", 7.0, 2.9, 1.3),
+    "welcome": step("welcome", 8.35, 1.75, 1.2),
+    "merge": step("merge", 10.1, 2.9),
+    "map": kept("pose, walls (ρ, α), and their $P$;\nwhere each was seen", 6.6, 4.3, 8.5, 0.8),
+    "waiting": kept("waiting walls", 10.1, 1.75),
+    "ranges": lost("all ranges, once\nthe lines are found", 3.1, 0.5, 1.9, 0.75),
+    "unclear": lost("a wall's second line,\nor one that fits badly", 5.4, 0.5, 2.1, 0.75),
+    "unseen": lost("not seen again\nin 3 scans", 10.1, 0.5, 1.6, 0.75),
+}
+
+# %% slideshow={"slide_type": "fragment"} tags=["folded"]
+flows = [
+    ("wheels", "predict", f"{count['steps']}\nsteps"),
+    ("lidar", "extract", f"{count['ranges']:,}\nranges".replace(",", " ")),
+    ("extract", "pair", f"{count['lines']}\nlines"),
+    ("pair", "update", f"{count['known']}\nknown"),
+    ("pair", "welcome", f"{count['new']} new"),
+    ("pair", "unclear", f"{count['unclear']}"),
+    ("=map", "welcome", f"{count['entered']} enter"),
+    ("=map", "merge", f"{count['merged']} merged"),
+    *(("=map", name, "") for name in ("predict", "update")),
+    *(("map", "pair", ""), ("=waiting", "welcome", "")),
+    *(("extract", "ranges", ""), ("waiting", "unseen", "")),
+]
+views.show(
+    views.process(boxes, flows, (11, 4.9)),
+    f"What flows through the loop: {count['ranges']} ranges become {count['lines']} lines, of which "
+    f"{count['known']} are known walls and {count['new']} new; {count['walls']} walls are left. Pose, "
+    "walls and waiting walls are kept; ranges, unclear lines and walls not seen again are forgotten.",
+)
+size = 3 + 2 * count["walls"]
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# The numbers are those of the whole tour of situation 1. Only what has a blue frame is there for
+# the next step: at the end of the tour {= count["walls"] =} walls, so {= size =} numbers in the
+# state and {= size * (size + 1) // 2 =} different ones in $P$. Neither a scan nor an earlier pose is
+# kept. So a wrong pair cannot be taken back: what it was made from is gone. Lesson 15 keeps scans
+# and poses, and can.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=6
 # ## What a wall's two numbers say
@@ -283,7 +335,6 @@ print(f"σ of the robot's heading: {sigma[2]:.4f} → {now[2]:.4f} rad")
 
 
 # %% slideshow={"slide_type": "fragment"}
-found = {name: spoilt_walls.found_by(source) for name, source in sources.items()}
 poses, P, maps = {}, {}, {}
 for name, source in sources.items():
     loop = WallLoop(source)
@@ -300,14 +351,14 @@ scans = {name: [reading.scan.points() for reading in source] for name, source in
 
 # %% slideshow={"slide_type": "fragment"} tags=["folded"]
 def watched(situation, step):
-    """Both maps up to a step: every tenth scan's points, and the loop's walls."""
+    """Both maps up to a step: every 20th scan's points, and the loop's walls."""
     step = min(step, len(scans[situation]) - 1)
     layers = {}
     for what, role, way in (
         ("odometry", "naive", naive[situation]),
         ("SLAM", "corrected", poses[situation]),
     ):
-        shots = [transform(way[k], scans[situation][k]) for k in range(0, step + 1, 10)]
+        shots = [transform(way[k], scans[situation][k]) for k in range(0, step + 1, 20)]
         title = f"{what}: off by {off(situation, way)[step]:.1f} cm"
         layers[title] = [Points("scan", np.vstack(shots)), Poses(role, way[: step + 1])]
     layers[title].append(Segments("landmark", maps[situation][step]))

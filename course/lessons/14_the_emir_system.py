@@ -782,6 +782,52 @@ print(f"of 20 ways to cut the bytes into pieces, {differ} gave other points")
 # alone**; the thesis calls it naive. The other, the **estimate**, lays each scan over the earlier
 # ones by the scan matching of lesson 13. Both take a count as 1 cm and as 2°, as the thesis does.
 
+# %% [markdown] slideshow={"slide_type": "subslide"}
+# ### Who waits, and what may be dropped
+
+# %% slideshow={"slide_type": "fragment"} tags=["folded"]
+Box, step, kept = views.Box, partial(views.Box, "step"), partial(views.Box, "kept")
+boxes = {
+    "lidar": Box("device", "lidar", 0.65, 3.0, 1.1),
+    "eMIR": Box("device", "eMIR", 0.65, 1.75, 1.1),
+    "lidar's": step("RPLidar\n(a thread)", 2.65, 3.0, 1.4),
+    "eMIR's": step("Emir\n(a thread)", 2.65, 1.2, 1.4, 1.8),
+    "turns": kept("the two\nnewest turns", 4.6, 3.0, 1.5, 0.75),
+    "way": kept("the way by\nthe wheels", 4.6, 1.75, 1.5),
+    "source": step("devices", 6.45, 2.375, 1.1, 1.95),
+    "icp": step("icp", 8.4, 2.375, 0.9, 0.9),
+    "view": step("views.live", 10.3, 1.5, 1.3, 2.5),
+    "drive": step("drive", 6.45, 0.65, 1.1),
+    "map": kept("pose, map,\nlast scan", 8.4, 4.05, 1.4, 0.8),
+    "older": Box("lost", "older turns", 4.6, 4.2, 1.5, 0.6),
+}
+
+# %% slideshow={"slide_type": "fragment"} tags=["folded"]
+flows = [
+    *(("lidar", "lidar's", "bytes"), ("=eMIR", "eMIR's", "bytes"), ("lidar's", "turns", "")),
+    *(
+        ("eMIR's", "way", ""),
+        ("turns", "older", ""),
+        ("turns", "source", ""),
+        ("way", "source", ""),
+    ),
+    *(("source", "icp", "reading"), ("=icp", "map", ""), ("icp", "view", "maps")),
+    *(("view", "drive", "your commands"), ("drive", "eMIR's", "speed, turn rate")),
+]
+views.show(
+    views.process(boxes, flows, (11, 4.7)),
+    "Bytes of lidar and eMIR go to a thread each. One keeps the two newest turns and drops older ones, "
+    "the other the way by the wheels. A source makes readings of both, icp maps, views.live shows the "
+    "maps and sends commands back to the eMIR's thread.",
+)
+
+# %% [markdown] slideshow={"slide_type": "fragment"}
+# Devices do not wait, so each has a thread that listens. The matcher takes its time, and asks for the
+# next reading when it is ready. Turns that nobody fetched meanwhile are dropped, and counted; the way
+# is not. The source asks where the robot was at the end of each turn that it hands on, so after a
+# pause the odometry of one reading is longer, and still complete. In Tuček's program these parts are
+# the classes *Lidar*, *App*, *Slam* and *ICP*.
+
 # %% slideshow={"slide_type": "fragment"}
 ask(
     "14-live",
@@ -832,6 +878,9 @@ naive_off, corrected_off = trials.errors(seen_live.pair.estimator, true.poses[-1
 #   pose.
 # - **A robot, calibrated** is the same with your own scale factors. Odometry alone gets better, too, but the
 #   wheels still slip.
+#
+# `naive=None` instead of `naive=(-8.5, 0)` in the cell above draws the estimate alone. In the page of
+# `slamlab live` a tick box does the same.
 #
 # *pause*, *exit*, running the cell again, or ending the kernel stops the robot.
 

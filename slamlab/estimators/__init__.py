@@ -13,7 +13,8 @@ Read in this order:
 - ``icp_slam``: scan matching, its map in ``growing_rows``; ``graph_slam``: with keyframes, submaps
   and a pose graph, ``odometry_drift``, ``odometry_calibration``, ``loop_closure`` and
   ``relocalisation``
-- ``timestamps``: anomalies of a log's clock; ``sufficiency``: who works on too little says so
+- ``timestamps``, ``odometry_jumps``: anomalies of a log's clock, of its wheels;
+  ``sufficiency``: who works on too little says so
 """
 
 from slamlab._lazy import exports

@@ -4,6 +4,7 @@ from collections import Counter
 
 import numpy as np
 
+from slamlab.estimators.odometry_jumps import odometry_anomaly, standing_still
 from slamlab.estimators.timestamps import timestamp_anomaly
 from slamlab.layers import Layer
 from slamlab.readings import Reading, Trajectory
@@ -36,6 +37,25 @@ class Estimator:
         reading : Reading
         """
         raise NotImplementedError
+
+    def usable(self, reading):
+        """A reading whose odometry can be believed: of jumps there is none, and they are counted.
+
+        The first call in ``step``.
+
+        Parameters
+        ----------
+        reading : Reading
+
+        Returns
+        -------
+        Reading
+        """
+        anomaly = odometry_anomaly(reading.odometry)
+        if not anomaly:
+            return reading
+        self.counts[anomaly] += 1
+        return standing_still(reading)
 
     def record(self, time):
         """Append the present pose to the trajectory, at ``time`` [s]; the last call in ``step``."""

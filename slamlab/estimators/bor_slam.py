@@ -92,6 +92,7 @@ class BorSlam(Estimator):
         ----------
         reading : Reading
         """
+        reading = self.usable(reading)
         motion = np.asarray(reading.odometry, dtype=float)
         if motion.any():
             self.filter.predict(*odometry(motion, *bounds(motion, self.robot, self.motion_sigmas)))

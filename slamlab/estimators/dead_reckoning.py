@@ -22,11 +22,13 @@ class DeadReckoning(Estimator):
         ----------
         reading : Reading
         """
+        reading = self.usable(reading)
         moved = np.any(np.asarray(reading.odometry) != 0)
         self.pose = compose(self.pose, reading.odometry)
         if reading.scan is not None and (moved or not len(self._map.rows)):
             self._map.append(transform(self.pose, reading.scan.points()))
         self.record(reading.time)
+        self.status = self.status_line()
 
     def layers(self):
         """The naive map and trajectory."""

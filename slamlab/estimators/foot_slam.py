@@ -9,6 +9,15 @@ import numpy as np
 from slamlab.estimators.base import Estimator
 from slamlab.estimators.foot_formulas import R_feet, make_filter, predict
 from slamlab.estimators.foot_mends import checked
+from slamlab.estimators.mak_slam import predict as predict_by_odometry
+from slamlab.estimators.sufficiency import (
+    against_odometry,
+    hardly_surer,
+    mostly_unknown,
+    wider_than_map,
+)
+from slamlab.estimators.wall_slam import ONLY_NEW
+from slamlab.filters.mak import MAK
 from slamlab.geometry import transform
 from slamlab.landmarks.downsampling import DownsampledPoints
 from slamlab.landmarks.line_fitting import total_least_squares
@@ -71,6 +80,8 @@ class FootSlam(Estimator):
         self.offset, self.c = offset, c
         start = np.zeros((3, 3)) if "exact-start" in self.mends else START
         self.filter = make_filter(self.mends, start)
+        self._alone = MAK(np.zeros(3), np.zeros((3, 3)), capacity=0)
+        self._steps = self._scans = 0
         self.observed: dict[int, int] = {}
         self.lives_left: dict[int, int] = {}
         self.points = DownsampledPoints()
@@ -83,13 +94,18 @@ class FootSlam(Estimator):
         ----------
         reading : Reading
         """
+        reading = self.usable(reading)
+        self._steps += 1
+        predict_by_odometry(self._alone, reading, self.robot)
         seen = reading.scan is not None and reading.scan.valid.any()
         if "predict-first" in self.mends or not seen:
             self._predict(reading)
         if not seen:
             self.skipped += 1
         else:
+            self._scans += 1
             paired, new = self._associate(self._feet(reading.scan))
+            self.counts.update([ONLY_NEW] * bool(self.filter.ids and new and not paired))
             z = {i: h(self.filter.pose, foot) for i, foot in paired.items()}
             if "predict-first" not in self.mends:
                 self._predict(reading)
@@ -107,6 +123,17 @@ class FootSlam(Estimator):
         """(k, 2) the confirmed landmarks, the feet in use [m]."""
         used = [self.observed[i] >= self.sightings for i in self.filter.ids]
         return self.filter.landmarks()[np.array(used, dtype=bool)]
+
+    @property
+    def warnings(self):
+        """What it says where too little is seen again, or odometry is denied: list of sentences."""
+        P = self.filter.block([0, 1])
+        return [
+            *hardly_surer(P, self._alone, self._steps),
+            *against_odometry(self.pose, self._alone, self._steps),
+            *wider_than_map(P, self.feet(), self._steps),
+            *mostly_unknown(self.counts[ONLY_NEW], self._scans),
+        ]
 
     def layers(self):
         """Points, confirmed feet and their perpendiculars from the origin, trajectory, ellipse."""

@@ -76,6 +76,7 @@ class GraphSlam(Estimator):
         self.calibration = OdometryCalibration(robot)
         self._submap, self._reach, self._kidnapped = None, 0.0, False
         self._matched, self._thin = 0, 0  # scans with a match, and those on few points
+        self._since_match = 0  # readings in which the robot has moved
         self.anchors, self._increments, self._naive_poses = [], [], []
 
     def step(self, reading):
@@ -85,7 +86,7 @@ class GraphSlam(Estimator):
         ----------
         reading : Reading
         """
-        self._predict(reading.odometry)
+        self._predict(self.usable(reading).odometry)
         if reading.scan is not None:
             points = reading.scan.points()
             if len(points) >= MIN_POINTS:
@@ -116,7 +117,8 @@ class GraphSlam(Estimator):
     @property
     def warnings(self):
         """What it says where it matches on too little: list of sentences."""
-        return thin_matches(self._thin, self._matched, self.counts["scans not matched"])
+        unmatched = self.counts["scans not matched"]
+        return thin_matches(self._thin, self._matched, unmatched, self._since_match)
 
     def layers(self):
         """Naive (odometry alone) and corrected map and trajectory, and the loop closures."""
@@ -148,9 +150,7 @@ class GraphSlam(Estimator):
     def _predict(self, odometry):
         """Add the odometry increment to pose and covariance (process noise)."""
         odometry = np.asarray(odometry, dtype=float)
-        if not np.isfinite(odometry).all():
-            self.counts["odometry increments not finite"] += 1
-            odometry = np.zeros(3)
+        self._since_match += bool(odometry.any())
         self.naive_pose = compose(self.naive_pose, odometry)
         calibrated = self.calibration.corrected(odometry)
         self.calibration.predict(odometry, self._reach)
@@ -170,6 +170,7 @@ class GraphSlam(Estimator):
             self._add_keyframe(cloud, scan, self._kidnapped)
             return
         self._matched += 1
+        self._since_match = 0
         self._thin += matched.fit.overlap * len(cloud) < THIN
         self._fuse_match(matched, cloud)
         far = np.hypot(*self._increment[:2]) > KEYFRAME_DISTANCE * cloud.reach

@@ -34,6 +34,7 @@ class IcpSlam(Estimator):
         super().__init__()
         self.naive_pose = np.zeros(3)
         self.matched, self.unmatched, self._thin = 0, 0, 0
+        self._since_match = 0  # readings in which the robot has moved
         self.plain = plain
         self._reference_scan = None  # the points of the last good scan
         self._reference_pose = np.zeros(3)  # the corrected pose of the last good scan
@@ -49,9 +50,11 @@ class IcpSlam(Estimator):
         ----------
         reading : Reading
         """
+        reading = self.usable(reading)
         self.naive_pose = compose(self.naive_pose, reading.odometry)
         self._increment = compose(self._increment, reading.odometry)
         self.pose = compose(self._reference_pose, self._increment)
+        self._since_match += not stands_still(reading.odometry)
         points = np.empty((0, 2)) if reading.scan is None else reading.scan.points()
         if len(points) >= MIN_POINTS:
             self._register(points)
@@ -65,7 +68,7 @@ class IcpSlam(Estimator):
     @property
     def warnings(self):
         """What it says where it matches on too little: list of sentences."""
-        return thin_matches(self._thin, self.matched, self.unmatched)
+        return thin_matches(self._thin, self.matched, self.unmatched, self._since_match)
 
     def layers(self):
         """Naive and corrected map, naive and corrected trajectory."""
@@ -85,6 +88,7 @@ class IcpSlam(Estimator):
             if match.share >= MIN_INLIERS:  # even one not converged beats odometry
                 self.pose = compose(self._reference_pose, match.pose)
                 self.matched += 1
+                self._since_match = 0
                 self._thin += match.share * len(points) < THIN
                 if match.share < LOW_INLIERS:
                     self.counts["matches with few inliers"] += 1

@@ -71,6 +71,7 @@ class MakSlam(Estimator):
         ----------
         reading : Reading
         """
+        reading = self.usable(reading)
         odometry = predict(self.filter, reading, self.robot)
         predict(self._alone, reading, self.robot)
         self._steps += 1

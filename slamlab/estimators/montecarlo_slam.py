@@ -59,6 +59,7 @@ class ParticleSlam(Estimator):
         ----------
         reading : Reading
         """
+        reading = self.usable(reading)
         self.filter.predict(reading.odometry, self.robot)
         predict(self._alone, reading, self.robot)
         self._steps += 1

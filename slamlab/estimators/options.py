@@ -6,6 +6,8 @@ Plain data, so that a command line can list them without importing a filter.
 from dataclasses import dataclass
 from math import isfinite
 
+MAX_SAMPLES = 100_000  # of a particle filter; more take gigabytes, and minutes a step
+
 
 @dataclass(frozen=True)
 class Choice:
@@ -41,7 +43,7 @@ class Number:
     help : str, what it says
     low : float, the least it may be
     kind : type, int for a whole number
-    below : float, what it has to stay below
+    below : float, what it has to stay below; of a whole number it is one too many
     """
 
     help: str
@@ -52,8 +54,9 @@ class Number:
     @property
     def range(self):
         """str, which values it may have."""
-        kind = "a whole number" if self.kind is int else "a number"
-        return f"{kind} from {self.low}" + (f" to below {self.below}" * isfinite(self.below))
+        if self.kind is int:
+            return f"a whole number from {self.low} to {self.below - 1}"
+        return f"a number from {self.low}" + (f" to below {self.below}" * isfinite(self.below))
 
     def parsed(self, value):
         """The number, of a text too; ValueError where it is none or out of range."""
@@ -77,7 +80,12 @@ OPTIONS = {
         "a point; 0 for never (0.05)",
         low=0.0,
     ),
-    "samples": Number("samples of the robot (montecarlo 1000, fastslam 200)", low=1, kind=int),
+    "samples": Number(
+        "samples of the robot (montecarlo 1000, fastslam 200)",
+        low=1,
+        kind=int,
+        below=MAX_SAMPLES + 1,
+    ),
     "relocalise": Choice("whether a robot whose wheels slipped is looked for", ("yes", "no")),
     "mends": Choice("mends of the listing: as it is printed, or with all of them", ("none", "all")),
     "smoothing": Number("share of the last shown pose that the next keeps (0)", low=0.0, below=1.0),

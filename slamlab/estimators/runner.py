@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from slamlab.estimators.base import Estimator
+from slamlab.estimators.odometry_jumps import odometry_anomaly
 from slamlab.geometry import compose
 from slamlab.readings import Reading, Trajectory
 
@@ -20,7 +21,7 @@ class Run:
     source : Source
     estimator : Estimator, after its last step
     trajectory : Trajectory as the estimator believes it at the end
-    naive : Trajectory by odometry alone
+    naive : Trajectory by odometry alone, without its jumps
     frames : int, readings taken in
     skipped : int, readings lost to damage or without a usable scan
     seconds : float, wall-clock time [s]
@@ -50,7 +51,8 @@ def run(source, estimator, on_step=None):
     """
     start, naive, times, poses = time.perf_counter(), np.zeros(3), [], []
     for reading in source:
-        naive = compose(naive, reading.odometry)
+        if not odometry_anomaly(reading.odometry):
+            naive = compose(naive, reading.odometry)
         times.append(reading.time)
         poses.append(naive)
         estimator.step(reading)

@@ -5,29 +5,35 @@
 
 import numpy as np
 
-MIN_STEPS = 20  # matches or scans before which nothing is said: all begins with little
+from slamlab.geometry import wrap
+
+MIN_STEPS = 20  # readings, scans or matches before which nothing is said: all begins with little
 THIN = 60  # points of a match; on fewer scan matching drifts more than wheels do
 SURER = 0.5  # share of odometry's own standard deviation above which a map helps little
 # share of scans that show nothing known: a lidar's lines of ultrasound 0.4, in a building 0.26
 UNKNOWN = 1 / 3
 AMBIGUOUS = 1 / 3  # share of observations that are ambiguous above which a map is a muddle
+BEYOND = 6.0  # Mahalanobis distance from odometry's pose that its own covariance rules out [1]
 CONFIDENCE = 1.96  # standard deviations to either side that hold 95 %
 ROUNDING = 1e-6  # m, by which a box may be wider than odometry that makes no error
 
 
-def thin_matches(thin, matched, unmatched):
-    """Warn of scan matching on too few points, or of too few matches.
+def thin_matches(thin, matched, unmatched, since=0):
+    """Warn of scan matching on too few points, of too few matches, or of none any more.
 
     Parameters
     ----------
     thin, matched : int, matches on fewer than THIN inliers, and all of them
     unmatched : int, scans that found no match
+    since : int, steps of the robot since the last match
 
     Returns
     -------
     list of str
     """
     found = []
+    if since >= MIN_STEPS:
+        found.append(f"no scan was matched in the last {since} steps: since then it is odometry")
     if matched + unmatched >= MIN_STEPS:
         if 2 * unmatched > matched + unmatched:
             found.append("most scans found no match: the way is mostly odometry's")
@@ -53,6 +59,31 @@ def hardly_surer(P, alone, scans):
     if scans < MIN_STEPS or corrected <= SURER * naive:
         return []
     return ["its place is hardly surer than by odometry alone: too little is seen again"]
+
+
+def against_odometry(pose, alone, scans):
+    """Warn of a pose that odometry rules out: farther from its own than its covariance allows.
+
+    Parameters
+    ----------
+    pose : (3,) as estimated [m, m, rad]
+    alone : MAK without landmarks, predicted by the same odometry
+    scans : int, readings with something in them so far
+
+    Returns
+    -------
+    list of str
+    """
+    off = pose - alone.pose
+    off[2] = wrap(off[2])
+    # odometry that makes no error has a covariance without an inverse
+    distance = np.sqrt(off @ np.linalg.pinv(alone.block([0, 1, 2])) @ off)
+    if scans < MIN_STEPS or distance <= BEYOND:
+        return []
+    return [
+        f"its pose is {distance:.0f} times as far from odometry's as odometry errs: one of the two "
+        "is wrong"
+    ]
 
 
 def mostly_unknown(unknown, scans):

@@ -74,7 +74,7 @@ class WallSlam(Estimator):
         self.relocalise = relocalise and not sensor.half_cone
         self.relocalisation = WallRelocalisation(self, rng.spawn(1)[0])
         self._alone = MAK(np.zeros(3), np.zeros((3, 3)), capacity=0)
-        self._started, self._next, self._scans = False, 0, 0
+        self._started, self._next, self._steps, self._scans = False, 0, 0, 0
 
     def step(self, reading):
         """Process a reading: predict by odometry, correct by confirmed walls, queue tentative ones.
@@ -83,9 +83,11 @@ class WallSlam(Estimator):
         ----------
         reading : Reading
         """
+        reading = self.usable(reading)
         for each in (self.filter, self._alone):
             predict(each, reading, self.robot)
         self.relocalisation.predict(reading.odometry)
+        self._steps += 1
         if reading.scan is None or not reading.scan.valid.any():
             self.skipped += 1
         else:
@@ -103,9 +105,9 @@ class WallSlam(Estimator):
     def warnings(self):
         """What it says where it sees too little, or too little again: list of sentences."""
         P = self.filter.block([0, 1])
-        unsure = hardly_surer(P, self._alone, self._scans)
+        unsure = hardly_surer(P, self._alone, self._steps)
         if unsure:  # to lay out all walls costs a tenth of a step
-            unsure += wider_than_map(P, self.walls().reshape(-1, 2), self._scans)
+            unsure += wider_than_map(P, self.walls().reshape(-1, 2), self._steps)
         return [
             *unsure,
             *mostly_unknown(self.counts[ONLY_NEW], self._scans),

@@ -4,6 +4,8 @@ What it believes is what :class:`slamlab.estimators.wall_slam.WallSlam` believes
 found again after a slip, doors, status lines and drawing.
 """
 
+from collections import Counter
+
 import numpy as np
 
 from slamlab.estimators.mak_slam import Q_arc
@@ -126,6 +128,42 @@ class WallLoop:
         """The map as line segments, as far as the walls were seen: (k, 4) x1 y1 x2 y2 [m]."""
         pieces = [ends_of(line, self.seen[i]).ravel() for i, line in self.walls().items()]
         return np.array(pieces).reshape(-1, 4)
+
+
+def tally(source, found):
+    """Count what flows through the loop on a drive.
+
+    Parameters
+    ----------
+    source : Source
+    found : list of the lines of each scan
+
+    Returns
+    -------
+    Counter : steps, ranges (of the lidar), lines; of these known, new and unclear ones, which are
+        dropped; walls that entered the map, those merged into others, and walls at the end
+    """
+    loop, counts = WallLoop(source), Counter()
+    for reading, lines_ in zip(source, found, strict=True):
+        loop.predict(reading.odometry)
+        known, new = loop.pair(lines_)
+        loop.update(known)
+        paired, before = len(known), len(loop.mak.ids)
+        loop.welcome(new, known)
+        entered = len(loop.mak.ids) - before
+        loop.merge()
+        counts.update(
+            steps=1,
+            ranges=len(reading.scan.points()),
+            lines=len(lines_),
+            known=paired,
+            new=len(new),
+            unclear=len(lines_) - paired - len(new),
+            entered=entered,
+            merged=before + entered - len(loop.mak.ids),
+        )
+    counts["walls"] = len(loop.mak.ids)
+    return counts
 
 
 def measured(found):

@@ -10,7 +10,7 @@ Read in this order:
 - ``showing``, ``figure_words``: how a figure reaches a notebook, and its alternative text
 - ``comparison``, ``bit_plot``, ``box_drawing``, ``heatmap``, ``interval_plot``, ``loglog_plot``,
   ``matrix_plot``, ``linked_map``, ``scan_overlay``, ``strip_plot``, ``resampling_wheel``,
-  ``frame_sketches``, ``encoder_sketch``: one plot each
+  ``frame_sketches``, ``encoder_sketch``, ``process_diagram``: one plot each
 - ``sliders``, ``play_button``, ``widget_errors``: interactive figures
 - ``player``: the drawing in a browser, in JavaScript; of what runs and of films
 - ``live``: any source and estimator, live, driven by hand; ``editor``: a world edited by hand
@@ -31,6 +31,7 @@ from slamlab.views.linked_map import linked
 from slamlab.views.live import apart, live
 from slamlab.views.loglog_plot import growth
 from slamlab.views.matrix_plot import colour_bar, correlation, correlations
+from slamlab.views.process_diagram import Box, process
 from slamlab.views.resampling_wheel import wheel
 from slamlab.views.scan_overlay import overlay
 from slamlab.views.showing import png, show
@@ -40,6 +41,7 @@ from slamlab.views.strip_plot import strips
 __all__ = [
     "COLOURS",
     "SERIES",
+    "Box",
     "against_band",
     "apart",
     "axes",
@@ -66,6 +68,7 @@ __all__ = [
     "overlay",
     "panels",
     "png",
+    "process",
     "shares",
     "show",
     "side_by_side",

@@ -77,16 +77,11 @@ def test_sine_and_cosine_hold_all_values_and_are_as_tight_as_a_fine_grid(
     assert high - found.max() < 1e-5
 
 
-@given(ordered(0, 0, st.floats(-6.28, 6.28)), seeds)
+@given(ordered(0, 0, st.floats(-6.28, 6.28) | st.floats(-40, 40)), seeds)
 def test_chord_over_arc_holds_all_values(turn, seed):
     low, high = intervals.chord(turn)
     found = np.sinc(within(turn, 50, np.random.default_rng(seed)) / 2 / np.pi)
     assert low - 1e-12 <= found.min() <= found.max() <= high + 1e-12
-
-
-def test_a_turn_of_more_than_once_round_is_refused():
-    with pytest.raises(ValueError, match="cut it"):
-        intervals.chord((0.0, 6.5))
 
 
 @given(arcs)

@@ -9,6 +9,9 @@ from math import cos, pi, sin
 ROUNDING = 1e-10
 """Outward rounding: what bounds are widened by against rounding errors [m] or [rad]."""
 
+SWING = 0.21724
+"""What sin(x) / x is at most, up or down, beyond the first time round: its least value, at 4.49."""
+
 
 def add(a, b):
     """Interval sum: (a_low + b_low, a_high + b_high)."""
@@ -77,20 +80,16 @@ def chord(turn):
 
     Parameters
     ----------
-    turn : (low, high), within a whole turn either way [rad]
+    turn : (low, high); beyond a whole turn either way the bounds are not the tightest [rad]
 
     Returns
     -------
     (low, high)
-
-    Raises
-    ------
-    ValueError : a turn beyond that
     """
     most = max(abs(turn[0]), abs(turn[1]))
     least = 0.0 if turn[0] <= 0 <= turn[1] else min(abs(turn[0]), abs(turn[1]))
     if most > 2 * pi:
-        raise ValueError(f"a step turns by up to {most:.1f} rad, more than once round: cut it")
+        return -SWING, max(SWING, _chord_ratio(min(least, 2 * pi)))
     return _chord_ratio(most), _chord_ratio(least)
 
 
