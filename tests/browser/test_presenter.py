@@ -54,6 +54,8 @@ def test_both_windows_name_the_same_slide_after_each_of_500_steps_of_either(lect
 def test_it_shows_notes_with_formulas_this_slide_the_next_one_and_what_to_ask(lecture):
     presenter = lecture.presenter()
     presenter.locator("#notes mjx-container").wait_for()
+    fonts = "[...document.fonts].filter((font) => font.family.includes('MJX')).length"
+    assert presenter.evaluate(fonts), "formulas of the notes have no letters of their own"
     now, then = (presenter.frame_locator(f"#{name} iframe") for name in ("present", "next"))
     now.locator("p", has_text="What it is about.").wait_for()
     assert now.locator("p", has_text="And a fragment.").is_hidden()

@@ -34,6 +34,8 @@ function draw(notebook, indices) {
 export class Deck {
   changed = new Signal(); // after each change of stop, size or content
   ended = new Signal();
+  classChanged = new Signal(); // what the presenter's window says of the class
+  ofClass = "";
   at = 0;
   size = 1;
   stops = [];
