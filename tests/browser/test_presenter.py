@@ -120,6 +120,15 @@ def test_minutes_of_sections_are_planned_and_what_is_late_is_said(lecture):
         "no minutes are planned",
         "3 min planned",
     ]
+    lecture.press("End")
+    stands_at(presenter, STOPS - 1)
+    presenter.get_by_role("button", name="set the timer").click()
+    presenter.locator("#elapsed", has_text=re.compile("^15:")).wait_for()
+    presenter.locator("#plan", has_text=re.compile("^section 15–17 of 17 min$")).wait_for()
+    lecture.press("Home")
+    stands_at(presenter, 0)
+    presenter.get_by_role("button", name="set the timer").click()
+    presenter.locator("#elapsed", has_text=re.compile("^0:")).wait_for()
 
 
 def test_either_window_may_be_loaded_again_and_the_lecture_goes_on(lecture):

@@ -4,7 +4,7 @@
 import { element, giveBackFocus } from "../element.js";
 import { channelOf } from "./channel.js";
 import { nameOf } from "./guard.js";
-import { clockFace, planAt } from "./plan.js";
+import { clockFace, planAt, plannedAt } from "./plan.js";
 import { Screen } from "./screen.js";
 
 const ASKING = 2000; // ms between two questions
@@ -142,7 +142,11 @@ document.querySelectorAll("[data-key]").forEach((button) => {
   button.addEventListener("click", () => tell({ key: button.dataset.key }));
 });
 at("slides").addEventListener("change", () => tell({ slide: Number(at("slides").value) }));
-at("again").addEventListener("click", () => { keep({ began: Date.now() }); tick(); });
+// after a break, or for the second part on another day
+at("again").addEventListener("click", () => {
+  keep({ began: Date.now() - 60000 * (state ? plannedAt(state.slides, state.slide) : 0) });
+  tick();
+});
 giveBackFocus(document);
 setInterval(tick, 1000);
 setInterval(ask, ASKING);
