@@ -122,8 +122,11 @@ print('done')"""
     shown.press("Control+Enter")
     visit.page.wait_for_timeout(4500)  # longer than other notices stay
     assert visit.page.evaluate(NOTICE) == "running …"
+    busy = visit.page.locator(".slamlab-busy")
+    busy.wait_for()  # whatever it was that made the kernel compute
     go.touch()
     visit.page.get_by_text("done", exact=True).wait_for()
+    busy.wait_for(state="hidden")
     visit.page.wait_for_function(f"() => !({NOTICE})()")
 
 
