@@ -857,7 +857,7 @@ ask(
 )
 
 
-# %% slideshow={"slide_type": "fragment"} answers="03-half-slip"
+# %% slideshow={"slide_type": "subslide"} answers="03-half-slip"
 def mean_nees(*believed):
     """The mean NEES over all drives and steps of a filter that believes in other slip and noise."""
     wrong = filtered(zs, *believed)
