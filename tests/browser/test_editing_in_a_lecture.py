@@ -105,8 +105,10 @@ def test_what_runs_is_stopped_and_a_kernel_restarted_without_leaving_the_slides(
     page.locator(".slamlab-notice", has_text="once more").wait_for()
     assert first.text_content() == "[ ]:"
     shown.press("R")
-    page.wait_for_function(f"() => !({NOTICE})()")
+    page.locator(".slamlab-notice", has_text="what follows").wait_for()
     assert first.text_content() == "[1]:"  # of a new kernel
+    shown.press("s")
+    page.locator(".slamlab-notice", has_text="stopped with an error").wait_for()
     assert shown.runs
 
 

@@ -22,7 +22,7 @@ export function keysOf(deck) {
   add(["Ctrl+Enter", "Shift+Enter"], "run this cell", () => runCell(deck));
   add(["r"], "run all cells up to here", () => runAll(deck));
   add(["s"], "stop what runs", () => interrupt(deck));
-  add(["R"], "restart the kernel, and run all cells up to here (press it twice)", () => restart(deck));
+  add(["R"], "restart the kernel, and run all cells, those up to here first (press it twice)", () => restart(deck));
   add(["e"], "unlock this cell's code, to change it", () => unlock(deck));
   add(["n"], "slide number", () => deck.bar.toggle("number"));
   add(["t"], "timer", () => deck.bar.toggle("timer"));

@@ -35,9 +35,10 @@ export async function runCell(deck) {
   await runThese(deck, [cell], "running …");
 }
 
+const codeOf = (deck, from, to) => deck.notebook.widgets.slice(from, to).filter(({ model }) => model.type === "code");
+
 export async function runAll(deck) {
-  const cells = deck.notebook.widgets.slice(0, deck.cell + 1).filter(({ model }) => model.type === "code");
-  await runThese(deck, cells, "running all cells up to here …");
+  await runThese(deck, codeOf(deck, 0, deck.cell + 1), "running all cells up to here …");
 }
 
 // Stop what the kernel computes.
@@ -45,18 +46,20 @@ export async function interrupt({ panel }) {
   await panel.sessionContext.session?.kernel?.interrupt();
 }
 
-// A new kernel, and all cells up to here: at the second press, as all that was computed is forgotten.
+// A new kernel and all cells, first those up to here: at the second press, as all that was computed is forgotten.
 export async function restart(deck) {
   if (!deck.restarting) {
     deck.restarting = setTimeout(() => { deck.restarting = undefined; }, SECOND_PRESS);
-    deck.notice("R once more restarts the kernel, which forgets all, and runs all cells up to here.");
+    deck.notice("R once more restarts the kernel, which forgets all, and runs all cells.");
     return;
   }
   clearTimeout(deck.restarting);
   deck.restarting = undefined;
   deck.notice("restarting …", Infinity);
   await deck.panel.sessionContext.restartKernel();
+  const follow = codeOf(deck, deck.cell + 1);
   await runAll(deck);
+  if (follow.length) await runThese(deck, follow, "running what follows …");
 }
 
 // Fold the code to its telling line, or show the whole of it.
