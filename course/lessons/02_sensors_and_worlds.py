@@ -966,7 +966,7 @@ ask(
     right="in the same directions, turn after turn",
 )
 
-# %% slideshow={"slide_type": "fragment"} name="empties" answers="02-empty" tags=["folded"]
+# %% slideshow={"slide_type": "subslide"} name="empties" answers="02-empty" tags=["folded"]
 title = "Each empty reading of 22 turns; below them, one simulated turn"
 fig, ax = views.chart("bearing [degrees]", "turn", title, (10, 4))
 for number, bearings_empty in enumerate(real["empty"]["bearings"]):

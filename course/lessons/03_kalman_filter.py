@@ -744,7 +744,7 @@ def filtered(zs, slip=1.0, noise=1.0):
 # finder, which only adds up its pushes.
 
 
-# %% slideshow={"slide_type": "fragment"}
+# %% slideshow={"slide_type": "fragment"} tags=["folded"]
 def draw_errors(ax, errors, sigma):
     """Errors by name; the filter's with its band of ±2σ."""
     views.two_sigma(ax, SECONDS, errors["filter"], sigma, "filter")
@@ -857,7 +857,7 @@ ask(
 )
 
 
-# %% slideshow={"slide_type": "fragment"} answers="03-half-slip"
+# %% slideshow={"slide_type": "subslide"} answers="03-half-slip"
 def mean_nees(*believed):
     """The mean NEES over all drives and steps of a filter that believes in other slip and noise."""
     wrong = filtered(zs, *believed)

@@ -345,7 +345,7 @@ def where_may_it_be(landmarks_seen, heading_sigma):
     return marks, b, agree
 
 
-# %% slideshow={"slide_type": "fragment"}
+# %% slideshow={"slide_type": "fragment"} tags=["folded"]
 def draw_where(**values):
     marks, b, agree = where_may_it_be(**values)
     layers = [Points("poses that agree", agree[:400, :2])]
@@ -645,7 +645,7 @@ by_the_wheels = mean_spread(two_halves.draw_map(run, wheels))
 # The ellipses lie beside the crosses, and are as small as before. Now move the share to 0: the crosses
 # return into the ellipses. Is this lap an exception? Here are thirty.
 
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"]
+# %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"]
 thirty = [drive(seed) for seed in range(30)]
 known = np.mean([two_halves.landmark_nees(one, one.truth.poses) for one in thirty])
 trusted = np.mean([two_halves.landmark_nees(one, two_halves.by_wheels(one)) for one in thirty])

@@ -804,7 +804,7 @@ ask(
     right="no: ask for the interval of the difference on each drive",
 )
 
-# %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="12-overlap"
+# %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"] answers="12-overlap"
 for name in ("odometry", "BOR, honest"):
     print(f"{name:12} RMS: {cm(free[name]['rms_m'])} cm")
 print(

@@ -49,10 +49,10 @@ class Alive(Control):
 
 class TheSlide(Control):
     async def put(self):
-        number, html = self.said(slide=int, html=str)
-        if not 0 <= number <= 999:
+        number, place, html = self.said(slide=int, place=int, html=str)
+        if not (0 <= number <= 999 and 0 <= place <= 999):
             raise HTTPError(400)
-        await self.told(self._lecture.show, number, html)
+        await self.told(self._lecture.show, number, place, html)
 
 
 class ThePoll(Control):

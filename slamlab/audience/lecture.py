@@ -16,11 +16,13 @@ class Slide:
 
     Parameters
     ----------
+    place : int, its number on the lecturer's screen
     html : str, sanitised
     pictures : dict, name to (media type, bytes)
     version : int, of the lecture when it changed
     """
 
+    place: int
     html: str
     pictures: dict
     version: int
@@ -50,12 +52,13 @@ class Lecture:
         """bool, whether the lecturer's page has been silent for too long."""
         return self._clock() - self._heard > self._patience
 
-    def show(self, number, html):
+    def show(self, number, place, html):
         """Show a slide; that it looks as before is no change.
 
         Parameters
         ----------
-        number : int
+        number : int, of its first cell: a long slide has pages
+        place : int, its number on the lecturer's screen
         html : str, as it comes
 
         Raises
@@ -72,7 +75,7 @@ class Lecture:
             raise ValueError("these slides are too many or too large for the phones")
         self._change()
         same = before is not None and before.html == kept
-        self.slides[number] = before if same else Slide(kept, pictures, self.version)
+        self.slides[number] = before if same else Slide(place, kept, pictures, self.version)
         self.shown = number
 
     def picture(self, name):

@@ -35,7 +35,7 @@ class ShownSlide(Guarded):
         slide = self._lecture.slides.get(int(number))
         if slide is None:
             raise HTTPError(404)
-        await self.give({"html": slide.html, "version": slide.version})
+        await self.give({"place": slide.place, "html": slide.html, "version": slide.version})
 
 
 class Picture(Guarded):

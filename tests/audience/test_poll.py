@@ -62,12 +62,12 @@ def test_without_an_answer_there_are_no_bars():
 
 def test_a_slide_that_looks_as_before_is_no_change_and_one_that_came_back_is_shown_again():
     lecture = Lecture(lambda: 0.0)
-    lecture.show(0, "<p>a</p>")
+    lecture.show(0, 7, "<p>a</p>")
     first = lecture.state("x")
-    lecture.show(0, "<p>a</p><script>x</script>")
+    lecture.show(0, 7, "<p>a</p><script>x</script>")
     assert lecture.state("x") == first
-    lecture.show(1, "<p>b</p>")
-    lecture.show(0, "<p>a</p>")
+    lecture.show(1, 7, "<p>b</p>")
+    lecture.show(0, 7, "<p>a</p>")
     again = lecture.state("x")
     assert (again["shown"], again["slides"][0]) == (0, first["slides"][0])
     assert again["version"] > first["version"]
@@ -76,17 +76,17 @@ def test_a_slide_that_looks_as_before_is_no_change_and_one_that_came_back_is_sho
 def test_slides_are_bounded():
     lecture = Lecture(lambda: 0.0)
     for number in range(MOST_SLIDES):
-        lecture.show(number, str(number))
+        lecture.show(number, 7, str(number))
     with pytest.raises(ValueError, match="too many or too large"):
-        lecture.show(MOST_SLIDES, "one more")
-    lecture.show(0, "another text")
+        lecture.show(MOST_SLIDES, 7, "one more")
+    lecture.show(0, 7, "another text")
     with pytest.raises(ValueError, match="too many or too large"):
-        lecture.show(1, "x" * 70_000_000)
+        lecture.show(1, 7, "x" * 70_000_000)
 
 
 def test_at_the_end_everything_is_forgotten():
     lecture = Lecture(lambda: 0.0)
-    lecture.show(0, "<p>a</p>")
+    lecture.show(0, 7, "<p>a</p>")
     lecture.ask("q", "?", ["a", "b"], "")
     lecture.poll.vote("x", 0)
     lecture.end()

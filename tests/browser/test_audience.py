@@ -167,7 +167,7 @@ def test_a_phone_follows_the_slide_and_looks_back_but_never_ahead(hall):
     hall.go(1, 1)  # who looks back is not disturbed
     hall.come_in().get_by_text("second step").wait_for()
     hall.go(2)
-    phone.get_by_text("Looking back: slide 1 of 3 so far").wait_for()
+    phone.get_by_text("Looking back: slide 1").wait_for()
     phone.get_by_role("button", name="now").click()
     phone.get_by_text("What does").first.wait_for()
     phone.get_by_role("button", name="earlier").click()
@@ -230,8 +230,55 @@ def test_the_end_of_the_lecture_is_said_in_words(hall):
     hall.open()
     phone = hall.come_in()
     hall.deck.evaluate("deck.ended.emit()")
+    hall.deck.get_by_role("button", name="End it for the class").click()
     phone.get_by_text("The lecture is over.").wait_for()
+    assert hall.deck.get_by_text("The class is still open").count() == 0
     assert hall.deck.locator(".slamlab-class").count() == 0
+
+
+def test_a_deck_that_was_left_and_started_again_has_its_class(hall):
+    hall.open()
+    phone = hall.come_in()
+    hall.deck.get_by_role("button", name="hide").click()
+    hall.go(2)
+    hall.deck.get_by_role("button", name="ask the class").click()
+    phone.locator(".choices button").first.wait_for()
+    hall.deck.evaluate("deck.startAgain()")
+    phone.locator("#poll").wait_for(state="hidden")
+    assert hall.deck.get_by_text("The class is still open").count() == 0
+    hall.go(1)
+    phone.get_by_role("heading", name="Two").wait_for()
+    hall.go(2)
+    hall.deck.get_by_role("button", name="ask the class").click()
+    phone.locator(".choices button").first.wait_for()
+    assert hall.errors == hall.abroad == []
+
+
+def test_a_question_is_asked_closed_and_put_away_by_one_key(hall):
+    hall.open()
+    phone = hall.come_in()
+    hall.deck.get_by_role("button", name="hide").click()
+    hall.go(2)
+    hall.deck.keyboard.press("q")
+    phone.locator(".choices button").nth(1).click()
+    said = "deck.ofClass == '1 answer, 1 phone: A 0, B 1. q {}.'"
+    hall.deck.wait_for_function(said.format("closes the poll and shows the bars"))
+    hall.deck.keyboard.press("q")
+    phone.get_by_text("One answer.").wait_for()
+    hall.deck.locator(".slamlab-bars li").first.wait_for()
+    hall.deck.wait_for_function(said.format("puts it away"))
+    hall.deck.keyboard.press("q")
+    phone.locator("#poll").wait_for(state="hidden")
+    assert hall.deck.evaluate("deck.ofClass") == "q asks the class."
+    hall.go(1)
+    assert hall.deck.evaluate("deck.ofClass") == ""
+
+
+def test_who_waits_for_phones_to_come_in_sees_them_come(hall):
+    hall.open()
+    for number in ("1 phone here.", "2 phones here."):
+        hall.come_in()
+        hall.deck.get_by_text(number).wait_for()
 
 
 def test_a_phone_that_loses_the_network_comes_back_by_itself(hall):

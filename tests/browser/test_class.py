@@ -46,10 +46,15 @@ def test_a_phone_is_asked_before_the_outcome_is_shown(lecture):
     phone = come_in(page)
     page.get_by_role("button", name="hide").click()
     go_to(lecture, QUESTION)
-    page.get_by_role("button", name="ask the class").click()
+    with page.expect_popup() as opened:
+        page.keyboard.press("p")
+    presenter = opened.value
+    presenter.get_by_text("q asks the class.").wait_for()
+    presenter.keyboard.press("q")
     phone.get_by_label("Your number [beams]").fill("398")
     phone.get_by_role("button", name="send").click()
     page.get_by_text("1 answer, 1 phone").wait_for()
+    presenter.get_by_text("1 answer, 1 phone. q closes the poll").wait_for()
     page.get_by_role("button", name="show bars").click()
     page.locator(".slamlab-bars li", has_text="398").wait_for()
     seen = lecture.seen

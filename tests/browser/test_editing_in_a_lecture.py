@@ -59,6 +59,59 @@ def test_a_cell_that_is_unlocked_locks_the_one_before(two_cells):
     assert two_cells.runs
 
 
+def test_what_is_typed_after_a_run_is_the_cell_s(two_cells):
+    page, editor = two_cells.page, two_cells.page.locator(f"{UNLOCKED} .cm-content")
+    two_cells.press("e")
+    for number in ("22", "33"):
+        page.keyboard.press("Control+a")
+        page.keyboard.type(f"two = {number}; print('is', two)")
+        page.keyboard.press("Control+Enter")
+        page.get_by_text(f"is {number}", exact=True).wait_for()
+        page.keyboard.press("Shift+Home")  # no key of the deck
+        assert editor.evaluate("(one) => one.contains(document.activeElement)")
+    page.keyboard.press("Control+Enter")
+    page.keyboard.type("#")  # while it runs
+    page.wait_for_function(f"() => !({NOTICE})()")
+    assert "#" in editor.inner_text()
+    assert two_cells.seen["stop"] == 0
+
+
+def test_a_cell_that_is_left_is_locked(visit, lab_folder):
+    cells = [slide(v4.new_code_cell(text)) for text in ("one = 1", "two = 2")]
+    shown = lecture(visit, lab_folder, *cells)
+    visit.page.wait_for_selector(".slamlab-deck .slamlab-bar")
+    shown.press("e")
+    shown.press("PageDown")
+    assert visit.page.locator(UNLOCKED).count() == 0
+    shown.press("n")  # no letter of a cell
+    assert visit.page.locator(".slamlab-number").is_hidden()
+    shown.press("Escape")
+    assert not shown.runs
+
+
+def test_what_runs_is_stopped_and_a_kernel_restarted_without_leaving_the_slides(visit, lab_folder):
+    codes = "one = 1", "import time\nprint('begun')\nwhile True:\n    time.sleep(0.01)"
+    shown = lecture(visit, lab_folder, *(slide(v4.new_code_cell(code)) for code in codes))
+    page = visit.page
+    page.wait_for_selector(".slamlab-deck .slamlab-bar")
+    shown.press("PageDown")
+    shown.press("Control+Enter")
+    page.get_by_text("begun", exact=True).wait_for()
+    shown.press("s")
+    page.locator(".slamlab-notice", has_text="stopped with an error").wait_for()
+    shown.press("PageUp")
+    first = page.locator(".jp-InputPrompt").first
+    shown.press("R")
+    page.locator(".slamlab-notice", has_text="once more").wait_for()
+    assert first.text_content() == "[ ]:"
+    shown.press("R")
+    page.locator(".slamlab-notice", has_text="what follows").wait_for()
+    assert first.text_content() == "[1]:"  # of a new kernel
+    shown.press("s")
+    page.locator(".slamlab-notice", has_text="stopped with an error").wait_for()
+    assert shown.runs
+
+
 def test_running_is_said_as_long_as_it_runs(visit, lab_folder):
     go = lab_folder / "go"
     code = f"""
@@ -71,8 +124,11 @@ print('done')"""
     shown.press("Control+Enter")
     visit.page.wait_for_timeout(4500)  # longer than other notices stay
     assert visit.page.evaluate(NOTICE) == "running …"
+    busy = visit.page.locator(".slamlab-busy")
+    busy.wait_for()  # whatever it was that made the kernel compute
     go.touch()
     visit.page.get_by_text("done", exact=True).wait_for()
+    busy.wait_for(state="hidden")
     visit.page.wait_for_function(f"() => !({NOTICE})()")
 
 

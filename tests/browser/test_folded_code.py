@@ -102,6 +102,18 @@ def test_answers_stay_folded_when_all_is_run_and_open_once_they_are_asked_for(vi
     assert (answer.count(), words.count()) == (1, 1)
 
 
+def test_a_lesson_that_was_only_shown_is_as_it_was(visit, question):
+    lecture = Lecture(visit)
+    lecture.start()
+    texts = "the answer", "What it means."
+    answer, words = (question.get_by_text(text).locator("visible=true") for text in texts)
+    lecture.go_on_to("what it means", words.count)
+    assert answer.count() == 1
+    lecture.end()
+    assert question.get_by_role("button", name="Restore it").count() == 0
+    assert (answer.count(), words.count()) == (0, 0)
+
+
 def test_a_slide_has_no_more_of_the_code_than_the_notebook(visit, lab_folder):
     write(
         lab_folder / HELPED,

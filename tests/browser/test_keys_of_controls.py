@@ -94,6 +94,23 @@ def test_on_a_slide_the_cell_whose_control_was_touched_is_run(page, visit):
     assert page.locator(LIST).is_visible()  # the slide stays
 
 
+def test_a_slide_s_keys_work_after_a_control_was_used(page, visit):
+    lecture = Lecture(visit)
+    lecture.start()
+    lecture.press("PageDown")
+    number = page.locator(".slamlab-number")
+    for control in (SLIDER, BUTTON):
+        press(page, control, "n")
+        assert number.is_hidden(), "a letter is no key of it"
+        press(page, control, "n")
+        assert number.is_visible()
+    page.locator(LIST).focus()
+    page.mouse.click(640, 700)  # beside it
+    lecture.press("n")
+    assert number.is_hidden()
+    lecture.press("n")
+
+
 def test_what_is_no_control_s_key_stays_the_notebook_s(page, visit):
     press(page, LIST, "ArrowDown", "Control+s")
     visit.wait_until_clean()

@@ -155,6 +155,12 @@ def test_remotes_and_the_keys_of_the_deck(lecture):
     cards = lecture.page.locator(".slamlab-overview button")
     assert f"/ {cards.count()}" in lecture.number
     assert cards.locator("> small:empty").count() == 0  # each has a picture or says something
+    for digit in "17":
+        lecture.press(digit)
+    lecture.press("Enter")
+    assert lecture.number.startswith("17 /")
+    lecture.press("F5")
+    lecture.press("o")
     lecture.press("ArrowRight")
     lecture.press("Enter")
     assert lecture.page.locator(".slamlab-overview").count() == 0

@@ -54,6 +54,8 @@ def test_both_windows_name_the_same_slide_after_each_of_500_steps_of_either(lect
 def test_it_shows_notes_with_formulas_this_slide_the_next_one_and_what_to_ask(lecture):
     presenter = lecture.presenter()
     presenter.locator("#notes mjx-container").wait_for()
+    fonts = "[...document.fonts].filter((font) => font.family.includes('MJX')).length"
+    assert presenter.evaluate(fonts), "formulas of the notes have no letters of their own"
     now, then = (presenter.frame_locator(f"#{name} iframe") for name in ("present", "next"))
     now.locator("p", has_text="What it is about.").wait_for()
     assert now.locator("p", has_text="And a fragment.").is_hidden()
@@ -118,6 +120,15 @@ def test_minutes_of_sections_are_planned_and_what_is_late_is_said(lecture):
         "no minutes are planned",
         "3 min planned",
     ]
+    lecture.press("End")
+    stands_at(presenter, STOPS - 1)
+    presenter.get_by_role("button", name="set the timer").click()
+    presenter.locator("#elapsed", has_text=re.compile("^15:")).wait_for()
+    presenter.locator("#plan", has_text=re.compile("^section 15–17 of 17 min$")).wait_for()
+    lecture.press("Home")
+    stands_at(presenter, 0)
+    presenter.get_by_role("button", name="set the timer").click()
+    presenter.locator("#elapsed", has_text=re.compile("^0:")).wait_for()
 
 
 def test_either_window_may_be_loaded_again_and_the_lecture_goes_on(lecture):

@@ -7,9 +7,11 @@ import zlib
 
 import nbformat
 import pytest
+from nbformat.v4 import new_output
 
 from slamlab.cli import main
 from slamlab.lecturing import headless
+from slamlab.lecturing.shown_lesson import SCREEN, shown
 
 BLUE, RED = b"0 .4471 .698", b".8353 .3686 0"  # colours of ink, as a PDF has them
 
@@ -66,6 +68,20 @@ def test_a_handout_has_a_page_for_each_slide_and_its_text(write, tmp_path):
     count, sizes, data = pages(out)
     assert count == 2 and sizes == {(960.0, 540.0)}
     assert b"/Font" in data  # text, no picture of it
+
+
+@pytest.mark.slow
+def test_paper_does_not_ask_to_run_a_cell(write):
+    notebook = write()
+    lesson = nbformat.read(notebook, 4)
+    texts = "Run this cell to answer.", "Run this cell for its controls.", "Run this cell twice."
+    lesson.cells[-1].outputs = [new_output("display_data", {"text/plain": text}) for text in texts]
+    nbformat.write(lesson, notebook)
+    with shown(notebook, SCREEN) as page:
+        page.begin()
+        page.ask("handout.js", "leaves", {"notes": False})
+        said = page.page.locator(".slamlab-book").inner_text()
+    assert [text in said for text in texts] == [False, False, True]
 
 
 @pytest.mark.slow

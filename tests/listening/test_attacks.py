@@ -213,7 +213,7 @@ async def test_only_what_was_shown_is_given_and_nothing_ahead():
             await here.do(
                 "PUT",
                 "/slide",
-                {"slide": number, "html": f"<p>{number}</p><img src='{picture()}'>"},
+                {"slide": number, "place": 9, "html": f"<p>{number}</p><img src='{picture()}'>"},
             )
         state = await phone.state()
         assert (state["shown"], list(state["slides"])) == (5, ["2", "5"])
@@ -246,7 +246,7 @@ async def test_a_phone_that_waits_hears_of_a_change_and_of_the_end():
         phone = here.phone()
         known = (await phone.state())["version"]
         waiting = asyncio.create_task(phone.ask("GET", f"/state/{known}"))
-        await here.do("PUT", "/slide", {"slide": 0, "html": "<p>first</p>"})
+        await here.do("PUT", "/slide", {"slide": 0, "place": 1, "html": "<p>first</p>"})
         heard = json.loads((await waiting)[2])
         assert (heard["shown"], heard["over"]) == (0, False)
         waiting = asyncio.create_task(phone.ask("GET", f"/state/{heard['version']}"))
@@ -284,12 +284,9 @@ async def test_a_phone_controls_nothing_and_the_page_s_key_opens_no_phone_s_door
 ODD_SLIDES = [
     {},
     {"slide": 0},
-    {"slide": "0", "html": ""},
-    {"slide": True, "html": ""},
-    {"slide": -1, "html": ""},
-    {"slide": 1000, "html": ""},
-    {"slide": 1.0, "html": ""},
-    {"slide": 0, "html": None},
+    {"slide": 0, "place": 1, "html": None},
+    *({"slide": odd, "place": 1, "html": ""} for odd in ("0", True, -1, 1000, 1.0)),
+    *({"slide": 0, "place": odd, "html": ""} for odd in (None, "1", True, -1, 1000, 1.0)),
 ]
 ODD_POLLS = [
     {},
@@ -328,7 +325,7 @@ async def test_the_control_says_what_it_cannot_do_and_goes_on():
 @in_a_loop
 async def test_the_page_that_is_shipped_is_given_to_everybody_and_holds_no_secret():
     with hall() as here:
-        await here.do("PUT", "/slide", {"slide": 0, "html": "<p>shown</p>"})
+        await here.do("PUT", "/slide", {"slide": 0, "place": 1, "html": "<p>shown</p>"})
         for path in phones.PAGE:
             status, _, body = await Client(here.port).ask("GET", path)
             assert status == 200

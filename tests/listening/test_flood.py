@@ -97,7 +97,7 @@ async def flood(told, served, connections):
 async def hold(told, addresses, flooding):
     """Hold a lecture with phones at these addresses, and something that goes on besides."""
     lecturer = Lecturer(told)
-    await lecturer.do("PUT", "/slide", {"slide": 3, "html": SLIDE})
+    await lecturer.do("PUT", "/slide", {"slide": 3, "place": 2, "html": SLIDE})
     poll = {"question": "05-turn", "text": "Where?", "choices": ["left", "right"], "unit": ""}
     await lecturer.do("PUT", "/poll", poll)
     flooding = asyncio.create_task(flooding)

@@ -64,3 +64,8 @@ MADE = "made = {\n" + 7 * "    'name': 1,\n" + "}\nfor one in made:\n    made[on
 def test_a_table_and_a_loop_say_nothing_without_a_comment_before_them(says_nothing):
     cells = [MADE, f"# one more for each\n{MADE}", f"total = sum(made)\n{MADE}", "made = {\n}"]
     assert says_nothing([{"source": cell} for cell in cells]) == [True, False, False, False]
+
+
+def test_the_name_alone_of_what_is_shown_says_nothing(says_nothing):
+    cells = [f"{MADE}\nmade", f"total = sum(made)\n{MADE}\nmade"]
+    assert says_nothing([{"source": cell} for cell in cells]) == [True, False]

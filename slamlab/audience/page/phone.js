@@ -4,7 +4,7 @@
 const at = (id) => document.getElementById(id);
 const sleep = (ms) => new Promise((done) => { setTimeout(done, ms); });
 const NOTHING_KNOWN = 999999999;
-const seen = new Map(); // slide's number to {version, html}
+const seen = new Map(); // slide's number to {version, place, html}
 let state = null;
 let looking = null; // the slide looked back at; null follows the lecture
 let drawn = "";
@@ -102,8 +102,8 @@ async function drawSlide() {
   const found = await slide(number, state.slides[number]);
   if (!(found?.version >= state.slides[number])) return false;
   if ((looking ?? state.shown) !== number) return true; // gone on meanwhile
-  const place = `slide ${which + 1} of ${numbers.length} so far`;
-  at("which").textContent = number === state.shown ? `Shown now: ${place}` : `Looking back: ${place}`;
+  // numbered as on the lecturer's screen
+  at("which").textContent = `${number === state.shown ? "Shown now" : "Looking back"}: slide ${found.place}`;
   const drawing = `${number} ${found.version}`;
   if (drawn === drawing) return true;
   if (drawn.split(" ")[0] !== String(number)) scrollTo(0, 0);

@@ -9,6 +9,7 @@ import { isShown } from "./stops.js";
 
 const PAUSE = 500; // [ms] between two slides sent, at least
 const COUNTING = 1000; // [ms] between two looks at the counts
+const LIVING = 30000; // [ms] between two signs of life
 
 const starting = (host) => `print(__import__("json").dumps(__import__("slamlab.audience").audience.start(${
   JSON.stringify(location.origin)}, host=${JSON.stringify(host)})))`;
@@ -42,8 +43,10 @@ class Audience {
     this.status.setAttribute("role", "status");
     deck.button("class", "let the class see the slide on their phones, and ask them", () => this.toggle());
     deck.key("a", "the class: address, code, phones", () => this.toggle());
+    deck.key("q", "the class's question: ask it, close it with bars, put it away", () => this.goOn());
     deck.changed.connect(() => this.changed());
-    deck.ended.connect(() => this.end());
+    deck.ended.connect(() => this.leave());
+    this.comeBack();
   }
 
   // ---- the process --------------------------------------------------------------------------------
@@ -58,9 +61,14 @@ class Audience {
       this.offer(`It did not start: ${error.message ?? error}`);
       return;
     }
-    this.every(30000, () => this.alive());
-    this.address = 0;
+    this.begin();
     this.showWay();
+  }
+
+  begin() {
+    this.every(LIVING, () => this.alive());
+    this.every(COUNTING, () => this.panel.isConnected && this.alive()); // somebody waits for phones to come in
+    this.address = 0;
     this.changed();
   }
 
@@ -103,11 +111,36 @@ class Audience {
 
   end() {
     if (this.told) this.ask("POST", "/end").catch(() => {});
+    this.putAway();
+  }
+
+  putAway() {
     for (const timer of this.timers) clearInterval(timer);
     this.timers.clear();
     clearTimeout(this.sending);
     this.told = this.question = this.sending = null;
     for (const shown of [this.panel, this.strip, this.bars]) shown.remove();
+    this.say();
+  }
+
+  // The deck is left, perhaps for a moment only: phones need no new code when it comes back. The process ends
+  // by itself where it does not.
+  leave() {
+    const { told, deck } = this;
+    if (this.question) this.done();
+    this.putAway();
+    if (!told) return;
+    const over = () => { this.told = told; this.end(); deck.panel.slamlabClass.take(); };
+    const shown = deck.strip("The class is still open: phones keep the last slide. ", button("End it for the class", over));
+    deck.panel.slamlabClass = { told, take() { shown.dispose(); delete deck.panel.slamlabClass; } };
+  }
+
+  comeBack() {
+    const left = this.deck.panel.slamlabClass;
+    if (!left) return;
+    this.told = left.told;
+    left.take();
+    this.begin();
   }
 
   // ---- the panel: how to come in ------------------------------------------------------------------
@@ -174,10 +207,10 @@ class Audience {
   get place() { return this.deck.panel.content.widgets.indexOf(this.cells()[0]); }
 
   async send() {
-    const slide = this.place;
+    const slide = this.place, place = this.deck.slide + 1;
     const html = (await Promise.all(this.cells().map((cell) => this.copy(cell.node)))).join("\n");
     // gone on while it was copied: the change has ordered another copy
-    if (this.told && slide >= 0 && slide === this.place) await this.tell("PUT", "/slide", { slide, html });
+    if (this.told && slide >= 0 && slide === this.place) await this.tell("PUT", "/slide", { slide, place, html });
   }
 
   copy(part) {
@@ -192,9 +225,12 @@ class Audience {
 
   // ---- a question ---------------------------------------------------------------------------------
 
+  get asked() { return this.cells().map(questionOf).findLast(Boolean); }
+
   drawStrip() {
     if (this.question) return;
-    const question = this.cells().map(questionOf).findLast(Boolean);
+    const question = this.asked;
+    this.say(question ? "q asks the class." : "");
     if (!question) {
       this.strip.remove();
       return;
@@ -202,6 +238,21 @@ class Audience {
     this.status.textContent = "";
     this.strip.replaceChildren(button("ask the class", () => this.open(question)), this.status);
     this.deck.bar.node.append(this.strip);
+  }
+
+  // What the presenter's window says of the class.
+  say(words = "") {
+    if (this.deck.ofClass === words) return;
+    this.deck.ofClass = words;
+    this.deck.classChanged.emit(this.deck);
+  }
+
+  // The next step of a question, by a key: it is asked, closed, put away.
+  goOn() {
+    if (!this.told) this.deck.notice("The class is not open: a opens it.");
+    else if (this.question) this.question.over ? this.done() : this.closePoll();
+    else if (this.asked) this.open(this.asked);
+    else this.deck.notice("There is no question on this slide.");
   }
 
   async open(question) {
@@ -223,6 +274,8 @@ class Audience {
     const counts = await this.tell("GET", "/poll");
     if (!counts || !this.question) return;
     this.status.textContent = `${many(counts.answers, "answer")}, ${many(counts.phones, "phone")}`;
+    const each = this.question.choices ? `: ${counts.counts.map((count, n) => `${LETTERS[n]} ${count}`).join(", ")}` : "";
+    this.say(`${this.status.textContent}${each}. q ${this.question.over ? "puts it away" : "closes the poll and shows the bars"}.`);
     drawBars(this.bars, this.question, counts);
   }
 
@@ -240,8 +293,10 @@ class Audience {
 
   async closePoll() {
     if (!await this.tell("POST", "/poll/close")) return;
+    this.question.over = true;
     this.show(true);
     this.drawControls(false);
+    this.count();
   }
 
   show(on) {

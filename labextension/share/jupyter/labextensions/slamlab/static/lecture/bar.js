@@ -4,6 +4,8 @@ import { button, element } from "../element.js";
 import { clockFace } from "./plan.js";
 
 const TELL = 4000; // ms a notice stays
+const AWAY = 600000; // ms for which a lecture may be left
+const AT_ONCE = 1000; // ms of computing that need no word
 
 export class Bar {
   constructor(deck) {
@@ -15,10 +17,13 @@ export class Bar {
     this.told = element("span", "slamlab-notice");
     this.told.setAttribute("role", "status");
     this.buttons = element("span", "slamlab-buttons");
-    this.node.append(this.buttons, this.told, this.section, this.timer, this.number);
+    this.busy = element("span", "slamlab-busy", "computing …"); // a figure that does not follow its slider yet
+    this.busy.hidden = true;
+    this.node.append(this.buttons, this.busy, this.told, this.section, this.timer, this.number);
     deck.layer.append(this.node);
     this.timer.hidden = true;
-    this.began = Date.now();
+    const { began, left } = deck.panel.slamlabTime ?? {}; // who leaves the slides for a moment has the same lecture
+    this.began = Date.now() - left < AWAY ? began : Date.now();
     const act = (key) => () => deck.keys.get(key).action();
     this.button("◀", "Back (PageUp)", act("PageUp"));
     this.button("▶", "Next (PageDown)", act("PageDown"));
@@ -27,8 +32,16 @@ export class Bar {
     this.button("?", "Keys", act("?"));
     const clock = setInterval(() => this.#tick(), 1000);
     deck.changed.connect(() => this.#show());
-    deck.ended.connect(() => { clearInterval(clock); this.node.remove(); });
+    deck.ended.connect(() => {
+      clearInterval(clock);
+      clearTimeout(this.waiting);
+      deck.panel.slamlabTime = { began: this.began, left: Date.now() };
+      this.node.remove();
+    });
     const status = (_, now) => {
+      clearTimeout(this.waiting);
+      if (now === "busy") this.waiting = setTimeout(() => { this.busy.hidden = false; }, AT_ONCE);
+      else this.busy.hidden = true;
       if (now === "dead" || now === "autorestarting") {
         this.notice("The kernel has died. r runs all cells up to here once it is back.", Infinity);
       }

@@ -34,6 +34,8 @@ function draw(notebook, indices) {
 export class Deck {
   changed = new Signal(); // after each change of stop, size or content
   ended = new Signal();
+  classChanged = new Signal(); // what the presenter's window says of the class
+  ofClass = "";
   at = 0;
   size = 1;
   stops = [];
@@ -153,14 +155,14 @@ export class Deck {
     notebook.node.removeEventListener("scroll", this.unscroll, true);
     this.release();
     notebook.widgets.forEach(giveFoldingBack);
-    this.ended.emit(this);
+    refold(notebook);
+    this.ended.emit(this); // the lesson is as it was, but for what was changed
     panel.node.hidePopover();
     panel.node.removeAttribute("popover");
     panel.node.classList.remove(PANEL);
     this.layer.remove();
     page.removeAttribute("style");
     page.classList.remove("slamlab-columns");
-    refold(notebook);
     for (const cell of notebook.widgets) {
       cell.node.classList.remove("slamlab-off", "slamlab-later", "slamlab-right");
       for (const one of cell.node.querySelectorAll(".slamlab-later, .slamlab-gone")) {

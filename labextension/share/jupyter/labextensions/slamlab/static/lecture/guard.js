@@ -8,11 +8,12 @@ const EDITOR = ".slamlab-unlocked .cm-content";
 // what remotes send, and what runs a cell: no control and no editor has use for it
 const ALWAYS = new Set(["PageDown", "PageUp", "F5", "Shift+F5", "Escape", "Ctrl+Enter", "Shift+Enter"]);
 const SHORT = new Set([".", "i", "p"]); // remotes and tools, but while one types
+const NO_LETTERS = ".jp-OutputArea-output :is(button, [role=slider])"; // those that were dragged or pressed keep the focus
 const BROWSER = new Set(["F11", "F12", "Tab"]); // what the deck leaves to the browser
 
 // A key as deck.keys names it.
 export const nameOf = (event) => {
-  const shift = event.shiftKey && [" ", "F5", "Enter"].includes(event.key) ? "Shift+" : "";
+  const shift = event.shiftKey && (event.key === " " || event.key.length > 1) ? "Shift+" : ""; // a sign has its own
   return `${event.ctrlKey || event.metaKey ? "Ctrl+" : ""}${shift}${event.key}`;
 };
 
@@ -31,7 +32,8 @@ export function guard(deck) {
       return;
     }
     const typing = focus.matches("input:not([type=range]), textarea, select, [contenteditable=true]");
-    const own = ALWAYS.has(name) || (SHORT.has(name) && !typing); // no control has use for these
+    const own = ALWAYS.has(name) || (SHORT.has(name) && !typing) // no control has use for these
+      || (focus.matches(NO_LETTERS) && /^[^ ]$/.test(name));
     if (focus.closest(CONTROL) && !own) return;
     if (act(name, event)) return;
     event.stopImmediatePropagation();
@@ -50,6 +52,7 @@ export function guard(deck) {
     if (!panel.node.contains(event.target)) return;
     if (event.type === "pointerdown") deck.touched = event.target.closest(".jp-Cell") ?? deck.touched;
     if (event.target.closest(`${POINTED}, ${EDITOR}`)) return;
+    if (event.type === "pointerdown") document.activeElement?.closest(CONTROL)?.blur(); // its keys are the deck's again
     stop(event);
   };
   const inside = (event) => {

@@ -5,6 +5,7 @@ import { element } from "../element.js";
 import { settled } from "./frames.js";
 import { notesOf, pictureOf } from "./picture.js";
 
+const WAITS = /^Run this cell (for its controls|to answer)\.$/; // paper has none
 const STROKE = ".slamlab-stroke:not(.slamlab-unseen)";
 
 // Put a leaf for every page of the deck in place of all that is shown: how many there are, whether the
@@ -19,6 +20,9 @@ export async function leaves(panel, { notes }) {
     const said = notes && next?.slide !== slide ? notesOf(deck, slide) : [];
     book.append(element("section", "", pictureOf(deck, deck.at), ...said.map((note) => element("aside", "", note))));
     if (!next) break;
+  }
+  for (const output of book.querySelectorAll(".jp-OutputArea-output")) {
+    if (WAITS.test(output.textContent.trim())) output.style.visibility = "hidden"; // its room is kept: ink stays in place
   }
   const size = { width: window.innerWidth, height: window.innerHeight };
   deck.end();

@@ -1,7 +1,7 @@
 // Keys of the deck, remote controls among them: what each does is said by the help.
 
 import { toggleOverview } from "./overview.js";
-import { foldOrUnfold, runAll, runCell, unlock } from "./running.js";
+import { foldOrUnfold, interrupt, restart, runAll, runCell, unlock } from "./running.js";
 
 // By key: {does, action}.
 export function keysOf(deck) {
@@ -17,10 +17,12 @@ export function keysOf(deck) {
   add(["Shift+F5"], "this slide from its beginning", () => deck.goToSlide(deck.slide));
   add(["End"], "last slide", () => deck.go(deck.stops.length - 1));
   add([".", "b"], "blank, and back", () => deck.layer.classList.toggle("slamlab-blank"));
-  add(["o"], "overview", () => toggleOverview(deck));
+  add(["o"], "overview: arrows or a number, and Enter", () => toggleOverview(deck));
   add(["c"], "code: folded or whole", () => foldOrUnfold(deck));
   add(["Ctrl+Enter", "Shift+Enter"], "run this cell", () => runCell(deck));
   add(["r"], "run all cells up to here", () => runAll(deck));
+  add(["s"], "stop what runs", () => interrupt(deck));
+  add(["R"], "restart the kernel, and run all cells, those up to here first (press it twice)", () => restart(deck));
   add(["e"], "unlock this cell's code, to change it", () => unlock(deck));
   add(["n"], "slide number", () => deck.bar.toggle("number"));
   add(["t"], "timer", () => deck.bar.toggle("timer"));

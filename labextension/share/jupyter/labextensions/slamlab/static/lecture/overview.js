@@ -16,6 +16,7 @@ export function toggleOverview(deck) {
   list.append(...deck.slides.map((slide, number) => card(deck, slide, number)));
   deck.layer.append(list);
   list.querySelectorAll("button")[deck.slide].focus();
+  list.typed = ""; // digits of a slide's number
   list.addEventListener("keydown", (event) => step(list, event));
 }
 
@@ -47,6 +48,11 @@ function step(list, event) {
   const buttons = [...list.querySelectorAll("button")];
   const by = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 }[event.key];
   if (event.key === "o") list.remove();
+  if (/^[0-9]$/.test(event.key)) {
+    const goesOn = Number(list.typed + event.key) <= buttons.length;
+    list.typed = goesOn ? list.typed + event.key : event.key;
+    buttons[Number(list.typed) - 1]?.focus();
+  }
   if (!by) return;
   buttons[buttons.indexOf(document.activeElement) + by]?.focus();
   event.preventDefault();

@@ -24,6 +24,9 @@ export function slidesOfSection(slides, slide) {
   return [section?.slide ?? 0, (next?.slide ?? slides.length) - 1];
 }
 
+// When the section of a slide is planned to begin [minutes].
+export const plannedAt = (slides, slide) => sectionAt(sectionsOf(slides), slide)?.from ?? 0;
+
 // What is to be said of the time at a slide, `elapsed` minutes after the beginning.
 export function planAt(slides, slide, elapsed) {
   const sections = sectionsOf(slides);

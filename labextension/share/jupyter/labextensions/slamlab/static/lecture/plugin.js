@@ -58,6 +58,7 @@ async function lecture(panel, app, Widget, cell) {
   }
   const kept = keepFile(panel, Widget);
   const deck = new Deck(panel, app);
+  deck.strip = (text, ...buttons) => strip(panel, Widget, text, ...buttons);
   deck.ended.connect(() => kept.end());
   deck.start(cell);
   panel.slamlabDeck = deck; // for tests

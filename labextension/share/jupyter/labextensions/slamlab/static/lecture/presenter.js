@@ -4,11 +4,12 @@
 import { element, giveBackFocus } from "../element.js";
 import { channelOf } from "./channel.js";
 import { nameOf } from "./guard.js";
-import { clockFace, planAt } from "./plan.js";
+import { clockFace, planAt, plannedAt } from "./plan.js";
 import { Screen } from "./screen.js";
 
 const ASKING = 2000; // ms between two questions
 const UNANSWERED = 3; // questions until it is told
+const FONTS = /@font-face\s*\{[^}]*\bMJX[^}]*\}/g; // of formulas
 const KERNEL = {
   none: "There is no kernel: sliders and figures do not move.",
   dead: "The kernel has died: sliders and figures do not move. Restart it in the notebook; the slides go on.",
@@ -77,6 +78,7 @@ function showState(told) {
   document.title = `Presenter: ${at("place").textContent}`;
   at("slides").value = told.slide;
   say([told.blank && "The screen is blank: . shows the slide again.", KERNEL[told.kernel]].filter(Boolean).join(" "));
+  at("class").textContent = told.ofClass;
   present.resize(told.size);
   next.resize(told.size);
   tick();
@@ -113,8 +115,9 @@ function showStyles(told) {
   document.documentElement.toggleAttribute("data-dark", dark);
   const formulas = told.sheets.find(({ id }) => id === "MJX-CHTML-styles"); // notes have formulas, too
   if (!formulas) return;
+  const fonts = told.sheets.flatMap(({ text }) => text?.match(FONTS) ?? []); // in a sheet of their own
   const style = at("formulas") ?? document.head.appendChild(Object.assign(document.createElement("style"), { id: "formulas" }));
-  style.textContent = formulas.text;
+  style.textContent = [formulas.text, ...fonts].join("\n");
 }
 
 function tick() {
@@ -139,7 +142,11 @@ document.querySelectorAll("[data-key]").forEach((button) => {
   button.addEventListener("click", () => tell({ key: button.dataset.key }));
 });
 at("slides").addEventListener("change", () => tell({ slide: Number(at("slides").value) }));
-at("again").addEventListener("click", () => { keep({ began: Date.now() }); tick(); });
+// after a break, or for the second part on another day
+at("again").addEventListener("click", () => {
+  keep({ began: Date.now() - 60000 * (state ? plannedAt(state.slides, state.slide) : 0) });
+  tick();
+});
 giveBackFocus(document);
 setInterval(tick, 1000);
 setInterval(ask, ASKING);

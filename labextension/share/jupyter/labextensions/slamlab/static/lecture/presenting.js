@@ -60,6 +60,7 @@ class Presenting {
     sessionContext.statusChanged.connect(status);
     window.addEventListener("pagehide", ended);
     deck.changed.connect(told);
+    deck.classChanged.connect(told);
     deck.ended.connect(() => {
       this.#wait();
       blanked.disconnect();
@@ -92,6 +93,7 @@ class Presenting {
       slides: deck.slides.map(({ title, minutes }) => ({ title, minutes })),
       kernel: this.#kernel(),
       blank: deck.layer.classList.contains("slamlab-blank"),
+      ofClass: deck.ofClass,
       began: deck.bar.began,
       keys: [...deck.keys].filter(([key]) => !OWN.has(key)).map(([key, { does }]) => [key, does]),
       size: [window.innerWidth, window.innerHeight],

@@ -6,6 +6,7 @@ import { saysLittle } from "./code.js";
 import { questionIn } from "../questions.js";
 
 const STEP = ".slamlab-step";
+const PARTS = ["outputHidden", "inputHidden"]; // of a cell
 
 const typeOf = (cell) => cell.model.getMetadata("slideshow")?.slide_type ?? "-";
 
@@ -98,14 +99,22 @@ export function reveal(notebook, stop, page, lines = Infinity) {
 
 // A folded answer waits with its room kept, like all that comes later.
 export function unfold(cell) {
-  if (isFolded(cell)) cell.outputHidden = false;
-  if (isAnswer(cell)) cell.inputHidden = false;
+  if (isFolded(cell)) open(cell, "outputHidden");
+  if (isAnswer(cell) && cell.inputHidden) open(cell, "inputHidden");
 }
 
-// Fold again the answers that nobody has seen.
+function open(cell, part) {
+  cell[part] = false;
+  cell.node.dataset[part] = "";
+}
+
+// Fold again what was unfolded: a lesson that was only shown is as it was.
 export function refold(notebook) {
   for (const cell of notebook.widgets) {
-    if (cell.outputArea?.node.classList.contains("slamlab-later")) cell.outputHidden = true;
-    if (isAnswer(cell) && cell.node.classList.contains("slamlab-later")) cell.inputHidden = true;
+    for (const part of PARTS) {
+      if (!(part in cell.node.dataset)) continue;
+      delete cell.node.dataset[part];
+      cell[part] = true;
+    }
   }
 }

@@ -4,7 +4,7 @@ import { questionIn } from "../questions.js";
 
 const SHORT = 6; // lines that need no folding
 const SUBJECT = "code"; // tag of a cell whose code is what the slide is about
-const SHOWS = /^(views\.|ax\.|fig\b|plt\.|display\(|with |for |@|\)|\]|\}|\w+ = \(?f?["'])/; // says little
+const SHOWS = /^(\w+$|views\.|ax\.|fig\b|plt\.|display\(|with |for |@|\)|\]|\}|\w+ = \(?f?["'])/; // says little
 const OPENS = /[([{,]$|= (\{\}|\[\])$/; // a statement's first line alone, or a beginning, says little, too
 const DRAWS = /^((\w+ = )?views\.|[)\]}])/; // the figure says more
 
