@@ -105,6 +105,7 @@ def _():
     for ax, covariance in zip(axes, [P, P_first, P_both], strict=True):
         views.correlation(correlation(covariance), ["r", "p1", "p2"], ax=ax)
         ax.set(xlabel="", ylabel="", aspect="equal", adjustable="box")
+    views.colour_bar(axes)
     views.show(fig, alt="Three correlation matrices: diagonal, then two blocks linked, then all.")
     sigmas = [np.sqrt(C[3, 3]) for C in (P, P_first, P_both)]
     print("σ of p1's x [m], before and after each sight:", np.round(sigmas, 3))
@@ -452,8 +453,8 @@ def _():
         claims.append(np.diag(P))
     rms = {name: 100 * np.sqrt(np.mean(np.square(e), axis=0)) for name, e in errors.items()}
     ys = {
-        "mean of readings": rms["mean"],
         "yours": rms["yours"],
+        "mean of readings": rms["mean"],
         "your claim": 100 * np.sqrt(np.mean(claims, axis=0)),
     }
     fig, ax = views.curves(np.arange(8), ys, "door", "error [cm]")
