@@ -195,7 +195,11 @@ def _():
     def spread(P):
         return 100 * np.sqrt(np.diag(P)[3:].reshape(-1, 2).sum(axis=1))
 
-    ys = {"before": spread(P), "the whole filter": spread(whole.P), "yours": spread(yours_P)}
+    ys = {
+        "before the sights": spread(P),
+        "the whole filter": spread(whole.P),
+        "yours": spread(yours_P),
+    }
     fig, _ = views.curves(np.arange(len(whole.ids)), ys, "landmark, as first met", "σ [cm]")
     views.show(
         fig, alt="How unsure each landmark is before and after: nearly all fall, seen or not."

@@ -511,7 +511,7 @@ def try_guess(reading, band_mm, window):
     fig, (whole, near) = views.panels(titles, (11, 5.2), shared=False)
     t = points[rows] @ [-np.sin(line[1]), np.cos(line[1])]
     layers = {
-        "scan": Points("before", points),
+        "other readings": Points("before", points),
         "in the window": Points("scan", points[rows]),
         "agree": Points("corrected", points[agree]),
         "guessed line": Segments("truth", along(*line, t.min() - 0.3, t.max() + 0.3)),

@@ -78,7 +78,9 @@ def _texts(shown):
 def _overlapping(fig, shown):
     """Pairs of words that stand on each other; labels of ticks are matplotlib's own care."""
     written = {*_headings(fig), *(text for ax in fig.axes for text in ax.texts)}
-    boxes = [(text.get_text(), text.get_window_extent()) for text in shown if text in written]
+    # the frame of slanted words is wider than they are
+    level = [text for text in shown if text in written and text.get_rotation() % 90 == 0]
+    boxes = [(text.get_text(), text.get_window_extent()) for text in level]
     for (one, here), (other, there) in combinations(boxes, 2):
         shared = here.intersection(here, there)
         if shared is not None and min(shared.width, shared.height) > TOUCH * fig.dpi / 72:
