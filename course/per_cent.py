@@ -46,7 +46,7 @@ def in_code(tree):
                 yield node.lineno, SAYS
         elif isinstance(node, ast.FormattedValue) and _ends_in_per_cent(node.format_spec):
             yield node.lineno, f'{SAYS}: write f"{{100 * share:.0f}} %"'
-        elif isinstance(node, ast.JoinedStr):
+        elif isinstance(node, ast.JoinedStr) and node not in in_specs:
             for value, behind in pairwise(node.values):
                 if isinstance(value, ast.FormattedValue) and _begins_with_per_cent(behind):
                     yield node.lineno, SAYS
