@@ -78,7 +78,8 @@ def _():
     box = predict(np.zeros(4), np.array(heading), np.array(way), np.zeros(2))
     w, theta = rng.uniform(*zip(way, heading, strict=True), (500, 2)).T
     fig, ax = views.axes("500 drives", size=(8, 5))
-    views.draw(ax, Points("sample", np.column_stack([w * np.cos(theta), w * np.sin(theta)])))
+    ends = np.column_stack([w * np.cos(theta), w * np.sin(theta)])
+    views.draw(ax, Points("sample", ends), label="samples")
     views.draw(ax, Boxes("your box", [box]))
     views.legend(ax)
     views.show(fig, alt=f"{len(w)} end points of drives on an arc and your box round them.")
