@@ -5,7 +5,7 @@ import importlib
 import re
 from itertools import pairwise
 
-from course import asking, equations, values, visible_code
+from course import asking, equations, per_cent, values, visible_code
 from course.exercise import SolutionError, solution_regions
 from course.figure_lint import figure_problems
 from course.source import CHECK, ID, METADATA, heading, main_line
@@ -113,6 +113,8 @@ def _code(source, cell):
         yield error.lineno or 0, f"no plain Python: {error.msg}"
         return
     yield from figure_problems(tree)
+    if not asking.asks(cell.text):  # its words are prose
+        yield from per_cent.in_code(tree)
     try:
         marked = solution_regions(cell.text)
     except SolutionError as error:
@@ -168,8 +170,8 @@ def _per_cent(source):
     """Problems of prose, that of questions too: a number and its % without the space."""
     for cell in source.cells:
         prose = cell.type == "markdown" or asking.asks(cell.text)
-        if prose and re.search(r"\d%", values.MARK.sub("", cell.text)):  # values get their space
-            yield cell, "a space stands before %, as in 38 %"
+        if prose and per_cent.in_prose(values.MARK.sub("", cell.text)):  # values get their space
+            yield cell, per_cent.SAYS
 
 
 def _first_and_last_cell(source):

@@ -51,5 +51,5 @@ def test_a_bisector_begins_at_its_corner(run):
 
 
 def test_an_interval_as_text():
-    assert percent([0.25, 0.1, 0.5]) == "25% (10% to 50%)" and percent(None) == "–"
+    assert percent([0.25, 0.1, 0.5]) == "25 % (10 % to 50 %)" and percent(None) == "–"
     assert cm([0.012, -0.001, 0.02], "+") == "+1.2 (-0.1 to +2.0)"

@@ -276,7 +276,9 @@ def _():
         ax.plot(lengths, sign * spread, color=views.COLOURS["truth"], lw=2, label=label)
     views.legend(ax, loc="upper left")
     held = np.mean(np.abs(ends) <= 2 * spread[-1])
-    views.show(fig, alt=f"{len(ends)} tracks fan out; {held:.0%} end between the formula's curves.")
+    views.show(
+        fig, alt=f"{len(ends)} tracks fan out; {100 * held:.0f} % end between the formula's curves."
+    )
 
 
 # %% [markdown]

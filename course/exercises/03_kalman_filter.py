@@ -164,8 +164,8 @@ def _():
     views.draw(
         ax, Points("carts", rng.multivariate_normal(x, P, 500)), color=views.COLOURS["sample"]
     )
-    views.draw(ax, Ellipses("before", [x], [P]), color=views.COLOURS["predicted"])
-    views.draw(ax, Ellipses("after", [after], [P_after]), color=views.COLOURS["corrected"])
+    views.draw(ax, Ellipses("predicted", [x], [P]))
+    views.draw(ax, Ellipses("corrected", [after], [P_after]), label="corrected")
     ax.axvline(4.0, color=views.COLOURS["scan"], linestyle=":", label="measured")
     ax.set(xlabel="position [m]", ylabel="speed [m/s]")
     views.legend(ax, loc="lower right")

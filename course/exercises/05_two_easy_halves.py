@@ -286,7 +286,10 @@ def _():
         ax.lines[-1].set(marker="x", markersize=7, markeredgewidth=1.5)
         ax.lines[-1].set(color=views.COLOURS["truth"], label="true landmark")
     views.legend_below(fig)
-    views.show(fig, alt="Left ellipses round the true landmarks; right as small, and beside them.")
+    views.show(
+        fig,
+        alt="Left the ellipses are hidden by the crosses of the true landmarks; right they are as small, and beside them.",
+    )
 
 
 # %% [markdown]

@@ -105,6 +105,7 @@ def _():
     for ax, covariance in zip(axes, [P, P_first, P_both], strict=True):
         views.correlation(correlation(covariance), ["r", "p1", "p2"], ax=ax)
         ax.set(xlabel="", ylabel="", aspect="equal", adjustable="box")
+    views.colour_bar(axes)
     views.show(fig, alt="Three correlation matrices: diagonal, then two blocks linked, then all.")
     sigmas = [np.sqrt(C[3, 3]) for C in (P, P_first, P_both)]
     print("σ of p1's x [m], before and after each sight:", np.round(sigmas, 3))
@@ -194,7 +195,11 @@ def _():
     def spread(P):
         return 100 * np.sqrt(np.diag(P)[3:].reshape(-1, 2).sum(axis=1))
 
-    ys = {"before": spread(P), "the whole filter": spread(whole.P), "yours": spread(yours_P)}
+    ys = {
+        "before the sights": spread(P),
+        "the whole filter": spread(whole.P),
+        "yours": spread(yours_P),
+    }
     fig, _ = views.curves(np.arange(len(whole.ids)), ys, "landmark, as first met", "σ [cm]")
     views.show(
         fig, alt="How unsure each landmark is before and after: nearly all fall, seen or not."
@@ -452,8 +457,8 @@ def _():
         claims.append(np.diag(P))
     rms = {name: 100 * np.sqrt(np.mean(np.square(e), axis=0)) for name, e in errors.items()}
     ys = {
-        "mean of readings": rms["mean"],
         "yours": rms["yours"],
+        "mean of readings": rms["mean"],
         "your claim": 100 * np.sqrt(np.mean(claims, axis=0)),
     }
     fig, ax = views.curves(np.arange(8), ys, "door", "error [cm]")

@@ -435,7 +435,10 @@ def _():
     views.draw(ax, Segments("naive", [[-2, 1, 2, 1]]), label="where the cart stood")
     views.draw(ax, Poses("truth", way))
     views.legend(ax, loc="upper left", bbox_to_anchor=(1, 1))
-    views.show(fig, alt="Four walls of a room, the lines of the map on them, and the robot's way.")
+    views.show(
+        fig,
+        alt="Four walls of a room, the lines of the map near them, the robot's way, and where the cart stood.",
+    )
 
 
 # %% [markdown]

@@ -78,7 +78,8 @@ def _():
     box = predict(np.zeros(4), np.array(heading), np.array(way), np.zeros(2))
     w, theta = rng.uniform(*zip(way, heading, strict=True), (500, 2)).T
     fig, ax = views.axes("500 drives", size=(8, 5))
-    views.draw(ax, Points("samples", np.column_stack([w * np.cos(theta), w * np.sin(theta)])))
+    ends = np.column_stack([w * np.cos(theta), w * np.sin(theta)])
+    views.draw(ax, Points("sample", ends), label="samples")
     views.draw(ax, Boxes("your box", [box]))
     views.legend(ax)
     views.show(fig, alt=f"{len(w)} end points of drives on an arc and your box round them.")
@@ -301,7 +302,7 @@ def _():
     stands, place = (rng.uniform(b[::2], b[1::2], (20_000, 2)) for b in (robot, box))
     agree = place[np.abs(np.hypot(*(place - stands).T) - 2.0) <= 0.1]
     fig, ax = views.boxes.scene("Your ring", (-3.6, 3.8, -1.2, 3.4), size=(8, 5.4))
-    views.draw(ax, Points("samples", agree), color=views.COLOURS["scan"])
+    views.draw(ax, Points("sample", agree), label="samples")
     views.draw(ax, Boxes("robot", [robot]))
     views.draw(ax, Boxes("before", [box]))
     if kept is not None:
@@ -451,7 +452,7 @@ def _():
         off = np.hypot(dx, dy) - seen[0], wrap(np.arctan2(dy, dx) - poses[:, 2] - seen[1])
         poses = poses[(np.abs(off) <= bounds[:, None]).all(axis=0)]
     fig, ax = views.boxes.scene("Yours, and one round", (-0.9, 1.6, -0.9, 0.6), size=(8, 5.2))
-    views.draw(ax, Points("agree with all", poses[:, :2]), color=views.COLOURS["scan"])
+    views.draw(ax, Points("sample", poses[:, :2]), label="agree with all")
     for name, box, colour in (("before", robot, "before"), ("yours", yours[0], "corrected")):
         views.draw(ax, Boxes(name, [box]), color=views.COLOURS[colour], linewidth=2.5)
     one_round = look(robot, heading, objects, z, bounds)[0]

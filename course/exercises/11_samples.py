@@ -332,7 +332,7 @@ check("11-kidnapped")
 def _():
     posts = np.array([[4.5, 3.5], [-4.5, 3.5], [-4.5, -3.5], [4.5, -3.5], [1.0, 3.0], [-2.0, -3.2]])
     C, R, errors = np.diag([0.04, 0.04]) ** 2, np.diag([0.15, 0.06]) ** 2, {}
-    for name, step in (("localise", localise), ("find_again", find_again)):
+    for name, step in (("find_again", find_again), ("localise", localise)):
         rng, truth = np.random.default_rng(3), np.array([-2.0, -1.0, 0.3])
         rows, weights, off = rng.normal(truth, 0.15, (300, 3)), np.full(300, 1 / 300), []
         own = np.random.default_rng(4)

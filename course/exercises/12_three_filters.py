@@ -197,7 +197,9 @@ check("12-interval")
 def _():
     for k, n in ((1, 6), (0, 6), (13, 80)):
         low, high = interval(k, n)
-        print(f"{k:2} of {n:2}: {k / n:4.0%}, truly {low:.0%} to {high:.0%}")
+        print(
+            f"{k:2} of {n:2}: {100 * k / n:3.0f} %, truly {100 * low:.0f} % to {100 * high:.0f} %"
+        )
 
 
 # %% [markdown] answers="ex12-none"

@@ -280,7 +280,7 @@ def _():
         said += [emir.feed(b"", begin + 0.1 * k) for k in range(1, 10 * seconds + 1)]
     bytes_14 = [int(text[29:31], 16) for text in said if len(text) == 36]
     path = np.array([byte - 256 if byte > 127 else byte for byte in bytes_14])
-    counts = {"as sent": path, "unwrapped": unwrap(path)}
+    counts = {"unwrapped": unwrap(path), "as sent": path}
     time = 0.1 * np.arange(len(path))
     fig, _ = views.curves(time, counts, "t [s]", "path [counts]", "ahead, then back")
     between = f"A saw-tooth between {path.min()} and {path.max()}"

@@ -40,15 +40,15 @@ from slamlab.checks import ask, attempt, check
 ask(
     "ex16-blue",
     "The next cell drives your SLAM through a practice world: a furnished floor that nobody has "
-    "drawn, with doors, corridors and loops. Black is where the robot drove, orange is what the "
+    "drawn, with doors, corridors and loops. Black is where the robot drove, red is what the "
     "wheels alone say, blue what your SLAM says. **Before you change anything in `MySlam`, where does "
     "the blue track lie?**",
     {
         "on the black one, nearly": "it would have to use the scan. Read what its step does with it.",
-        "on the orange one": "so far it adds up what the wheels tell, and that is what the orange track does.",
+        "on the red one": "so far it adds up what the wheels tell, and that is what the red track does.",
         "between the two": "that would take some use of what was scanned. Read what its step does.",
     },
-    right="on the orange one",
+    right="on the red one",
 )
 
 

@@ -227,7 +227,7 @@ def rolling(steps):
         b = linear_kalman.predict(b, cart.F, cart.Q)
     fig, ax = views.axes(f"after {steps * cart.T:.1f} s", size=(8, 4))
     views.draw(ax, Points("carts", carts), color=views.COLOURS["sample"])
-    views.draw(ax, Ellipses("belief, 95 %", [b.x], [b.P]), color=views.COLOURS["predicted"])
+    views.draw(ax, Ellipses("predicted", [b.x], [b.P]), label="belief, 95 %")
     ax.set(xlabel="position [m]", ylabel="speed [m/s]")
     views.legend(ax)
     return fig
@@ -879,8 +879,8 @@ def nees_chart(believed_slip, believed_noise):
     for each, colour, line in [(wrong, "naive", "--"), (found, "corrected", "-")]:
         mean = nees(truth - each.x, each.P).mean(axis=0)
         ax.plot(SECONDS, mean, line, color=views.COLOURS[colour])
-    ax.legend(["wrong filter", "right filter"])
-    views.band(ax, *band(2, 200))
+    views.band(ax, *band(2, 200), "95 % band")
+    ax.legend(["wrong filter", "right filter", "95 % band"])
     ax.set_ylim(0, 8)
     return fig
 
@@ -1053,7 +1053,7 @@ rng = np.random.default_rng(6)
 print("σ of the sensor   P − K S Kᵀ   (I − K H) P   Joseph")
 for sigma in (1, 1e-5, 1e-6):
     share = np.mean([negative(sigma, rng) for _ in range(500)], axis=0)
-    print(f"{sigma:13g} m" + "".join(f"{value:12.0%}" for value in share))
+    print(f"{sigma:13g} m" + "".join(f"{100 * value:10.0f} %" for value in share))
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # Where nearly all of a large number is taken away, what is left is rounding. Joseph's form adds two
@@ -1119,7 +1119,8 @@ sp.simplify(excess - 2 * s * (1 - s) * K_best * (a + R_1) * K_best.T)
 noises = innovations - errors[:, :1]
 smaller = (abs(innovations) < abs(errors[:, :1])) & (abs(innovations) < abs(noises))
 sigmas = [each.std().round(2) for each in (innovations, errors[:, 0], noises)]
-print(f"COIN: smaller than both on {smaller.mean():.0%}; σ of innovation, error, noise:", *sigmas)
+coin = f"COIN: smaller than both on {100 * smaller.mean():.0f} %"
+print(f"{coin}; σ of innovation, error, noise:", *sigmas)
 print("2.11: S_xv", E(error * innovation.T).shape, " S_vx", E(innovation * error.T).shape)
 for share in (-0.1, 0.5, 1.0, 1.1):
     least = np.linalg.eigvalsh(2 * share * (1 - share) * (streak.P - after.P)).min()

@@ -348,9 +348,12 @@ def where_may_it_be(landmarks_seen, heading_sigma):
 # %% slideshow={"slide_type": "fragment"} tags=["folded"]
 def draw_where(**values):
     marks, b, agree = where_may_it_be(**values)
-    layers = [Points("poses that agree", agree[:400, :2])]
-    layers += [Ellipses("corrected", [b.x[:2]], [b.P[:2, :2]]), Points("landmark", marks)]
-    title = f"{agreeing_poses.share_inside(b, agree):.0%} of the poses lie in the ellipse"
+    layers = {
+        "poses that agree": Points("sample", agree[:400, :2]),
+        "estimate, 95 %": Ellipses("corrected", [b.x[:2]], [b.P[:2, :2]]),
+        "landmark": Points("landmark", marks),
+    }
+    title = f"{100 * agreeing_poses.share_inside(b, agree):.0f} % of the poses lie in the ellipse"
     return views.side_by_side({title: layers}, size=(8, 5.5))[0]
 
 
@@ -396,7 +399,9 @@ def laps_located(off, count):
 
 exact, (low, high) = two_halves.mean_nees(laps_located(0, 40)), band(3, 40)
 within = np.mean((exact > low) & (exact < high))
-print(f"mean NEES {exact.mean():.2f}; from {low:.2f} to {high:.2f} at {within:.0%} of the steps")
+print(
+    f"mean NEES {exact.mean():.2f}; from {low:.2f} to {high:.2f} at {100 * within:.0f} % of the steps"
+)
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # On these laps nothing speaks against the filter. (Do not expect exactly 95 % of the steps: neighbouring steps of a run
@@ -634,7 +639,7 @@ def from_wrong_poses(share_of_the_wheels_error):
 views.explore(
     from_wrong_poses,
     lambda share_of_the_wheels_error: (
-        f"With {share_of_the_wheels_error:.0%} of the wheels' error in the poses the ellipses are as "
+        f"With {100 * share_of_the_wheels_error:.0f} % of the wheels' error in the poses the ellipses are as "
         "small as without, and lie beside the true landmarks."
     ),
     share_of_the_wheels_error=(0.0, 1.0, 1.0),

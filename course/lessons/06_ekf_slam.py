@@ -102,7 +102,7 @@ def second_look(place_sigma, heading_sigma):
     fig, ax = views.chart("innovation of the range [m]", "innovation of the bearing [rad]")
     fig.set_size_inches(7, 4)
     layers = {
-        "1000 robots": Points("scan", v),
+        "1000 robots": Points("sample", v),
         "without $P_{ri}$": Ellipses("naive", [[0, 0]], [apart]),
         "with $P_{ri}$": Ellipses("corrected", [[0, 0]], [together]),
     }
@@ -466,8 +466,8 @@ for name, rows in parts.items():
 # %% slideshow={"slide_type": "subslide"} answers="06-unseen" tags=["folded"]
 fig, ax = views.axes("Landmark a was seen again", size=(8, 6))
 for name, label, mean, cov in [
-    ("predicted", "before", x, P_was),
-    ("corrected", "after", story.x, story.P),
+    ("predicted", "predicted", x, P_was),
+    ("corrected", "corrected", story.x, story.P),
 ]:
     ellipses = Ellipses(
         name, [mean[s] for s in parts.values()], [cov[s, s] for s in parts.values()]
@@ -654,7 +654,7 @@ views.show(
 # area:
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="06-shrink"
-print(" ".join(f"{share:.0%}" for share in shrunk))
+print(" ".join(f"{100 * share:.0f} %" for share in shrunk))
 print(
     f"the robot's error fell from {100 * own[closing - 1]:.0f} to {100 * own[closing + 5]:.0f} cm"
 )

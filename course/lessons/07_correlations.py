@@ -259,6 +259,7 @@ def blocks_fill(robot_sigma, drive_sigma):
     for ax, stage in zip(axes, stages, strict=True):
         views.correlation(correlation(stage), ["robot", "1", "2"], ax=ax)
         ax.set(xlabel="", ylabel="")
+    views.colour_bar(axes)
     return fig
 
 
@@ -404,9 +405,11 @@ foretold = -np.outer(places[:, 1], places[:, 0])  # the sign by (07.9)
 strong = (abs(rho_xy) > 0.3) & ~np.eye(len(places), dtype=bool)
 as_foretold, against = np.mean((rho_xy * foretold)[strong] > 0), np.mean(rho_xy[strong] < 0)
 shifts, turn = shared_errors.rigid_share(P_map, places)
-print(f"{strong.sum()} strong correlations of x with y: {against:.0%} are negative")
-print(f"{as_foretold:.0%} have the sign that (07.9) foretells")
-print(f"of all the map's variance, {shifts:.0%} is displacement and {turn:.0%} a turn")
+print(f"{strong.sum()} strong correlations of x with y: {100 * against:.0f} % are negative")
+print(f"{100 * as_foretold:.0f} % have the sign that (07.9) foretells")
+print(
+    f"of all the map's variance, {100 * shifts:.0f} % is displacement and {100 * turn:.0f} % a turn"
+)
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="07-sign"
 # Just before the loop closes, {= 100 * (shifts + turn):.0f =} % of the map's variance is that of a
@@ -493,7 +496,9 @@ for name, some in (("all kept", kept), ("nothing kept", dropped)):
     better = sum(lap.rms < lap.wheels_rms for lap in some)
     print(f"{name}: rms error {np.median([lap.rms for lap in some]):.2f} m (median), smaller than")
     print(f"  that of the wheels alone in {better} of {RUNS} laps;")
-    print(f"  {np.mean([lap.inside for lap in some]):.0%} of the 95 % ellipses hold their landmark")
+    print(
+        f"  {100 * np.mean([lap.inside for lap in some]):.0f} % of the 95 % ellipses hold their landmark"
+    )
 wheels_rms = np.median([lap.wheels_rms for lap in kept])
 closer = sum(a.rms < b.rms for a, b in zip(kept, dropped, strict=True))
 
@@ -515,8 +520,8 @@ for ax in axes:
 views.legend_below(fig)
 views.show(
     fig,
-    f"{kept[3].inside:.0%} of the ellipses on the left hold their landmarks; on the right the ellipses "
-    f"are tiny, and {dropped[3].inside:.0%} do.",
+    f"{100 * kept[3].inside:.0f} % of the ellipses on the left hold their landmarks; on the right the ellipses "
+    f"are tiny, and {100 * dropped[3].inside:.0f} % do.",
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="07-drop"
@@ -702,7 +707,9 @@ for name, mak in (("compass", compass_map), ("no compass", turned_map)):
     shifts, turn = shared_errors.rigid_share(mak.P[3:, 3:], mak.landmarks())
     rho = correlation(mak.P)[9, 11]  # x of one landmark and x of the next
     print(f"{name}: correlation of two neighbours {rho:.3f}; of the map's variance")
-    print(f"  {shifts:.1%} displacement, {turn:.1%} turn, {1 - shifts - turn:.1%} left")
+    print(
+        f"  {100 * shifts:.1f} % displacement, {100 * turn:.1f} % turn, {100 * (1 - shifts - turn):.1f} % left"
+    )
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="07-limit"
 # Without a compass one more thing stays unknown: **how the map is turned against the start**. The
@@ -969,7 +976,7 @@ for wheels, table in (("good", "consistency"), ("noisy", "consistency-noisy")):
     for name, row in study["filters"].items():
         lines.append(
             f"| {wheels} | {name} | {row['nees']:.2f} ± {row['nees_standard_error']:.2f} "
-            f"| {row['steps_above_band']:.0%} | {row['heading_rmse_deg']:.2f}° "
+            f"| {100 * row['steps_above_band']:.0f} % | {row['heading_rmse_deg']:.2f}° "
             f"| {100 * row['landmark_rmse_m']:.1f} cm |"
         )
 noisy_nees = study["filters"]["standard"]["nees"]
@@ -1157,7 +1164,9 @@ H = np.zeros((2, 7))
 H[:, steps[1].columns] = steps[1].H
 from_21, from_22 = (H @ stages[k] @ H.T + shared_errors.R for k in (1, 2))
 print(f"S from P(2|1): off by {abs(from_21 - steps[1].S).max():.9f}", end="; ")
-print(f"from P(2|2): off by {np.linalg.norm(from_22 - from_21) / np.linalg.norm(from_21):.0%}")
+print(
+    f"from P(2|2): off by {100 * np.linalg.norm(from_22 - from_21) / np.linalg.norm(from_21):.0f} %"
+)
 print(f"x(2|2) = x(2|2) + W v wants W v = 0; here |W v| = {np.linalg.norm(steps[1].K @ v):.3f}")
 no_robot = sp.BlockMatrix([[Z(2, 3), H_p, Z(2, 2)]])
 print("without H_r the gain is", sp.block_collapse(P * no_robot.T * S.I).blocks.T.tolist())

@@ -511,7 +511,7 @@ def try_guess(reading, band_mm, window):
     fig, (whole, near) = views.panels(titles, (11, 5.2), shared=False)
     t = points[rows] @ [-np.sin(line[1]), np.cos(line[1])]
     layers = {
-        "scan": Points("before", points),
+        "other readings": Points("before", points),
         "in the window": Points("scan", points[rows]),
         "agree": Points("corrected", points[agree]),
         "guessed line": Segments("truth", along(*line, t.min() - 0.3, t.max() + 0.3)),
@@ -573,9 +573,9 @@ fig, ax = views.curves(
 )
 views.show(
     fig,
-    f"In a fixed band all windows pass at {reach[0]:.1f} m, {fixed[reach.searchsorted(1.2)]:.0%} at "
+    f"In a fixed band all windows pass at {reach[0]:.1f} m, {100 * fixed[reach.searchsorted(1.2)]:.0f} % at "
     f"{reach[reach.searchsorted(1.2)]:.1f} m, none from {reach[fixed == 0][0]:.1f} m on; in a band that "
-    f"grows with the noise at least {growing.min():.1%} pass everywhere.",
+    f"grows with the noise at least {100 * growing.min():.1f} % pass everywhere.",
 )
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="08-far"
@@ -682,7 +682,9 @@ def found_by(method, band_mm=15, window=25, beams=400):
 # %% slideshow={"slide_type": "subslide"} tags=["folded"]
 def taken_apart(**chosen):
     scan, found, metres = found_by(**chosen)
-    fig, ax = views.axes(f"recall {metres.recall:.0%}, false {metres.false:.0%}", (9, 5.6))
+    fig, ax = views.axes(
+        f"recall {100 * metres.recall:.0f} %, false {100 * metres.false:.0f} %", (9, 5.6)
+    )
     layers = {
         "readings": Points("scan", scan.points()),
         "lines found": Segments("corrected", [line.ends.ravel() for line in found]),
@@ -698,7 +700,7 @@ views.explore(
     taken_apart,
     lambda **chosen: (
         "One scan of the rooms and the lines found in it, which cover "
-        f"{found_by(**chosen)[2].recall:.0%} of the walls in view."
+        f"{100 * found_by(**chosen)[2].recall:.0f} % of the walls in view."
     ),
     method=["Smolec's windows", GROWN],
     band_mm=(5, 150, 15),
@@ -715,7 +717,7 @@ for beams in (100, 400, 1600):
     lidar, told = replace(LIDAR, beams=beams), []
     for name, ransac in methods.items():
         m = found_walls.judge_places(rooms, ransac, 12, lidar=lidar)
-        told.append(f"{name}: {m.recall:4.0%} found, {m.false:3.0%} false")
+        told.append(f"{name}: {100 * m.recall:3.0f} % found, {100 * m.false:2.0f} % false")
     print(f"{beams:4} beams   " + "   ".join(told))
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
@@ -735,7 +737,7 @@ judged = {
 }
 print(f"{'world':12}  Smolec: recall, false   grown: recall, false")
 for name, both in judged.items():
-    row = " ".join(f"{m.recall:15.1%} {m.false:7.1%}" for m in both)
+    row = " ".join(f"{100 * m.recall:13.1f} % {100 * m.false:5.1f} %" for m in both)
     print(f"{name:12} {row}")
 *EMPTY, FURNISHED = [both[1] for both in judged.values()]
 ROOM = [FURNISHED, *(found_walls.judge_places(worlds.room(), None, 12, k) for k in (2, 3))]
@@ -828,7 +830,7 @@ scans = [LIDAR.scan(world, HOME, rng) for _ in range(120)]
 seen = [corner for scan in scans for corner in corners(lines(scan, LIDAR.model, rng))]
 seen = [each for each in seen if np.hypot(*off_truth(each)) < 0.2]  # else no corner of the room
 sizes = np.array([nees(off_truth(each), each.R) for each in seen])
-print(f"{len(sizes)} corners, {np.mean(sizes < 5.99):.0%} inside their 95 % ellipses;", end=" ")
+print(len(sizes), f"corners, {100 * np.mean(sizes < 5.99):.0f} % inside 95 % ellipses;", end=" ")
 print(f"mean squared error {sizes.mean():.2f} ± {sizes.std() / len(sizes) ** 0.5:.2f}, 2 is right")
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=5
@@ -1103,7 +1105,7 @@ S_A, rng = innovation_covariance(0.05, 0.15)[0], np.random.default_rng(12)
 squared = nees(rng.multivariate_normal(np.zeros(2), S_A, 100_000), S_A)
 for lost in (0.1, 0.05, 0.01, 0.001):
     gate = -2 * np.log(lost)
-    print(f"gate {gate:5.2f}: {np.mean(squared > gate):6.2%} of the true pairings refused")
+    print(f"gate {gate:5.2f}: {100 * np.mean(squared > gate):4.2f} % of the true pairings refused")
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # A threshold in metres promises nothing of the kind. It refuses true pairings when the pose is

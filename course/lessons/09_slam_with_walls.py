@@ -420,9 +420,9 @@ views.show(
 # ## Drive it yourself
 #
 # Choose a simulation and press **run**. The first two drive the tour and then listen to the arrow
-# keys; "by hand" listens at once: click the picture first. The points of all scans are red, the walls
-# of the map blue; the robot has an ellipse where it is large enough to be seen. (Without a running kernel you
-# see a still picture.)
+# keys; "by hand" listens at once: click the picture first. The points of all scans are orange, the
+# walls of the map green; the robot has an ellipse where it is large enough to be seen. (Without a running kernel
+# you see a still picture.)
 #
 # Try to make the robot unsure. In which corner of the building would that be easiest?
 
@@ -433,8 +433,6 @@ def error_of(pair):
     return 100 * np.hypot(*(pair.estimator.pose - pair.source.truth.poses[pair.count - 1])[:2])
 
 
-RED, BLUE, GREEN = (views.COLOURS[name] for name in ("naive", "corrected", "landmark"))
-AS_IN_THE_THESIS = {"scan": RED, "axes": RED, "landmark": BLUE, "corrected": GREEN}
 buttons = {
     f"Simulation {n}{hand}": partial(simulation, f"situation-{n}", tour=not hand)
     for hand in ("", ", by hand")
@@ -445,11 +443,10 @@ buttons = {
 seen_live = views.live(
     buttons,
     partial(estimators.make, "walls"),
-    "Rooms off a corridor, half of them seen: red points, blue walls, the robot in the upper room.",
+    "Rooms off a corridor, half of them seen: orange points, green walls, the robot in the upper room.",
     steps=60,
     extra=lambda pair: [Segments("axes", [[0, 0, 1, 0], [0, 0, 0, 1]])],
     curves={"error [cm]": {"corrected": error_of}},
-    colours=AS_IN_THE_THESIS,
     title="Rooms and walls",
     seed=1,
     size=(900, 340),
@@ -787,7 +784,7 @@ shares = {name: while_turning(spoilt_walls.VARIANTS[name]) for name in both}
 
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="09-order"
 for name, (share, heading) in shares.items():
-    print(f"{name:22} while it turns {share:4.0%} of the lines are paired;", end=" ")
+    print(f"{name:22} while it turns {100 * share:3.0f} % of the lines are paired;", end=" ")
     print(f"heading off by up to {heading:.1f}°")
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="09-order"
@@ -903,7 +900,7 @@ for name in sources:
     sizes = line_truth.squared_errors(sources[name], found[name])
     mean, doubt = sizes.mean(), sizes.std() / np.sqrt(len(sizes))
     print(f"{name}: {mean:.2f} ± {doubt:.2f}, without the factor {factor * mean:.2f};", end=" ")
-    print(f"beyond the gate {np.mean(sizes > GATE):.1%} instead of 0.1 %")
+    print(f"beyond the gate {100 * np.mean(sizes > GATE):.1f} % instead of 0.1 %")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # With the factor, $R$ is right to some percent. What is left are bad lines, with a reading or two of the
@@ -1047,7 +1044,9 @@ sound = stored("heard_walls")
 print(f"{sound['seeds'][1] + 1} drives, at true poses")
 for row in sound["slopes"]:
     wrong = row["no_wall"] / row["lines"]
-    print(f"at least {row['degrees']:2}° of slope: {row['lines']:4} lines, {wrong:5.1%} on no wall")
+    print(
+        f"at least {row['degrees']:2}° of slope: {row['lines']:4} lines, {100 * wrong:4.1f} % on no wall"
+    )
 print("a smooth wall mirrors the sound away where it is met at a slant")
 for row in sound["incidences"]:
     told = f"{row['echoes']} echoes, {row['lines']:4} lines"
@@ -1144,7 +1143,7 @@ print(
     end=" ",
 )
 for rule in ("the first", "the nearest"):
-    print(f"{rule} is right in {counts[rule] / counts['with a choice']:.0%}", end="; ")
+    print(f"{rule} is right in {100 * counts[rule] / counts['with a choice']:.0f} %", end="; ")
 for what, how in {"windows": replace(THESIS, band=None), "grown": None}.items():
     first_scan = lines(next(iter(room)).scan, room.sensor, np.random.default_rng(0), how)
     print(f"first scan of situation 2, lines {what}: {len(first_scan)}")
@@ -1193,6 +1192,8 @@ mends(list(estimators.MENDS)[8:])
 # His pictures come out, too: situation 2 with a sparse and a dense lidar, and the door of situation 1.
 
 # %% slideshow={"slide_type": "fragment"} tags=["folded"]
+RED, BLUE, GREEN = (views.COLOURS[name] for name in ("naive", "corrected", "landmark"))
+AS_IN_THE_THESIS = {"scan": RED, "axes": RED, "landmark": BLUE, "corrected": GREEN}
 LABELS = {"landmark": "foot", "corrected": "way", "scan": "lidar"}
 
 

@@ -276,7 +276,9 @@ def after_a_drive(heading_within, distance_within):
     x, y = np.outer(distance, np.cos(heading)), np.outer(distance, np.sin(heading))
     by_corners = [x.min(), x.max(), y.min(), y.max()]
     fig, ax = views.boxes.scene(None, (-2.2, 2.2, -1.5, 1.5), size=(8, 5))
-    views.draw(ax, Points("scan", np.transpose(d * [np.cos(theta), np.sin(theta)])), label="drives")
+    views.draw(
+        ax, Points("sample", np.transpose(d * [np.cos(theta), np.sin(theta)])), label="drives"
+    )
     views.draw(ax, Boxes("corrected", [box]), linewidth=2, label="intervals")
     views.draw(ax, Boxes("naive", [by_corners]), linewidth=2, label="corners only")
     views.legend(ax, loc="upper left")
@@ -449,7 +451,7 @@ def cut_step_by_step(**how):
     area = width(box[:2]) * width(box[2:])
     fig, ax = views.boxes.scene(f"{area:.1f} m² are left", (-3.4, 5.4, -1.8, 4), size=(8, 5.4))
     named = {"robot": ("robot", robot), "object before": ("before", GUESS)}
-    for label, (name, row) in (named | {"object now": ("corrected", box)}).items():
+    for label, (name, row) in (named | {"object now": ("box", box)}).items():
         views.draw(ax, Boxes(name, [row]), linewidth=2, label=label)
     views.draw(ax, Points("truth", [OBJECT]), markersize=12, label="true object")
     views.boxes.edges(ax, lines, NAMES[: len(lines)])
@@ -723,7 +725,11 @@ for name, row in (("before", before), ("corrected", bor.robot)):
     views.draw(
         ax, Boxes(name, [row]), label=f"robot's box {'after' if name != 'before' else name}", lw=2
     )
-things = ("landmark", "post", (2.0, 0.0)), ("naive", "chair", chair), ("truth", "robot", (0.4, 0.0))
+things = (
+    ("landmark", "post", (2.0, 0.0)),
+    ("naive", "chair", chair),
+    ("truth", "true robot", (0.4, 0.0)),
+)
 for meaning, label, at in things:
     views.draw(ax, Points(meaning, [at]), markersize=12, label=label)
 views.legend_below(fig)

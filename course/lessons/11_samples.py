@@ -107,8 +107,9 @@ def at_step(samples, step):
 views.explore(
     at_step,
     lambda samples, step: (
-        f"{samples} samples after {step} steps: {near(*drive(samples)[step]):.0%} of the weight lies near the true "
-        f"robot, {near(drive(samples)[step][0], -drive(samples)[step][1]):.0%} near the opposite place."
+        f"{samples} samples after {step} steps: {100 * near(*drive(samples)[step]):.0f} % of the weight lies near the true "
+        f"robot, {100 * near(drive(samples)[step][0], -drive(samples)[step][1]):.0f} % near the opposite place; the "
+        "ellipse of one Gaussian reaches over both."
     ),
     play="step",
     samples=[10_000, 1000, 200, 50],
@@ -141,7 +142,7 @@ print("step   near the robot   near the opposite place   near the mean")
 for step in (0, 4, 8, 36):
     cloud, truth = drive(10_000)[step]
     places = truth, -truth, cloud.moments.x
-    print(f"{step:3}", *(f"{near(cloud, place):18.0%}" for place in places))
+    print(f"{step:3}", *(f"{100 * near(cloud, place):16.0f} %" for place in places))
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=6
 # ## A cloud that is too small
@@ -184,8 +185,8 @@ reason = np.median([evidence(seed, steps=10) for seed in range(100)])
 # %% slideshow={"slide_type": "subslide"} answers="11-few"
 found = many["found"]
 rows = {f"{int(n):,} samples": share for n, share in found.items()}
-fig, _ = views.shares({"found": rows}, f"share of {runs} drives found [1]", size=(8, 4.2))
-shown = ", ".join(f"{name} in {share[0]:.0%}" for name, share in rows.items())
+fig, _ = views.shares({"found": rows}, f"share of {runs} drives found", size=(8, 4.2))
+shown = ", ".join(f"{name} in {100 * share[0]:.0f} %" for name, share in rows.items())
 views.show(fig, f"The robot is found by {shown} of the drives; the intervals are wide.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="11-few"
@@ -239,7 +240,7 @@ def driven(heading_sigma, samples):
 # %% slideshow={"slide_type": "fragment"} answers="11-banana" tags=["folded"]
 def banana(heading_sigma, samples):
     ends, P, share = driven(heading_sigma, samples)
-    title = f"the ellipse holds {share:.0%} of the samples"
+    title = f"the ellipse holds {100 * share:.0f} % of the samples"
     ellipses = {"the samples' own covariance": np.cov(ends[:, :2].T)}
     fig, ax = views.cloud(ends, ellipses, title, size=(8, 5.6))
     views.draw(ax, Ellipses("naive", [[3, 0]], [P]), label="EKF, (11.2)", linewidth=2)
@@ -253,7 +254,7 @@ views.explore(
     banana,
     lambda heading_sigma, samples: (
         f"{samples} samples on an arc, for a heading sigma of {heading_sigma:.2f} rad; the EKF's ellipse, upright at "
-        f"the end of the straight way, holds {driven(heading_sigma, samples)[2]:.0%} of them."
+        f"the end of the straight way, holds {100 * driven(heading_sigma, samples)[2]:.0f} % of them."
     ),
     heading_sigma=(0.02, 1.5, 0.5),
     samples=(10, 3000, 1500),
@@ -652,9 +653,9 @@ views.explore(
 
 # %% slideshow={"slide_type": "subslide"} answers="11-carried"
 again = {f"{k} strangers": share["found"] for k, share in many["strangers"].items()}
-fig, _ = views.shares({"found": again}, f"share of {runs} drives found again [1]", size=(8, 3.8))
+fig, _ = views.shares({"found": again}, f"share of {runs} drives found again", size=(8, 3.8))
 price = {k: row["error before"] for k, row in many["strangers"].items()}  # [m]
-shown = ", ".join(f"with {name} in {share[0]:.0%}" for name, share in again.items())
+shown = ", ".join(f"with {name} in {100 * share[0]:.0f} %" for name, share in again.items())
 views.show(fig, f"The robot is found again {shown} of the drives.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="11-carried"
@@ -825,7 +826,7 @@ def row(name):
     line = f"{name:22} {100 * found['rms'][0]:3.0f} cm"
     if "outside" in found:
         more, outside = found["against odometry"][0], found["outside"][0]
-        line += f" {100 * more:+14.0f} cm {outside:9.0%}"
+        line += f" {100 * more:+14.0f} cm {100 * outside:7.0f} %"
     print(line)
 
 

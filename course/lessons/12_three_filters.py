@@ -275,9 +275,9 @@ found = [reading.observations for reading in given]
 arena = np.unique(drive.world.walls.reshape(-1, 2).round(9), axis=0)  # its true corners
 places = [g(pose, z) for pose, one in zip(truth, found, strict=True) for z in one.z]
 off = np.array([np.hypot(*(arena - place).T) for place in places])
-share, near = np.mean([len(one.z) > 0 for one in found]), 1000 * off.min(axis=1)
+share, near = 100 * np.mean([len(one.z) > 0 for one in found]), 1000 * off.min(axis=1)
 seen = len(set(off.argmin(axis=1)))
-print(f"{share:.0%} of {len(found)} scans show a corner; {seen} of {len(arena)} are ever seen")
+print(f"{share:.0f} % of {len(found)} scans show a corner; {seen} of {len(arena)} are ever seen")
 print(
     f"off by {np.median(near):.1f} mm (median), 95 % by less than {np.quantile(near, 0.95):.0f} mm"
 )
@@ -646,7 +646,7 @@ ask(
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="12-report"
 slipped = snagged["BOR, honest"]["box"]
 print(f"robot outside of the honest box in {slipped['runs_outside']} of {runs} drives,", end=" ")
-print(f"in {slipped['scans_outside'] / slipped['scans']:.0%} of all scans")
+print(f"in {100 * slipped['scans_outside'] / slipped['scans']:.0f} % of all scans")
 print(f"reported in {slipped['runs_outside_reported']} of these drives")
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="12-report"
@@ -966,8 +966,8 @@ lost = {
 fig, _ = views.shares(lost, f"lost runs of {runs}", size=(8.5, 4.6))
 views.show(
     fig,
-    f"Shares of lost runs: with a snagged cable most are near {snagged['odometry']['lost'][0]:.0%}, only walls near "
-    f"{snagged['walls']['lost'][0]:.0%}; without it odometry is the worst.",
+    f"Shares of lost runs: with a snagged cable most are near {100 * snagged['odometry']['lost'][0]:.0f} %, only walls near "
+    f"{100 * snagged['walls']['lost'][0]:.0f} %; without it odometry is the worst.",
 )
 assert free["Monte Carlo"]["lost"][1] > 0.05 and snagged["walls"]["lost"][2] < 0.1
 

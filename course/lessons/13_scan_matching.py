@@ -829,7 +829,7 @@ for name in ("point to point", "point to line", "match"):
 fig, _ = views.cells(
     basins, metres_off, degrees_off, "place off [m]", "heading off [°]", size=(10, 4.6)
 )
-shares = ", ".join(f"{name} {np.mean(table):.0%}" for name, table in basins.items())
+shares = ", ".join(f"{name} {100 * np.mean(table):.0f} %" for name, table in basins.items())
 views.show(fig, f"Shares that come home, by how far the guess is off; over all cells {shares}.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="13-basin"
@@ -1248,7 +1248,7 @@ for name, pose in (poses | {"and one empty scan": cleared}).items():
 
 # %% slideshow={"slide_type": "subslide"} tags=["folded"]
 shown = {
-    "as printed": [Points("naive", printed_map), Poses("robot", [printed])],
+    "as printed": {"as printed": Points("naive", printed_map), "robot": Poses("robot", [printed])},
     "mended": laid("corrected", mended, [scan for scan, _ in scans]),
 }
 fig, _ = views.side_by_side(shown, size=(10, 4.6))

@@ -618,7 +618,9 @@ found = {name: match(new, old) for name, (new, old) in pairs.items()}
 for name, m in found.items():
     share, fixed = m.fit.overlap, m.observability.fixed.sum()
     verified = loops.is_verified(m, *pairs[name])
-    print(f"{name}: on old walls {share:.0%}, fixed {fixed} of 3, verified {verified}; {m.verdict}")
+    print(
+        f"{name}: on old walls {100 * share:.0f} %, fixed {fixed} of 3, verified {verified}; {m.verdict}"
+    )
 
 # %% slideshow={"slide_type": "subslide"} tags=["folded"]
 shown = {

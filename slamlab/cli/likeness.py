@@ -65,7 +65,7 @@ def _told(book, id, records):
     found = likeness_of(book, records)
     yield f"{id}: {found.of_class.count} submissions compared"
     for pair in found.of_class.pairs[:MOST]:
-        yield f"  {pair.share:4.0%}  {pair.left} – {pair.right}"
+        yield f"  {100 * pair.share:3.0f} %  {pair.left} – {pair.right}"
     for student, why in found.not_compared.items():
         yield f"  not compared: {student}: {why}"
     if not found.knows_handed_out:

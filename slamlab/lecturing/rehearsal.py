@@ -139,7 +139,7 @@ def _section(title, stops):
     for stop in stops:
         place = _place(stop)
         if stop["letters"] < SMALL:
-            section.wrong.append(f"{place}: letters of {stop['letters']:.0%}")
+            section.wrong.append(f"{place}: letters of {100 * stop['letters']:.0f} %")
         if not stop["fits"]:
             section.wrong.append(f"{place}: does not fit the screen")
     section.wrong = list(dict.fromkeys(section.wrong))

@@ -54,7 +54,7 @@ def table(rehearsed):
             str(section.stops),
             f"{section.seconds:.1f}",
             str(section.minutes or ""),
-            f"{section.letters:.0%}",
+            f"{100 * section.letters:.0f} %",
             ", ".join(marks(section)),
         )
     made.add_section()
@@ -64,7 +64,7 @@ def table(rehearsed):
         str(sum(section.stops for section in rehearsed.sections)),
         f"{sum(section.seconds for section in rehearsed.sections):.1f}",
         str(sum(section.minutes for section in rehearsed.sections) or ""),
-        f"{min(section.letters for section in rehearsed.sections):.0%}",
+        f"{100 * min(section.letters for section in rehearsed.sections):.0f} %",
     )
     return made
 

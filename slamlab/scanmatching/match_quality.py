@@ -41,10 +41,10 @@ class MatchQuality:
     def in_words(self):
         """Why the match is rejected, in words; empty where it is accepted."""
         if self.overlap < MIN_OVERLAP:
-            return f"poor: overlap {self.overlap:.0%} with the other surface"
+            return f"poor: overlap {100 * self.overlap:.0f} % with the other surface"
         if self.agreement < MIN_AGREEMENT:
             against = 1 - self.agreement
-            return f"poor: {against:.0%} of the points stand in the other scan's free space"
+            return f"poor: {100 * against:.0f} % of the points stand in the other scan's free space"
         return ""
 
     @property

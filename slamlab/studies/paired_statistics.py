@@ -86,7 +86,9 @@ def percent(share):
     -------
     str
     """
-    return "–" if share is None else "{:.0%} ({:.0%} to {:.0%})".format(*share)
+    return (
+        "–" if share is None else "{:.0f} % ({:.0f} % to {:.0f} %)".format(*100 * np.array(share))
+    )
 
 
 def cm(interval, sign=""):

@@ -30,7 +30,7 @@ def cloud(samples, covariances, title=None, size=(6, 4.5), layers=(), centre=Non
     """
     fig, ax = axes(title, size)
     xy = np.asarray(samples, dtype=float)[:, :2]
-    draw(ax, Points("samples", xy), color=COLOURS["scan"])
+    draw(ax, Points("samples", xy), color=COLOURS["sample"])
     middle = xy.mean(axis=0) if centre is None else np.asarray(centre)[:2]
     for (name, covariance), (colour, line, _) in zip(covariances.items(), cycle(SERIES)):
         ellipse = Ellipses(name, [middle], [np.asarray(covariance)[:2, :2]])

@@ -1,7 +1,9 @@
 """Covering (occlusion, overlap): what of the data of axes lies within a box, such as a legend's."""
 
+import numpy as np
 from matplotlib.collections import Collection
 from matplotlib.lines import Line2D
+from matplotlib.markers import MarkerStyle
 from matplotlib.patches import Patch
 from matplotlib.text import Text
 
@@ -42,10 +44,21 @@ def _lies_in(artist, box):
 
 
 def _line_lies_in(line, box):
+    places = line.get_transform().transform(line.get_xydata())
+    if _any_within(places, box.padded(_marker_radius(line))):
+        return True
     if line.get_linestyle() in ("None", "none", "", " "):
-        return _any_within(line.get_transform().transform(line.get_xydata()), box)
+        return False
     path = line.get_path().transformed(line.get_transform())
     return bool(len(path.vertices) and path.intersects_bbox(box, filled=False))
+
+
+def _marker_radius(line):
+    """How far a line's markers reach from their places [pixels]."""
+    marker = MarkerStyle(line.get_marker())
+    outline = marker.get_path().transformed(marker.get_transform()).vertices
+    size = line.get_markersize() * line.figure.dpi / 72
+    return size * np.abs(outline).max(initial=0.0)
 
 
 def _collection_lies_in(collection, box):

@@ -1,6 +1,9 @@
 """Words for a figure: of what kind it is and what its axes are, for who cannot see it."""
 
+import re
 from itertools import groupby
+
+from matplotlib.container import BarContainer
 
 COUNTS = {2: "two", 3: "three", 4: "four", 5: "five", 6: "six"}
 
@@ -27,12 +30,18 @@ def words(fig):
 
 
 def _panel(kind, axes_, titles):
-    named = ", ".join(" ".join(title.split()) for title in titles if title)
+    named = ", ".join(_spoken(title) for title in titles if title)
     many = len(titles) > 1
     kinds = "matrices" if kind == "matrix" else f"{kind}s"
     start = f"{COUNTS.get(len(titles), len(titles))} {kinds}" if many else kind
     parts = [start[0].upper() + start[1:], f" ({named})" if named else ""]
     return "".join(parts) + (f": {axes_}." if axes_ else ".")
+
+
+def _spoken(text):
+    """A text of the figure in one line, its formulas as they are read: d_abs for $d_{abs}$."""
+    plain = re.sub(r"\$([^$]*)\$", lambda formula: re.sub(r"[{}\\]", "", formula[1]), text)
+    return " ".join(plain.split())
 
 
 def _is_colour_bar(ax):
@@ -44,7 +53,7 @@ def _kind(ax):
         return "map"
     if ax.images:
         return "matrix"
-    if ax.containers:
+    if any(isinstance(each, BarContainer) for each in ax.containers):
         return "bar chart"
     return "chart" if ax.axison else "drawing"
 
@@ -52,7 +61,7 @@ def _kind(ax):
 def _axes(ax):
     if not ax.axison:
         return ""
-    across, up = (" ".join(text.split()) for text in (ax.get_xlabel(), ax.get_ylabel()))
+    across, up = map(_spoken, (ax.get_xlabel(), ax.get_ylabel()))
     across += " (logarithmic)" if across and ax.get_xscale() == "log" else ""
     up += " (logarithmic)" if up and ax.get_yscale() == "log" else ""
     return ", ".join(f"{name} {where}" for name, where in ((across, "across"), (up, "up")) if name)

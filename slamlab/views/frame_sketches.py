@@ -51,7 +51,8 @@ def _axes_of_frame(ax, x, y, theta, name, colour):
         # arrows alone do not widen the view
         ax.plot(*tip, alpha=0)
     ax.plot(x, y, "o", color=colour)
-    ax.annotate(name, (x, y), xytext=(-6, -16), textcoords="offset points", color=colour)
+    beside = {"xytext": (-8, -4), "textcoords": "offset points", "ha": "right"}
+    ax.annotate(name, (x, y), color=colour, **beside)
 
 
 def _angle(ax, x, y, radius, start, end, name, colour):

@@ -40,7 +40,7 @@ def shares(rows, xlabel, title=None, size=(7, 3.2)):
         )
     ax.set_yticks(range(len(labels)), labels)
     ax.set(xlim=(-0.02, 1.02), ylim=(len(labels) - 0.5, -0.5))
-    ax.xaxis.set_major_formatter(PercentFormatter(1.0))
+    ax.xaxis.set_major_formatter(PercentFormatter(1.0, symbol=" %"))
     if len(rows) > 1:
         legend(ax)
     return fig, ax

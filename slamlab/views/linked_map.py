@@ -1,6 +1,7 @@
 """Linked plots: a landmark map beside the correlation matrix of its estimates, coloured alike."""
 
 from matplotlib.patches import Rectangle
+from matplotlib.patheffects import withStroke
 
 from slamlab.views.colours import COLOURS
 from slamlab.views.figures import panels
@@ -45,8 +46,10 @@ def linked(landmarks, rho, names, marked=0, layers=(), room=None, view=None, siz
     left.scatter(
         *landmarks[marked], s=260, marker="s", facecolors="none", edgecolors=COLOURS["truth"]
     )
+    rim = [withStroke(linewidth=2.5, foreground="#FFFFFF")]  # names stand on ellipses
     for name, place in zip(names, landmarks, strict=True):
-        left.annotate(str(name), place, xytext=(7, 5), textcoords="offset points", fontsize=9)
+        name = left.annotate(str(name), place, xytext=(4, 3), textcoords="offset points")
+        name.set(fontsize=9, path_effects=rim)
     if view is not None:
         left.set(xlim=view[:2], ylim=view[2:])
     end = 3 + 2 * (len(names) if room is None else room) - 0.5

@@ -219,7 +219,7 @@ def test_the_command_lists_pairs_and_who_was_not_compared(tmp_path, capsys):
                             kept=kept, contents=held))  # fmt: skip
     assert main(["grade", "likeness", "4", "--out", str(tmp_path / "out")]) == 0
     said = capsys.readouterr().out
-    assert "04: 3 submissions compared\n  100%  s1 – s2\n" in said
+    assert "04: 3 submissions compared\n  100 %  s1 – s2\n" in said
     assert "not compared: s4: its cells are not kept" in said and "s3" not in said
     assert main(["grade", "likeness", "05", "--out", str(tmp_path / "out")]) == 0
     assert capsys.readouterr().out == "05: nobody has handed in anything\n"

@@ -50,7 +50,7 @@ def test_slow_is_not_wrong():
     ("cells", "stops", "more", "says"),
     [
         (FAILS, STOPS, {}, "Two: slide 2, cell c: ValueError: no"),
-        (CELLS, [*STOPS, stop(2, "Two", letters=0.7)], {}, "letters of 70%"),
+        (CELLS, [*STOPS, stop(2, "Two", letters=0.7)], {}, "letters of 70 %"),
         (CELLS, [*STOPS, stop(2, "Two", fits=False)], {}, "does not fit"),
         (CELLS, STOPS, {"promised": 8}, "planned for 7 minutes, its head says 8"),
         (CELLS, STOPS, {"errors": ["broken"]}, "the page says: broken"),

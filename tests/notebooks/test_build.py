@@ -217,6 +217,7 @@ def test_what_an_exercise_may_not_hold_is_told_with_its_line(root, cell, says):
         ('# %% name="a"\nprint(1)\n\n# %% name="a"\nprint(2)', "'a' stands already in line 8"),
         ("# %%\nprint(1);", "a semicolon"),
         ("# %% [markdown]\n# It is 38% of all.", "a space stands before %"),
+        ('# %%\nprint(f"{1 / 3:.0%}")', "a space stands before %"),
         ("# %%\n%matplotlib inline", "no plain Python"),
         ('# %%\nstyle = {"color": "red"}', "the colour 'red' is typed"),
         ("# %%\n" + "x = 1\n" * 31, "31 lines of code"),

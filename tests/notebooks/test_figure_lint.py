@@ -1,10 +1,12 @@
-"""The linter of figures bites: typed colours, and typed numbers in alternative texts."""
+"""The linter of figures bites: typed colours, typed numbers in alternative texts, per cent."""
 
 import ast
 
 import pytest
 
+from course import per_cent
 from course.figure_lint import figure_problems
+from course.source import ROOT
 
 
 def problems(code):
@@ -79,3 +81,42 @@ def test_a_number_from_the_data_or_a_name_is_none(code):
 def test_it_says_the_line():
     ((line, _),) = figure_problems(ast.parse('x = 1\nviews.show(\n    fig,\n    "to 2 cm",\n)'))
     assert line == 4
+
+
+@pytest.mark.parametrize(
+    "code",
+    [
+        'print(f"{share:.0%} are inside")',
+        'print(f"{share:5.{digits}%}")',
+        'print("{:.1%}".format(share))',
+        'views.axes("the right 38%")',
+        'print(f"{100 * share:.0f}% are inside")',
+    ],
+)
+def test_per_cent_without_its_space_is_found_in_what_code_shows(code):
+    ((line, told),) = per_cent.in_code(ast.parse(f"x = 1\n{code}"))
+    assert line == 2 and "a space stands before %" in told
+
+
+@pytest.mark.parametrize(
+    "code",
+    [
+        'print(f"{100 * share:.0f} % are inside")',
+        'layout = {"max_width": "100%"}',
+        'style = "margin: 0; font-size: 95%"',
+        "rest = n %2",
+    ],
+)
+def test_per_cent_with_its_space_a_remainder_or_a_style_is_none(code):
+    assert list(per_cent.in_code(ast.parse(code))) == []
+
+
+@pytest.mark.parametrize("room", ["slamlab", "course", "benchmarks"])
+def test_no_program_shows_per_cent_without_its_space(room):
+    told = [
+        f"{file.relative_to(ROOT)}:{line}: {text}"
+        for file in sorted((ROOT / room).rglob("*.py"))
+        for line, text in per_cent.in_code(ast.parse(file.read_text("utf-8")))
+        if file.name != "per_cent.py"
+    ]
+    assert told == []

@@ -183,6 +183,15 @@ def test_the_words_of_a_figure_tell_its_panels_apart():
     assert figure_words.words(fig).startswith("Two matrices (before, after)")
 
 
+def test_the_words_of_a_figure_read_formulas_and_call_bars_only_what_is_one():
+    fig, ax = views.chart("$d_{abs}$ [rad]", "cut off [%]", r"$\alpha$ over $x$")
+    ax.errorbar([0, 1], [0, 1], xerr=0.1)
+    said = "Chart (alpha over x): d_abs [rad] across, cut off [%] up."
+    assert figure_words.words(fig) == said
+    ax.bar([0, 1], [1, 2])
+    assert figure_words.words(fig).startswith("Bar chart")
+
+
 def test_a_figure_without_text_is_refused():
     fig, _ = views.axes()
     with pytest.raises(ValueError, match="alt text"):
@@ -361,6 +370,36 @@ def test_a_machine_sees_covered_data_small_letters_and_what_is_cut_off():
     found = " ".join(figure_faults.faults(fig))
     for fault in ("covers a line", "covers a dot", "smaller than 9 pt", "cut off"):
         assert fault in found
+
+
+def test_a_machine_sees_words_on_words_colours_of_other_meanings_and_entries_alike():
+    fig, ax = views.chart("x [m]", "38% of y", size=(8, 5))
+    for said in ("one", "other"):
+        ax.text(0.5, 0.2, said)
+        ax.plot([0, 1], [0, 1], color=views.COLOURS["predicted"], label=said)
+    ax.plot([0], [1], ".", color=views.COLOURS["scan"], label="samples")
+    ax.legend(loc="lower right")
+    assert figure_faults.faults(fig) == [
+        "no space before %: '38% of y'",
+        "letters over letters: 'one' and 'other'",
+        "'one' is solid: what is predicted is dashed",
+        "'other' is solid: what is predicted is dashed",
+        f"'samples' is not in the colour of its meaning, {views.COLOURS['sample']}",
+        "in the legend 'one' and 'other' look the same",
+    ]
+
+
+def test_a_marker_that_reaches_under_a_legend_is_covered():
+    fig, ax = views.chart("x", "y", size=(5, 4))
+    ax.plot([0, 1], [0, 1], linestyle="none", marker="s", markersize=1, label="small")
+    ax.legend(loc="lower left")
+    fig.draw_without_rendering()
+    box = ax.get_legend().get_window_extent()
+    beside = ax.transData.inverted().transform([box.x1 + 8, (box.y0 + box.y1) / 2])
+    for size, covered in ((4, False), (30, True)):
+        ax.plot(*beside, linestyle="none", marker="s", markersize=size, label=f"of {size} pt")
+        told = [fault for fault in figure_faults.faults(fig) if f"of {size} pt" in fault]
+        assert bool(told) == covered
 
 
 def test_it_sees_nothing_wrong_where_nothing_is():

@@ -72,8 +72,11 @@ def _why(*sentences):
     return why
 
 
-ENDS = "In the end {:.0%} of the robots are found.", found
-SHARE = "In the ten steps after the kidnapping {:.0%} of the weight is near the robot.", soon
+ENDS = "In the end {:.0f} % of the robots are found.", lambda i, o: 100 * found(i, o)
+SHARE = (
+    "In the ten steps after the kidnapping {:.0f} % of the weight is near the robot.",
+    lambda i, o: 100 * soon(i, o),
+)
 TYPICAL = "Apart from these the typical run errs by {:.2f} m.", steady
 MOST = "Without the worst eighth of the runs the error is {:.2f} m on average.", sure
 
@@ -91,7 +94,7 @@ KIDNAPPED = Task(
         Law(
             "found",
             1,
-            f"in the end most of the weight is near the robot in {FOUND:.0%} of the runs",
+            f"in the end most of the weight is near the robot in {100 * FOUND:.0f} % of the runs",
             lambda i, o: found(i, o) >= FOUND,
             why=_why(ENDS),
             asks="Where are your samples after the kidnapping? May any of them ever come near the "
@@ -100,7 +103,8 @@ KIDNAPPED = Task(
         Law(
             "soon",
             0.5,
-            f"in the ten steps after the kidnapping {SOON:.0%} of the weight is near the robot",
+            f"in the ten steps after the kidnapping {100 * SOON:.0f} % of the weight is near the "
+            "robot",
             _again,
             why=_why(SHARE),
             asks="Of a thousand strangers, how many could have made the sighting? Where are all "

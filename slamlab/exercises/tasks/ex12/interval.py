@@ -91,8 +91,9 @@ def _why_covers(i, o):
     found = {n: coverage(bounds) for n, bounds in _tables(i, o).items()}
     n, c = max(found.items(), key=lambda pair: abs(pair[1].mean() - 0.95) + 0.95 - pair[1].min())
     return (
-        f"With {n} run{'s' * (n > 1)} it holds the true share in {c.mean():.1%} of the studies on "
-        f"average, and in {c.min():.1%} if that share is {SHARES[np.argmin(c)]:.1%}."
+        f"With {n} run{'s' * (n > 1)} it holds the true share in {100 * c.mean():.1f} % of the "
+        f"studies on average, and in {100 * c.min():.1f} % if that share is "
+        f"{100 * SHARES[np.argmin(c)]:.1f} %."
     )
 
 

@@ -55,21 +55,24 @@ def kept(i, o):
 
 def _why_kept(i, o):
     far, before = strayed(i, o)
-    return f"Of the readings before, {far[before].mean():.1%} are off by more than {LIMIT} m."
+    return (
+        f"Of the readings before, {100 * far[before].mean():.1f} % are off by more than {LIMIT} m."
+    )
 
 
 def _why(i, o):
     if not kept(i, o):
         return f"That is asked only of a filter that obeys the first law. {_why_kept(i, o)}"
-    return f"Of the readings that count after it, {lost(i, o):.1%} are off by more than {LIMIT} m."
+    strayed = 100 * lost(i, o)
+    return f"Of the readings that count after it, {strayed:.1f} % are off by more than {LIMIT} m."
 
 
 def _step(name, points, most, asks):
     return Law(
         name,
         points,
-        f"and when it was, at most {most:.0%} of the readings that count are off by more than "
-        f"{LIMIT} m",
+        f"and when it was, at most {100 * most:.0f} % of the readings that count are off by more "
+        f"than {LIMIT} m",
         lambda i, o: kept(i, o) and lost(i, o) <= most,
         why=_why,
         asks=asks,
@@ -113,8 +116,8 @@ RELOCALISE = Task(
         Law(
             "keeps",
             0.5,
-            f"as long as nobody lifts the robot, {1 - KEPT:.0%} of the readings are within "
-            f"{LIMIT} m",
+            f"as long as nobody lifts the robot, {100 * (1 - KEPT):.0f} % of the readings are "
+            f"within {LIMIT} m",
             kept,
             why=_why_kept,
             asks="What does the ready track do with a sight that is near no post? What would "
