@@ -1,11 +1,28 @@
 """The course in Notebook 7, which the extension serves, too."""
 
+import shutil
+
 import pytest
+
+from tests.browser.jupyter import jupyterlab
 
 pytest.importorskip("notebook", reason="Notebook 7 is not installed")
 pytestmark = pytest.mark.walk
 # of Notebook 7 itself, with or without the course's extension
 ITS_OWN = "Cannot read properties of undefined (reading 'schema')"
+
+
+@pytest.fixture(scope="module")
+def lab(lab_folder, tmp_path_factory):
+    """The address of a server of its own.
+
+    Where JupyterLab was used before, on the same server, its fonts are refused to Notebook 7, and
+    its file browser's place is asked for: the server's faults, not the course's.
+    """
+    home = tmp_path_factory.mktemp("notebook7")
+    shutil.copytree(lab_folder.parent, home / "course")
+    with jupyterlab(home) as address:
+        yield address
 
 
 @pytest.fixture
