@@ -54,9 +54,10 @@ class Number:
     @property
     def range(self):
         """str, which values it may have."""
+        kind, most = "a number", f" to below {self.below}"
         if self.kind is int:
-            return f"a whole number from {self.low} to {self.below - 1}"
-        return f"a number from {self.low}" + (f" to below {self.below}" * isfinite(self.below))
+            kind, most = "a whole number", f" to {self.below - 1}"
+        return f"{kind} from {self.low}" + most * isfinite(self.below)
 
     def parsed(self, value):
         """The number, of a text too; ValueError where it is none or out of range."""
