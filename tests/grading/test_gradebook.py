@@ -231,8 +231,11 @@ def test_a_regrade_killed_at_any_moment_changes_no_mark_and_no_row(tmp_path):
     last.communicate()
     assert last.returncode == 0
     after = state()
-    assert after[0] == before[0] + 12
+    # a record that is the same to its measured times is not stored again
+    assert before[0] <= after[0] <= before[0] + 12
     assert set(after[1]) == set(before[1])
+    scores = [{key: one.score for key, one in found.items()} for _, found in (before, after)]
+    assert scores[0] == scores[1]
 
 
 @pytest.mark.slow
