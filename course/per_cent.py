@@ -8,6 +8,7 @@ NO_SPACE = re.compile(r"\d%")
 FORMATTED = re.compile(r"\{[^{}]*%\}")  # by str.format, as in "{:.0%}"
 STYLE = re.compile(r"\d+%|.*(?:size|width): \d+%.*", re.DOTALL)  # a length of CSS
 SAYS = "a space stands before %, as in 38 %"
+FORMAT_SAYS = f'{SAYS}: write f"{{100 * share:.0f}} %"'
 
 
 def in_prose(text):
@@ -41,11 +42,11 @@ def in_code(tree):
     for node in nodes:
         if isinstance(node, ast.Constant) and isinstance(node.value, str) and node not in in_specs:
             if FORMATTED.search(node.value):
-                yield node.lineno, f'{SAYS}: write f"{{100 * share:.0f}} %"'
+                yield node.lineno, FORMAT_SAYS
             elif NO_SPACE.search(node.value) and not STYLE.fullmatch(node.value):
                 yield node.lineno, SAYS
         elif isinstance(node, ast.FormattedValue) and _ends_in_per_cent(node.format_spec):
-            yield node.lineno, f'{SAYS}: write f"{{100 * share:.0f}} %"'
+            yield node.lineno, FORMAT_SAYS
         elif isinstance(node, ast.JoinedStr) and node not in in_specs:
             for value, behind in pairwise(node.values):
                 if isinstance(value, ast.FormattedValue) and _begins_with_per_cent(behind):
