@@ -122,6 +122,12 @@ function moveInTable(event) {
   focusCell(row.cells[between(cell.cellIndex + step[1], row.cells.length - 1) || 1].firstChild);
 }
 
+function focusAt(place) {
+  const cell = place && at("place").querySelector(`button[data-row="${place[0]}"][data-column="${place[1]}"]`);
+  if (cell) focusCell(cell);
+  else at("who").focus();
+}
+
 // ---- a submission ----
 
 const pathOf = ([row, column]) => `submission/${row}/${table.exercises[column].id}`;
@@ -197,9 +203,18 @@ function showTask(task, told) {
 // a field whose text is kept until it is saved, also while other submissions are looked at
 function field(name, tag, given) {
   const key = `${open}/${name}`, element = make(tag, given);
+  element.dataset.key = key;
   if (drafts.has(key)) element.value = drafts.get(key);
   element.addEventListener("input", () => drafts.set(key, element.value));
   return [element, key];
+}
+
+// all fields are made anew: who types in one of them by now, not in the form that is done with, goes on in it
+function showAnew(told, done) {
+  const { activeElement } = document, typing = done?.contains(activeElement) ? undefined : activeElement.dataset.key;
+  show(told);
+  const field = [...at("submission").querySelectorAll("[data-key]")].find(({ dataset }) => dataset.key == typing);
+  (field ?? at("submission")).focus();
 }
 
 function form(told, words, fields, said) {
@@ -209,18 +224,18 @@ function form(told, words, fields, said) {
     make("label", { className: element.tagName == "TEXTAREA" || element.className == "reason" ? "reason" : "" }, element.dataset.label + " ", element)), button);
   made.addEventListener("submit", async (event) => {
     event.preventDefault();
-    const place = open, mine = ++asking;
+    const place = open, mine = ++asking, sent = elements.map((element) => element.value);
     button.disabled = true;
     try {
-      const now = await ask(pathOf(place), { seen: told.seen, ...said(...elements.map((element) => element.value)) });
-      for (const [, key] of fields) drafts.delete(key);
+      const now = await ask(pathOf(place), { seen: told.seen, ...said(...sent) });
+      fields.forEach(([, key], index) => drafts.get(key) === sent[index] && drafts.delete(key));
       table.rows[place[0]][place[1]] = now.cell;
-      if (mine == asking) show(now);
-      at("submission").focus();
+      if (mine == asking) showAnew(now, made);
       say("Saved.");
     } catch (error) {
       say(`Not saved: ${error.message}`);
-      if (mine == asking) show(await ask(pathOf(place)).catch(() => told));
+      const now = await ask(pathOf(place)).catch(() => told);
+      if (mine == asking) showAnew(now);
     }
   });
   return made;
@@ -260,11 +275,11 @@ async function back() {
   document.title = "Review";
   at("submission").hidden = true;
   at("class").hidden = false;
+  focusAt(place);
   await tried(loadTable);
+  const { row, column } = document.activeElement.dataset; // who has gone on meanwhile is not called back
   draw();
-  const cell = place && at("place").querySelector(`button[data-row="${place[0]}"][data-column="${place[1]}"]`);
-  if (cell) focusCell(cell);
-  else at("who").focus();
+  if (row !== undefined) focusAt([row, column]);
 }
 
 async function tried(deed) {
