@@ -107,6 +107,23 @@ def test_wrong_use_is_refused_in_one_line(capsys, words, says):
     assert says in refused(capsys, *words)
 
 
+@pytest.mark.parametrize(
+    ("words", "says"),
+    [
+        ("run sim:polygon --merge two", "--merge: a whole number is needed, not 'two'"),
+        ("run sim:polygon more", "unrecognized arguments: more"),
+        ("grade merge", "BOOK"),
+        ("rum", "'rum'"),
+    ],
+)
+def test_words_that_no_command_takes_are_refused_in_one_line(capsys, words, says):
+    with pytest.raises(SystemExit) as ended:
+        main(words.split())
+    assert ended.value.code == 2
+    said = capsys.readouterr().err
+    assert says in said and said.count("\n") == 1 and "--help' tells" in said
+
+
 def test_folders_junk_and_an_out_that_is_a_file_are_refused(tmp_path, capsys):
     junk = tmp_path / "junk"
     junk.write_bytes(bytes(range(256)) * 50)

@@ -71,6 +71,17 @@ def test_a_box_whose_bounds_are_broken_says_since_when():
     assert "lost at 0.5 s" in lost and "contradictions" in lost
 
 
+@pytest.mark.parametrize("name", ["mak", "montecarlo", "fastslam"])
+def test_a_map_of_one_landmark_says_that_it_fixes_no_pose(name):
+    source = simulation("landmarks", np.random.default_rng(1))
+    slam, first = estimators.make(name, source), None
+    for reading in islice(source, 40):
+        seen = reading.observations
+        first = seen.ids[0] if first is None and len(seen.ids) else first
+        slam.step(replace(reading, observations=seen.subset(seen.ids == first)))
+    assert any("single landmark" in sentence for sentence in slam.warnings)
+
+
 @pytest.mark.parametrize("name", ["montecarlo", "fastslam"])
 def test_samples_that_see_nothing_again_are_no_surer_than_odometry_and_say_so(name):
     source = simulation("landmarks", np.random.default_rng(1))

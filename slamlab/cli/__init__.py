@@ -42,6 +42,16 @@ SUBCOMMANDS = {
 """Subcommands, written as two words; a folder of such a name is given as ./merge."""
 
 
+class Parser(argparse.ArgumentParser):
+    """A parser that says in one line what is wrong with its words; its subparsers do, too."""
+
+    def error(self, message):
+        """Say what is wrong and where to read more, and exit with 2."""
+        for kind, says in (("int", "a whole number"), ("float", "a number")):
+            message = message.replace(f"invalid {kind} value:", f"{says} is needed, not")
+        self.exit(2, f"{self.prog}: {message}; '{self.prog} --help' tells what it takes\n")
+
+
 def main(argv=None):
     """Parse the command line and run a command (entry point).
 
@@ -53,7 +63,7 @@ def main(argv=None):
     -------
     int, the exit code
     """
-    parser = argparse.ArgumentParser(
+    parser = Parser(
         prog="slamlab",
         description="Simultaneous localisation and mapping: run it, check it, grade it.",
         epilog="slamlab COMMAND --help says more of a command.",

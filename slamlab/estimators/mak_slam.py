@@ -8,7 +8,7 @@ from slamlab.estimators.landmark_observations import (
     observed_landmarks,
     require_landmarks,
 )
-from slamlab.estimators.sufficiency import hardly_surer, wider_than_map
+from slamlab.estimators.sufficiency import hardly_surer, single_landmark, wider_than_map
 from slamlab.filters.data_association import (
     compatible_corners,
     gated_nearest_neighbours,
@@ -94,6 +94,7 @@ class MakSlam(Estimator):
         P = self.filter.block([0, 1])
         return [
             *hardly_surer(P, self._alone, self._steps),
+            *single_landmark(self.filter.landmarks(), self._steps),
             *wider_than_map(P, self.filter.landmarks(), self._steps),
         ]
 

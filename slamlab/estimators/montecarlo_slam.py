@@ -6,7 +6,12 @@ from slamlab.estimators.base import Estimator
 from slamlab.estimators.corner_names import CornerNames
 from slamlab.estimators.landmark_observations import DataAssociation, require_landmarks
 from slamlab.estimators.mak_slam import predict
-from slamlab.estimators.sufficiency import hardly_surer, mostly_ambiguous, wider_than_map
+from slamlab.estimators.sufficiency import (
+    hardly_surer,
+    mostly_ambiguous,
+    single_landmark,
+    wider_than_map,
+)
 from slamlab.filters.mak import MAK
 from slamlab.filters.montecarlo.fastslam import FastSLAM
 from slamlab.filters.montecarlo.particle_association import associate
@@ -48,6 +53,7 @@ class ParticleSlam(Estimator):
         P = self.filter.robot.moments.P
         return [
             *hardly_surer(P, self._alone, self._steps),
+            *single_landmark(self.filter.landmarks(), self._steps),
             *wider_than_map(P, self.filter.landmarks(), self._steps),
             *mostly_ambiguous(self.ambiguous, self._seen + self.names.ambiguous),
         ]

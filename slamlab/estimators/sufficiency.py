@@ -154,6 +154,25 @@ def wider_than_map(P, places, scans):
     return [f"its place is known to ±{reach:.2f} m: that is wider than all that it has mapped"]
 
 
+def single_landmark(places, scans):
+    """Warn of a map of one landmark, round which the robot may stand anywhere.
+
+    Its distance and bearing are two numbers, and a pose has three.
+
+    Parameters
+    ----------
+    places : (n, 2) landmarks [m]
+    scans : int, readings with something in them so far
+
+    Returns
+    -------
+    list of str
+    """
+    if scans < MIN_STEPS or len(places) != 1:
+        return []
+    return ["its map is a single landmark: that does not fix a pose, odometry has to do the rest"]
+
+
 def mostly_ambiguous(ambiguous, observed):
     """Warn of observations that were ignored because they may be of several landmarks.
 
