@@ -211,39 +211,34 @@ def test_two_who_are_alike_are_looked_at_by_keyboard_as_text(page, state):
     assert page.evaluate("document.querySelectorAll('img, main script, main style').length") == 0
 
 
-def held(page, address):
-    """Hold what is asked of an address; what this returns lets it go on."""
-    waiting = []
-    page.route(address, lambda asked: waiting.append(asked))
-
-    def let_go():
-        while not waiting:
-            page.wait_for_timeout(10)
-        for asked in waiting:
-            asked.continue_()
-        page.unroute(address)
-
-    return let_go
+HOLD = """() => {
+  const fetched = window.fetch;
+  let done;
+  const let_go = new Promise((resolve) => { done = resolve; });
+  window.fetch = async (...asked) => { await let_go; return fetched(...asked); };
+  window.letGo = () => { window.fetch = fetched; done(); };
+}"""
+"""Holds what the page asks from now on; ``letGo()`` lets it go on."""
 
 
 def test_a_late_answer_calls_nobody_back_who_has_gone_on(page):
     page.locator("td button").first.press("Enter")
     page.locator("#verdict .box").first.wait_for()
-    let_go = held(page, "**/table")
+    drawn = page.locator("td").first.element_handle()
+    page.evaluate(HOLD)
     page.keyboard.press("Escape")
     assert "04: 1, " in focused(page)  # at once, while the table is still on its way
     page.keyboard.press("ArrowDown")
-    with page.expect_response("**/table"):
-        let_go()
-    page.locator("td button[tabindex='0'][aria-label*='04: 2']").wait_for()
+    page.evaluate("letGo()")
+    page.wait_for_function("old => !old.isConnected", arg=drawn)
     assert "04: 2, " in focused(page)
     page.keyboard.press("Enter")
     page.locator("#title", has_text="Ben Ivo").wait_for()
-    let_go = held(page, "**/table")
+    drawn = page.locator("td").first.element_handle()
+    page.evaluate(HOLD)
     page.keyboard.press("Escape")
     page.locator("#who").focus()
-    drawn = page.locator("td").first.element_handle()
-    let_go()
+    page.evaluate("letGo()")
     page.wait_for_function("old => !old.isConnected", arg=drawn)
     assert page.evaluate("document.activeElement.id") == "who"
 
@@ -251,10 +246,10 @@ def test_a_late_answer_calls_nobody_back_who_has_gone_on(page):
 def test_what_is_typed_while_another_field_is_saved_goes_on(page):
     page.locator("td button").first.press("Enter")
     page.get_by_label("reason for the points of 04-h-robot").fill("my words")
-    let_go = held(page, "**/submission/**")
+    page.evaluate(HOLD)
     page.get_by_label("reason for the points of 04-h-robot").press("Enter")
     page.locator("#comment textarea").fill("half a")
-    let_go()
+    page.evaluate("letGo()")
     page.get_by_text("set by hand: my words").wait_for()
     page.keyboard.press("End")
     page.keyboard.type(" sentence")
