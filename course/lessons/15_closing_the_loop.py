@@ -48,7 +48,8 @@ GATES = [1, 3, 11.3, 30, 60, 100, 300, 1000, 3000, 10000, 30000]
 
 
 def slider(name, options, first):
-    return SelectionSlider(options=options, value=first, description=name)
+    choices = [(views.grouped(each), each) for each in options]
+    return SelectionSlider(options=choices, value=first, description=name)
 
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=4
@@ -760,7 +761,9 @@ ask(
 by_claim = {claim: twins.surprises(claim) for claim in (0.2, 1, 3)}
 print("claimed error ×   right ones up to   false ones from")
 for claim, s in by_claim.items():
-    print(f"{claim:15g} {s[~twins.false].max():18.0f} {s[twins.false].min():17.0f}")
+    print(
+        f"{claim:15g} {s[~twins.false].max():18.0f} {views.grouped(round(s[twins.false].min())):>17}"
+    )
 refused = np.mean(by_claim[1][~twins.false] > 11.3)
 
 
@@ -923,7 +926,7 @@ graph, _ = twins.closed(twins.offered(5), 11.3)
 paid = {"the broken map": false_loops.cost(graph, 11.3)}
 graph.poses = twins.closed(twins.offered(0), 11.3)[0].poses
 paid["the right map"] = false_loops.cost(graph, 11.3)
-print({name: f"{cost:,.0f}" for name, cost in paid.items()})
+print({name: views.grouped(f"{cost:.0f}") for name, cost in paid.items()})
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # It is not: the right map costs {= paid["the broken map"] / paid["the right map"]:.0f =} times
