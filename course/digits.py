@@ -8,7 +8,9 @@ from course import values
 # in names, times, fractions, addresses, behind a decimal point, or where code computes, it is none
 TOGETHER = re.compile(r"(?<![\w.,/:#=^\\])(?<!\w[-(])(?<![-+^%*/<>] )(?<!\+= )\d{5,}(?![\w/:])")
 OTHERWISE = re.compile(r"\d,\d{3}(?!\d)|(?<![\d .,])\d \d{3}(?![\d\w]| \d)")  # 10,000 and 1 000
-CODE = re.compile(r"```.*?```|`[^`]*`|\]\([^)]*\)|<[^>]*>|\[[^\]]*\d, [^\]]*\]", re.DOTALL)
+CODE = re.compile(
+    r"```.*?```|`[^`]*`|\]\([^)]*\)|<[^>]*>|\[[^\]]*\d, [^\]]*\]|\{'[^}]*\}", re.DOTALL
+)
 FORMAT = re.compile(r"[,_][\d.]*[defgn]?$")
 # numbers that name something, and programs in words
 NAMES = re.compile(r"--port is 0 to 65535|\(12345\)|360 for 36000")
@@ -21,7 +23,7 @@ def in_prose(text):
 
     Parameters
     ----------
-    text : str, of Markdown; code, addresses and lists of numbers in it are not looked at
+    text : str, of Markdown; code, addresses, lists and dicts in it are not looked at
 
     Returns
     -------

@@ -120,7 +120,8 @@ ask(
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"] answers="14-node"
 low, high = scan[8], scan[9]
 word = low + 256 * high
-print(f"word {word}, half of it {word // 2}, angle {word // 2 / 64:.2f}°")
+half = word // 2
+print(f"word {views.grouped(word)}, half of it {views.grouped(half)}, angle {half / 64:.2f}°")
 nodes = ScanDecoder().feed(scan[7:])
 print(f"the package's decoder: {nodes['angle_q6'][0] / 64:.2f}°, {len(nodes)} nodes a second")
 

@@ -44,12 +44,10 @@ from slamlab.studies import edge_frames, false_loops, intel_maps
 from slamlab.studies.wheel_graphs import information_of_all, wheels_graph
 from slamlab.worlds import World
 
-GATES = [1, 3, 11.3, 30, 60, 100, 300, 1000, 3000, 10000, 30000]
-
 
 def slider(name, options, first):
-    choices = [(views.grouped(each), each) for each in options]
-    return SelectionSlider(options=choices, value=first, description=name)
+    named = {views.grouped(n): n for n in options}
+    return SelectionSlider(options=named, value=first, description=name)
 
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=4
@@ -777,6 +775,7 @@ def gate_and_claim(gate, claimed_error):
 
 
 # %% slideshow={"slide_type": "fragment"} answers="15-width"
+GATES = [1, 3, 11.3, 30, 60, 100, 300, 1000, 3000, 10_000, 30_000]
 views.explore(
     gate_and_claim,
     lambda gate, claimed_error: (
@@ -882,7 +881,7 @@ views.explore(
     ),
     false_offered=(0, int(twins.false.sum()), 5),
     phi=slider("Φ", [1, 3, 11.3, 30, 100, 300, 1000], 11.3),
-    gate=slider("gate", GATES, 30000),
+    gate=slider("gate", GATES, 30_000),
 )
 
 # %% [markdown] slideshow={"slide_type": "subslide"} answers="15-liars"
