@@ -220,10 +220,12 @@ check("14-command")
 @attempt
 def _():
     from slamlab.devices.emir.frames import COMMAND, Framer
+    from slamlab.digits import grouped
 
     every = range(-100, 101)
     sent = "".join(command(speed, turn) for speed in every for turn in every)
-    print(len(Framer(COMMAND).feed(sent.encode())), "of 40 401 commands are understood")
+    understood = Framer(COMMAND).feed(sent.encode())
+    print(grouped(len(understood)), "of 40 401 commands are understood")
 
 
 # %% [markdown]
