@@ -33,6 +33,8 @@ _FIRST = {
     },
     "exercise": {},
 }
+# a table's first line with an empty cell; where code writes it, its first string
+HEADLESS = re.compile(r"^\|(?:.*\|)? +\|.*\n\|[ :|-]+\|$|\"\| +\|", re.MULTILINE)
 
 
 def lint(source, exercise=None):
@@ -56,6 +58,7 @@ def lint(source, exercise=None):
     problems += [f"{source.at(cell)}: {text}" for cell, text in _minutes(source)]
     problems += [f"{source.at(cell)}: {text}" for cell, text in _questions(source)]
     problems += [f"{source.at(cell)}: {text}" for cell, text in _numbers(source)]
+    problems += [f"{source.at(cell)}: {text}" for cell, text in _tables(source)]
     problems += [f"{source.at(cell)}: {text}" for cell, text in equations.problems(source)]
     problems += [f"{source.at(cell)}: {text}" for cell, text in _first_and_last_cell(source)]
     if source.kind == "lesson":
@@ -175,6 +178,16 @@ def _numbers(source):
             yield cell, per_cent.SAYS
         if prose and (found := digits.in_prose(cell.text)):
             yield cell, f"{found}: {digits.SAYS}"
+
+
+def _tables(source):
+    """Problems of tables, those that code writes too: a column without a heading."""
+    for cell in source.cells:
+        if HEADLESS.search(cell.text):
+            yield (
+                cell,
+                "a column of a table has no heading, by which it is read out",
+            )
 
 
 def _first_and_last_cell(source):

@@ -662,7 +662,7 @@ ask(
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"] answers="09-harm"
 spoilt = stored("spoilt_walls")
 tours = [spoilt["situations"][name] for name in ("situation-1", "situation-2")]
-rows = ["| | error, 1 | NEES, 1 | walls, 1 | error, 2 | NEES, 2 | walls, 2 |", "|---" * 7 + "|"]
+rows = ["| how | error, 1 | NEES, 1 | walls, 1 | error, 2 | NEES, 2 | walls, 2 |", "|---" * 7 + "|"]
 for name in tours[0]:
     cells = [
         f"{100 * t[name]['rms_m']:.1f} cm | {t[name].get('nees', np.nan):.3g} "

@@ -972,7 +972,7 @@ for name in (sets_apart.EKF, sets_apart.SETS, *sets_apart.FAST.values()):
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=2
 # ## What you can do now
 #
-# | | |
+# | what | how |
 # | --- | --- |
 # | move | every sample, each with noise of its own |
 # | weigh | by the likelihood alone, in logarithms, the largest taken out |

@@ -469,7 +469,7 @@ for name in OWN_NAMES:
     )
     rows.append(f"| {name} | {counts} | {cm(gain[name], '+')} |")
 assert all(high < 0 for _, _, high in gain.values())
-head = "| | corners: own | by MAK | lost: own | by MAK | RMS, MAK's names less own [cm] |"
+head = "| filter | corners: own | by MAK | lost: own | by MAK | RMS, MAK's names less own [cm] |"
 Markdown("\n".join([head, "|---" * 6 + "|", *rows]))
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
@@ -727,7 +727,7 @@ lines = [
     + " |"
     for k, line in enumerate(table["six"], start=1)
 ]
-Markdown("\n".join(["| | " + " | ".join(names) + " |", "|---" * 9 + "|", *lines]))
+Markdown("\n".join(["| drive | " + " | ".join(names) + " |", "|---" * 9 + "|", *lines]))
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # In the last line all but `walls` are some 30 cm off over the drive, and still only
