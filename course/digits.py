@@ -15,7 +15,7 @@ FORMAT = re.compile(r"[,_][\d.]*[defgn]?$")
 # numbers that name something, and programs in words
 NAMES = re.compile(r"--port is 0 to 65535|\(12345\)|360 for 36000")
 SAYS = "write large numbers as 10 000, in formulas 10\\,000, and 1000 without a space"
-FORMAT_SAYS = f"{SAYS}: grouped(number), of slamlab.digits and of views"
+FORMAT_SAYS = f"{SAYS}: grouped(number), of slamlab.displays and of views"
 
 
 def in_prose(text):

@@ -10,7 +10,7 @@ import re
 
 import nbformat
 
-from slamlab.digits import grouped
+from slamlab.displays import grouped
 
 MARK = re.compile(r"\{=\s*(.+?)\s*=\}", re.DOTALL)
 _MINUS = re.compile(r"(?<!\w)-(?=[\d.])")

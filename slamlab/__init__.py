@@ -7,7 +7,6 @@ geometry         poses in the plane: wrapping angles, composition, transforms
 readings         what every source yields: scans, landmark observations, odometry
 layers           what an estimator shows: named layers of plain arrays
 files            text files, published recordings
-digits           whole numbers as the course writes them, 10 000: ``grouped``
 displays         what a notebook shows, in a form that its file keeps
 models           motion and observation models, their Jacobians, noise, derivation by sympy
 worlds           walls and circles, exact ray casting, ready worlds

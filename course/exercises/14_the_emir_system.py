@@ -220,7 +220,7 @@ check("14-command")
 @attempt
 def _():
     from slamlab.devices.emir.frames import COMMAND, Framer
-    from slamlab.digits import grouped
+    from slamlab.displays import grouped
 
     every = range(-100, 101)
     sent = "".join(command(speed, turn) for speed in every for turn in every)

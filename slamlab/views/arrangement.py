@@ -4,7 +4,7 @@ import textwrap
 
 import numpy as np
 
-from slamlab.digits import grouped
+from slamlab.displays import grouped
 from slamlab.views.legends import make_room
 
 MOST_LAYOUTS = 5  # the layout is made anew until nothing moves any more

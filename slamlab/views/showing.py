@@ -9,8 +9,7 @@ import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from PIL import Image
 
-from slamlab.digits import grouped
-from slamlab.displays import show_bundle, show_controls
+from slamlab.displays import grouped, show_bundle, show_controls
 from slamlab.views.arrangement import arrange
 from slamlab.views.figure_faults import report
 from slamlab.views.figure_words import words

@@ -6,8 +6,7 @@ from math import ceil, log10
 
 import ipywidgets
 
-from slamlab.digits import grouped
-from slamlab.displays import show_bundle, show_controls
+from slamlab.displays import grouped, show_bundle, show_controls
 from slamlab.views import play_button
 from slamlab.views.showing import bundle
 

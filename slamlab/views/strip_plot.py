@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from slamlab.digits import grouped
+from slamlab.displays import grouped
 from slamlab.views.colours import COLOURS
 from slamlab.views.figures import chart
 from slamlab.views.legends import legend

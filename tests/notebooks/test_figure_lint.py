@@ -158,7 +158,7 @@ def test_no_program_shows_a_large_number_in_another_form(room):
         f"{file.relative_to(ROOT)}:{line}: {text}"
         for file in sorted((ROOT / room).rglob("*.py"))
         for line, text in digits.in_code(ast.parse(file.read_text("utf-8")))
-        if file.name != "digits.py"
+        if file.name not in ("digits.py", "displays.py")  # they make the form
     ]
     assert told == []
 
