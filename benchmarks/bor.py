@@ -143,7 +143,7 @@ def run(quick):
                 row(f"{method}: N = {N} over N = 10", growth, "times", "constant", 1 / growth)
             )
     each, few = memory(10_000) / 10_000, memory(1000) / 1000
-    rows.append(row("memory per object, N = 10000", each, "B", "N = 1000", few / each))
+    rows.append(row("memory per object, N = 10 000", each, "B", "N = 1000", few / each))
     for drive in ("steered", "wheels", "odometry"):
         place, turn = widths(drive).mean(axis=0)
         rows.append(row(f"{drive}: width of x and y", place, "times", "hull of samples", 1 / place))

@@ -5,7 +5,7 @@ import importlib
 import re
 from itertools import pairwise
 
-from course import asking, equations, per_cent, values, visible_code
+from course import asking, digits, equations, per_cent, values, visible_code
 from course.exercise import SolutionError, solution_regions
 from course.figure_lint import figure_problems
 from course.source import CHECK, ID, METADATA, heading, main_line
@@ -33,6 +33,8 @@ _FIRST = {
     },
     "exercise": {},
 }
+# a table's first line with an empty cell; where code writes it, its first string
+HEADLESS = re.compile(r"^\|(?:.*\|)? +\|.*\n\|[ :|-]+\|$|\"\| +\|", re.MULTILINE)
 
 
 def lint(source, exercise=None):
@@ -55,7 +57,8 @@ def lint(source, exercise=None):
     problems += [f"{source.at(cell)}: {text}" for cell, text in _slides(source)]
     problems += [f"{source.at(cell)}: {text}" for cell, text in _minutes(source)]
     problems += [f"{source.at(cell)}: {text}" for cell, text in _questions(source)]
-    problems += [f"{source.at(cell)}: {text}" for cell, text in _per_cent(source)]
+    problems += [f"{source.at(cell)}: {text}" for cell, text in _numbers(source)]
+    problems += [f"{source.at(cell)}: {text}" for cell, text in _tables(source)]
     problems += [f"{source.at(cell)}: {text}" for cell, text in equations.problems(source)]
     problems += [f"{source.at(cell)}: {text}" for cell, text in _first_and_last_cell(source)]
     if source.kind == "lesson":
@@ -115,6 +118,7 @@ def _code(source, cell):
     yield from figure_problems(tree)
     if not asking.asks(cell.text):  # its words are prose
         yield from per_cent.in_code(tree)
+        yield from digits.in_code(tree)
     try:
         marked = solution_regions(cell.text)
     except SolutionError as error:
@@ -166,12 +170,24 @@ def _questions(source):
             yield cell, "a heading is not folded: put it before the question"
 
 
-def _per_cent(source):
-    """Problems of prose, that of questions too: a number and its % without the space."""
+def _numbers(source):
+    """Problems of prose, that of questions too: large numbers, a number and its %."""
     for cell in source.cells:
         prose = cell.type == "markdown" or asking.asks(cell.text)
         if prose and per_cent.in_prose(values.MARK.sub("", cell.text)):  # values get their space
             yield cell, per_cent.SAYS
+        if prose and (found := digits.in_prose(cell.text)):
+            yield cell, f"{found}: {digits.SAYS}"
+
+
+def _tables(source):
+    """Problems of tables, those that code writes too: a column without a heading."""
+    for cell in source.cells:
+        if HEADLESS.search(cell.text):
+            yield (
+                cell,
+                "a column of a table has no heading, by which it is read out",
+            )
 
 
 def _first_and_last_cell(source):

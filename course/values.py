@@ -10,6 +10,8 @@ import re
 
 import nbformat
 
+from slamlab.displays import grouped
+
 MARK = re.compile(r"\{=\s*(.+?)\s*=\}", re.DOTALL)
 _MINUS = re.compile(r"(?<!\w)-(?=[\d.])")
 _PER_CENT = re.compile(r"(?<=\d)%")
@@ -110,8 +112,8 @@ def _fill(cell, values):
 
 
 def _typeset(value):
-    """A value as the text writes numbers: −3, 38 %."""
-    return _PER_CENT.sub(" %", _MINUS.sub("−", value))
+    """A value as the text writes numbers: −3, 38 %, 10 000."""
+    return grouped(_PER_CENT.sub(" %", _MINUS.sub("−", value)))
 
 
 def _kept(cell):

@@ -1,6 +1,11 @@
 """Displays of a notebook: what its page shows, in a form that its file keeps."""
 
+import re
+
 from IPython.display import DisplayHandle, display
+
+# five digits and more, but in names, times, fractions, addresses and behind a decimal point
+_LARGE = re.compile(r"(?<![\w.,/:#=^])(?<!\w-)\d{5,}(?![\w/:])")
 
 
 def show_bundle(shown):
@@ -30,3 +35,17 @@ def show_controls(box, words="Run this cell for its controls."):
     words : str
     """
     display((box._repr_mimebundle_() or {}) | {"text/plain": words}, raw=True)
+
+
+def grouped(told):
+    """A number or a text, its whole numbers of five digits and more in groups of three: 10 000.
+
+    Parameters
+    ----------
+    told : int, float or str
+
+    Returns
+    -------
+    str
+    """
+    return _LARGE.sub(lambda found: f"{int(found[0]):,}".replace(",", " "), str(told))

@@ -135,9 +135,9 @@ def _():
 # | --- | --- |
 # | 0 | 0x54, here a packet begins |
 # | 1 | $n$, how many points it holds |
-# | 2, 3 | $\psi_0$, angle of the first point [1/100 degree], 0 to 35999 |
+# | 2, 3 | $\psi_0$, angle of the first point [1/100 degree], 0 to 35 999 |
 # | then three for each point | distance [mm] in two bytes, 0 where nothing came back; strength |
-# | two more | $\psi_{n-1}$, angle of the last point [1/100 degree], 0 to 35999 |
+# | two more | $\psi_{n-1}$, angle of the last point [1/100 degree], 0 to 35 999 |
 # | the last one | sum of all bytes before it, modulo 256 |
 #
 # Numbers of two bytes send the low byte first and have no sign. The lidar turns **clockwise**, and its 0° is the
@@ -220,10 +220,12 @@ check("14-command")
 @attempt
 def _():
     from slamlab.devices.emir.frames import COMMAND, Framer
+    from slamlab.displays import grouped
 
     every = range(-100, 101)
     sent = "".join(command(speed, turn) for speed in every for turn in every)
-    print(len(Framer(COMMAND).feed(sent.encode())), "of 40401 commands are understood")
+    understood = Framer(COMMAND).feed(sent.encode())
+    print(grouped(len(understood)), "of 40 401 commands are understood")
 
 
 # %% [markdown]

@@ -11,7 +11,7 @@
 # Make it better. You may change all of it, and write as many functions and cells as you need; the
 # class has to keep its name and what it offers:
 #
-# | | |
+# | name | what it is |
 # | --- | --- |
 # | `step(reading)` | is called for each reading, about every 0.4 m. `reading.odometry` is the motion since the last one as the wheels tell it, `[x, y, θ]` in the frame of the pose before; `reading.scan` is a lidar scan, whose `points()` are (n, 2) in the robot's frame; `reading.scan.ranges` and `.angles`, (n,), are its beams. In a scan that was lost no beam has a range. The odometry says nothing of being carried away |
 # | `pose` | where it believes it is now, `[x, y, θ]`, in a frame of its choice |

@@ -161,7 +161,7 @@ views.explore(
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=4
 # ## Conventions
 #
-# | | here | not |
+# | what | here | not |
 # | --- | --- | --- |
 # | lengths | metres | millimetres, centimetres |
 # | angles | radians, from −π to π | degrees (only in text and on axes) |
@@ -230,7 +230,7 @@ for theta in (25, 115):
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=2 name="map-of-lessons"
 # ## Map of the lessons
 #
-# | | lesson | what it shows | lesson | exercise |
+# | no. | lesson | what it shows | lesson | exercise |
 # | --- | --- | --- | --- | --- |
 # | 00 | [Start here](00_start_here.ipynb) | how all this works | 20 min | |
 # | 01 | [Why SLAM](01_why_slam.ipynb) | a robot that believes its wheels draws a map that does not close | 45 min | 60 min |
@@ -242,7 +242,7 @@ for theta in (25, 115):
 # | 07 | [Correlations](07_correlations.ipynb) | why what robot and landmarks share cannot be dropped, what it costs, and ways out | 90 min | 60 min |
 
 # %% [markdown] slideshow={"slide_type": "subslide"} name="map-of-lessons-2"
-# | | lesson | what it shows | lesson | exercise |
+# | no. | lesson | what it shows | lesson | exercise |
 # | --- | --- | --- | --- | --- |
 # | 08 | [Landmarks from scans](08_landmarks_from_scans.ipynb) | table legs, walls and corners found in a scan, and which of them were seen before | 75 min | 60 min |
 # | 09 | [SLAM with walls](09_slam_with_walls.ipynb) | a whole thesis system, driven live through two buildings; its flaws measured and mended | 60 min | 60 min |

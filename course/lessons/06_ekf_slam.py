@@ -264,7 +264,7 @@ STEP, Q_STEP = np.array([0.3, 0.01, 0.1]), np.diag([0.02, 0.01, 0.012]) ** 2
 before = mak.P
 mak.predict(compose(mak.pose, STEP), Q_STEP)
 changed = np.sum(before != mak.P)
-print(f"100 landmarks: a drive changes {changed} of the {before.size} numbers in P")
+print(f"100 landmarks: a drive changes {changed} of the {views.grouped(before.size)} numbers in P")
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="06-drive"
 # These are the 9 of the corner and 8 for each landmark, in a stripe along two edges. So the time

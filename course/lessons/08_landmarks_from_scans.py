@@ -1017,7 +1017,7 @@ by_foot, by_line = (after_looks(10, 0.5, as_foot) for as_foot in (True, False))
 # A robot knows its place to 5 cm and its heading to 0.15 rad only. It sees a wall at 2.98 m and 0.05 rad, and the
 # map has two:
 #
-# | | expected | seen minus expected |
+# | which | expected | seen minus expected |
 # | --- | --- | --- |
 # | wall A | 3.00 m, 0.30 rad | −0.02 m, −0.25 rad |
 # | wall B | 2.78 m, 0.05 rad | +0.20 m, 0.00 rad |

@@ -166,7 +166,7 @@ boxes = {
 # %% slideshow={"slide_type": "fragment"} tags=["folded"]
 flows = [
     ("wheels", "predict", f"{count['steps']}\nsteps"),
-    ("lidar", "extract", f"{count['ranges']:,}\nranges".replace(",", " ")),
+    ("lidar", "extract", f"{count['ranges']}\nranges"),
     ("extract", "pair", f"{count['lines']}\nlines"),
     ("pair", "update", f"{count['known']}\nknown"),
     ("pair", "welcome", f"{count['new']} new"),
@@ -662,7 +662,7 @@ ask(
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"] answers="09-harm"
 spoilt = stored("spoilt_walls")
 tours = [spoilt["situations"][name] for name in ("situation-1", "situation-2")]
-rows = ["| | error, 1 | NEES, 1 | walls, 1 | error, 2 | NEES, 2 | walls, 2 |", "|---" * 7 + "|"]
+rows = ["| how | error, 1 | NEES, 1 | walls, 1 | error, 2 | NEES, 2 | walls, 2 |", "|---" * 7 + "|"]
 for name in tours[0]:
     cells = [
         f"{100 * t[name]['rms_m']:.1f} cm | {t[name].get('nees', np.nan):.3g} "
@@ -853,7 +853,7 @@ for points, pose in zip(scans["situation-2"], room.truth.poses, strict=True):
     thinned.add(transform(pose, points))
 offered = sum(map(len, scans["situation-2"]))
 most = np.unique(np.floor(thinned.xy / 0.06), axis=0, return_counts=True)[1].max()
-print(f"{offered} points offered, {len(thinned.xy)} drawn, at most {most} in a cell")
+print(f"{views.grouped(offered)} points offered, {len(thinned.xy)} drawn, at most {most} in a cell")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # A cell holds few points, since they keep their distance from each other. So a new point costs at
@@ -1049,7 +1049,7 @@ for row in sound["slopes"]:
     )
 print("a smooth wall mirrors the sound away where it is met at a slant")
 for row in sound["incidences"]:
-    told = f"{row['echoes']} echoes, {row['lines']:4} lines"
+    told = f"{views.grouped(row['echoes'])} echoes, {row['lines']:4} lines"
     print(f"echoes up to {row['degrees']:2}° off square on: {told}")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}

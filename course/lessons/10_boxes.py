@@ -593,7 +593,7 @@ ask(
 # %% slideshow={"slide_type": "fragment"} tags=["nbval-check-output"] answers="10-never"
 runs = [study.violations(seed, steps=60) for seed in range(200)]
 for name in ("steps", "outside", "empty"):
-    print(f"{name:8}", sum(each[name] for each in runs))
+    print(f"{name:8}", views.grouped(sum(each[name] for each in runs)))
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
 # No truth lay outside of any box, and no intersection was empty. The same study over 5000 worlds is stored with the
@@ -606,7 +606,7 @@ print(table["command"].split(" --jobs")[0])
 print({name: table["counted"][name] for name in ("steps", "sightings", "outside", "empty")})
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# In {= table["counted"]["steps"]:,d =} steps the truth was outside {= table["counted"]["outside"] =} times. A guarantee is
+# In {= table["counted"]["steps"] =} steps the truth was outside {= table["counted"]["outside"] =} times. A guarantee is
 # a wonderful thing to test. A single counterexample is a bug, and no statistics can excuse it.
 
 # %% [markdown] slideshow={"slide_type": "notes"}
@@ -1025,11 +1025,12 @@ def cost(N):
 
 
 # %% slideshow={"slide_type": "fragment"}
-print("     N   known   find out   memory of BOR   of MAK (06)")
+print("      N   known   find out   memory of BOR   of MAK (06)")
 for N in (100, 10_000, 100_000):
     known, find = cost(N)
     memory = 32 * N / 1e3, 8 * (3 + 2 * N) ** 2 / 1e6
-    print(f"{N:6}  {known:4.0f} µs   {find:6.0f} µs   {memory[0]:9.1f} kB  {memory[1]:8.1f} MB")
+    kB, MB = (f"{views.grouped(f'{each:.1f}'):>9}" for each in memory)
+    print(f"{views.grouped(N):>7}  {known:4.0f} µs   {find:6.0f} µs   {kB} kB {MB} MB")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # If the object is known, the time is constant. To find it among $N$ costs a time that grows with

@@ -184,7 +184,7 @@ reason = np.median([evidence(seed, steps=10) for seed in range(100)])
 
 # %% slideshow={"slide_type": "subslide"} answers="11-few"
 found = many["found"]
-rows = {f"{int(n):,} samples": share for n, share in found.items()}
+rows = {f"{n} samples": share for n, share in found.items()}
 fig, _ = views.shares({"found": rows}, f"share of {runs} drives found", size=(8, 4.2))
 shown = ", ".join(f"{name} in {100 * share[0]:.0f} %" for name, share in rows.items())
 views.show(fig, f"The robot is found by {shown} of the drives; the intervals are wide.")
@@ -972,7 +972,7 @@ for name in (sets_apart.EKF, sets_apart.SETS, *sets_apart.FAST.values()):
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=2
 # ## What you can do now
 #
-# | | |
+# | what | how |
 # | --- | --- |
 # | move | every sample, each with noise of its own |
 # | weigh | by the likelihood alone, in logarithms, the largest taken out |

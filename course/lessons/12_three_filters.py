@@ -413,8 +413,8 @@ free, snagged, own_names = (table["many"][kind] for kind in ("free", "snagged", 
 runs = free["odometry"]["runs"]
 for whose, rows in {"its own": own_names, "MAK's": free}.items():
     box = rows["BOR, honest"]["box"]
-    print(f"{whose:8} names: outside in {box['scans_outside']:5} of {box['scans']} scans, ", end="")
-    print(f"in {box['runs_outside']} of {runs} drives")
+    scans = f"{box['scans_outside']:5} of {views.grouped(box['scans'])} scans"
+    print(f"{whose:8} names: outside in {scans}, in {box['runs_outside']} of {runs} drives")
 own_box, named_box = own_names["BOR, honest"]["box"], free["BOR, honest"]["box"]
 assert named_box["scans_outside"] == 0 and own_box["runs_outside"] == runs == 80
 
@@ -469,7 +469,7 @@ for name in OWN_NAMES:
     )
     rows.append(f"| {name} | {counts} | {cm(gain[name], '+')} |")
 assert all(high < 0 for _, _, high in gain.values())
-head = "| | corners: own | by MAK | lost: own | by MAK | RMS, MAK's names less own [cm] |"
+head = "| filter | corners: own | by MAK | lost: own | by MAK | RMS, MAK's names less own [cm] |"
 Markdown("\n".join([head, "|---" * 6 + "|", *rows]))
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
@@ -606,10 +606,10 @@ views.explore(
 rows = []
 for k, row in table["many"]["bounds"].items():
     if box := row["box"]:
-        out = f"{box['scans_outside']} | {box['runs_outside']} | {box['runs_outside_reported']}"
+        out = f"{views.grouped(box['scans_outside'])} | {box['runs_outside']} | {box['runs_outside_reported']}"
         wide = f"{box['laps_m'][-1][0]:.2f}"
         rows.append(f"| {k} | {out} | {wide} | {cm(row['rms_minus_odometry_m'], '+')} |")
-head = f"| k | outside: scans of {named_box['scans']} | drives of {runs} | of these reported | "
+head = f"| k | outside: scans of {views.grouped(named_box['scans'])} | drives of {runs} | of these reported | "
 head += "width after lap 3 [m] | RMS less odometry [cm] |"
 Markdown("\n".join([head, "|---" * 6 + "|", *rows]))
 
@@ -727,7 +727,7 @@ lines = [
     + " |"
     for k, line in enumerate(table["six"], start=1)
 ]
-Markdown("\n".join(["| | " + " | ".join(names) + " |", "|---" * 9 + "|", *lines]))
+Markdown("\n".join(["| drive | " + " | ".join(names) + " |", "|---" * 9 + "|", *lines]))
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # In the last line all but `walls` are some 30 cm off over the drive, and still only

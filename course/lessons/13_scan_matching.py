@@ -598,11 +598,16 @@ across = normals(first)
 spikes = np.hstack([first, first + 0.12 * across])[::6]
 layers = [Segments("normals", spikes[~np.isnan(spikes).any(axis=1)]), Points("map", first)]
 fig, _ = views.side_by_side({"the first scan and its normals": layers}, size=(8, 5))
-views.show(fig, "Short lines stand across the walls of the first scan; there are none at corners.")
+views.show(
+    fig,
+    "Short lines at every sixth point stand across the walls of the first scan. At corners they are slanted, between "
+    "the directions of both walls.",
+)
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
-# A line through each point and its neighbours gives the direction across, its **normal**. At corners there is none, and
-# pairs without a normal are left out.
+# A line through each point and its neighbours gives the direction across, its **normal**. At a corner the neighbours lie
+# on two walls, so the normal is slanted. Where they lie along no line there is none, as for
+# {= np.isnan(across).any(axis=1).sum() =} of these {= len(first) =} points, and pairs without a normal are left out.
 
 # %% slideshow={"slide_type": "subslide"}
 ask(

@@ -120,7 +120,8 @@ ask(
 # %% slideshow={"slide_type": "subslide"} tags=["nbval-check-output"] answers="14-node"
 low, high = scan[8], scan[9]
 word = low + 256 * high
-print(f"word {word}, half of it {word // 2}, angle {word // 2 / 64:.2f}°")
+half = word // 2
+print(f"word {views.grouped(word)}, half of it {views.grouped(half)}, angle {half / 64:.2f}°")
 nodes = ScanDecoder().feed(scan[7:])
 print(f"the package's decoder: {nodes['angle_q6'][0] / 64:.2f}°, {len(nodes)} nodes a second")
 
@@ -427,7 +428,7 @@ print("speed −1, turn −1:", commands.move(-1, -1).decode())
 every = [(v, omega) for v in range(-100, 101) for omega in range(-100, 101)]
 robot_ear = Framer(COMMAND)
 understood = robot_ear.feed(b"".join(commands.move(v, omega) for v, omega in every))
-print(f"{len(understood)} of {len(every)} commands are understood")
+print(f"{views.grouped(len(understood))} of {views.grouped(len(every))} commands are understood")
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="14-checksum"
 # A robot drops a frame whose checksum is wrong, and says nothing. It goes on with the *previous*
@@ -976,9 +977,9 @@ views.show(
 for pair in ((50, 0), (30, -20), (-10, 10), (-1, -1)):
     print(f"{pair!s:>9}  printed {printed.move(*pair):12}  right {commands.move(*pair).decode()}")
 dropped = [pair for pair in every if not Framer(COMMAND).feed(printed.move(*pair).encode())]
-print(f"{len(dropped)} of {len(every)} commands are dropped")
+print(f"{views.grouped(len(dropped))} of {views.grouped(len(every))} commands are dropped")
 both = sum(v < 0 and omega < 0 for v, omega in dropped)
-print(f"both negative: {both}; one negative: {len(dropped) - both}")
+print(f"both negative: {views.grouped(both)}; one negative: {views.grouped(len(dropped) - both)}")
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # Ahead and to the left all commands arrive. With two negative arguments no command arrives, and

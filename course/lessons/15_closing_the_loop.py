@@ -44,11 +44,10 @@ from slamlab.studies import edge_frames, false_loops, intel_maps
 from slamlab.studies.wheel_graphs import information_of_all, wheels_graph
 from slamlab.worlds import World
 
-GATES = [1, 3, 11.3, 30, 60, 100, 300, 1000, 3000, 10000, 30000]
-
 
 def slider(name, options, first):
-    return SelectionSlider(options=options, value=first, description=name)
+    named = {views.grouped(n): n for n in options}
+    return SelectionSlider(options=named, value=first, description=name)
 
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=4
@@ -760,7 +759,9 @@ ask(
 by_claim = {claim: twins.surprises(claim) for claim in (0.2, 1, 3)}
 print("claimed error ×   right ones up to   false ones from")
 for claim, s in by_claim.items():
-    print(f"{claim:15g} {s[~twins.false].max():18.0f} {s[twins.false].min():17.0f}")
+    print(
+        f"{claim:15g} {s[~twins.false].max():18.0f} {views.grouped(round(s[twins.false].min())):>17}"
+    )
 refused = np.mean(by_claim[1][~twins.false] > 11.3)
 
 
@@ -774,6 +775,7 @@ def gate_and_claim(gate, claimed_error):
 
 
 # %% slideshow={"slide_type": "fragment"} answers="15-width"
+GATES = [1, 3, 11.3, 30, 60, 100, 300, 1000, 3000, 10_000, 30_000]
 views.explore(
     gate_and_claim,
     lambda gate, claimed_error: (
@@ -879,7 +881,7 @@ views.explore(
     ),
     false_offered=(0, int(twins.false.sum()), 5),
     phi=slider("Φ", [1, 3, 11.3, 30, 100, 300, 1000], 11.3),
-    gate=slider("gate", GATES, 30000),
+    gate=slider("gate", GATES, 30_000),
 )
 
 # %% [markdown] slideshow={"slide_type": "subslide"} answers="15-liars"
@@ -923,7 +925,7 @@ graph, _ = twins.closed(twins.offered(5), 11.3)
 paid = {"the broken map": false_loops.cost(graph, 11.3)}
 graph.poses = twins.closed(twins.offered(0), 11.3)[0].poses
 paid["the right map"] = false_loops.cost(graph, 11.3)
-print({name: f"{cost:,.0f}" for name, cost in paid.items()})
+print({name: views.grouped(f"{cost:.0f}") for name, cost in paid.items()})
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # It is not: the right map costs {= paid["the broken map"] / paid["the right map"]:.0f =} times

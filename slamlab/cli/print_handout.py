@@ -16,7 +16,7 @@ def add_parser(subparsers):
         ),
     )
     parser.add_argument("lesson", metavar="LESSON", help="a lesson (07) or a notebook's path")
-    parser.add_argument("--notes", action="store_true", help="with the speaker's notes below")
+    parser.add_argument("--notes", action="store_true", help="with notes below, two slides a page")
     parser.add_argument("--out", type=Path, metavar="PDF", help="where to (NAME.pdf, here)")
     parser.set_defaults(run=run)
 

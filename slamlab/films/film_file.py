@@ -19,7 +19,7 @@ A frame's line has
 and after its line come the rows that follow, of all layers in that order, as 16-bit integers:
 multiples of the layer's steps (:mod:`slamlab.films.quantising`). Of each layer, 2 · follow · width
 bytes: the differences down the columns, column after column, all low bytes, then all high ones;
--32768 stands for what is not finite. Kinds of layers and their columns are those of
+-32 768 stands for what is not finite. Kinds of layers and their columns are those of
 :class:`slamlab.views.live.frame_packing.Drawable`.
 """
 

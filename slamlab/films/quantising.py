@@ -71,7 +71,7 @@ def quantise(kind, rows, steps):
 
     Returns
     -------
-    (n, width) int16; -32768 for what is not finite
+    (n, width) int16; ``NO_NUMBER`` for what is not finite
     """
     rows = np.array(rows, dtype=float)
     turning = [what == "radians" for what in COLUMNS[kind]]

@@ -141,6 +141,6 @@ def check_penalty(told, path):
         is_number = isinstance(value, int | float) and not isinstance(value, bool)
         if not is_number or not 0 <= value <= HIGHEST[name]:  # nan is not, either
             a_year = name == "grace_minutes"
-            span = "from 0 to a year's minutes, 527040" if a_year else "a share from 0 to 1"
+            span = "from 0 to a year's minutes, 527 040" if a_year else "a share from 0 to 1"
             raise LatePolicyError(f"{path}: {name} is {span}, not {value!r}")
     return told

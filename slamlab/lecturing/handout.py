@@ -14,12 +14,13 @@ def write_handout(notebook, out, notes=False, screen=SCREEN):
     ----------
     notebook : Path
     out : Path, of the PDF
-    notes : bool, whether the speaker's notes stand below the slides (on upright pages)
+    notes : bool, whether the speaker's notes stand below the slides (on upright pages, as
+        many on each as fit)
     screen : (width, height) of the slides [pixels]
 
     Returns
     -------
-    (int, list of str) : the number of pages; what could not be put on them
+    (int, list of str) : how many slides are printed; what could not be put on them
 
     Raises
     ------

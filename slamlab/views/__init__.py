@@ -16,6 +16,7 @@ Read in this order:
 - ``live``: any source and estimator, live, driven by hand; ``editor``: a world edited by hand
 """
 
+from slamlab.displays import grouped
 from slamlab.views import box_drawing as boxes
 from slamlab.views.bit_plot import bits
 from slamlab.views.colours import COLOURS, SERIES
@@ -60,6 +61,7 @@ __all__ = [
     "encoder",
     "explore",
     "frames",
+    "grouped",
     "growth",
     "legend",
     "legend_below",

@@ -4,6 +4,7 @@ import textwrap
 
 import numpy as np
 
+from slamlab.displays import grouped
 from slamlab.views.legends import make_room
 
 MOST_LAYOUTS = 5  # the layout is made anew until nothing moves any more
@@ -37,16 +38,29 @@ def lay_out(fig):
 def arrange(fig, lay_out=lay_out):
     """Give titles and legends of a figure their room: nothing covered, nothing cut off.
 
+    Large numbers in its words get their groups first.
+
     Parameters
     ----------
     fig : Figure
     lay_out : callable(Figure), gives the axes their places
     """
+    for text in _written(fig):
+        text.set_text(grouped(text.get_text()))
     lay_out(fig)
     if any([_wrap_title(fig, ax) for ax in fig.axes]):
         lay_out(fig)
     if make_room(fig):
         lay_out(fig)
+
+
+def _written(fig):
+    """Words of a figure that somebody wrote; labels of ticks are its axes' own."""
+    for ax in fig.axes:
+        yield from (ax.title, ax.xaxis.label, ax.yaxis.label, *ax.texts)
+    legends = [*fig.legends, *(ax.get_legend() for ax in fig.axes if ax.get_legend())]
+    yield from (text for legend in legends for text in legend.get_texts())
+    yield from fig.texts
 
 
 def _wrap_title(fig, ax):

@@ -18,6 +18,7 @@ LETTER_CONTRAST = 4.5  # the least contrast of letters to the paper [1]
 # what a legend says, and the meaning whose colour that has
 SAID = COLOURS | {said: COLOURS[name] for name, said in IN_LEGENDS.items()}
 SAID |= {f"{name}s": COLOURS[name] for name in ("sample", "landmark")}
+UNGROUPED = re.compile(r"\d,\d{3}|(?<![\d.])\d{5}")  # a large number in another form
 REPORT = "SLAMLAB_FIGURE_FAULTS"  # a file to which the faults of all figures shown are added
 
 
@@ -39,6 +40,7 @@ def faults(fig):
     found += [f"letters smaller than {LETTERS:g} pt: {text!r}" for text in small[:3]]
     found += [f"letters too faint: {text!r}" for text in _faint(fig, shown)]
     found += [f"no space before %: {said!r}" for said in _texts(shown) if re.search(r"\d%", said)]
+    found += [f"not 10 000: {said!r}" for said in _texts(shown) if UNGROUPED.search(said)]
     found += [f"letters over letters: {pair}" for pair in _overlapping(fig, shown)]
     found += [*_other_colours(fig), *_alike(fig)]
     whole = fig.bbox.padded(1.0)

@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from PIL import Image
 
-from slamlab.displays import show_bundle, show_controls
+from slamlab.displays import grouped, show_bundle, show_controls
 from slamlab.views.arrangement import arrange
 from slamlab.views.figure_faults import report
 from slamlab.views.figure_words import words
@@ -105,7 +105,7 @@ def bundle(fig, alt, data=None):
     picture = base64.b64encode(_packed(fig, "WEBP", **PACKING)).decode()
     with _sharp(fig):
         report(fig, alt)
-    alt = f"{words(fig)} {alt.strip()}"
+    alt = grouped(f"{words(fig)} {alt.strip()}")
     wide = round(fig.get_figwidth() * fig.dpi)
     shown = (
         f'<img class="slamlab-figure" width="{wide}" alt="{html.escape(alt)}" '

@@ -6,7 +6,7 @@ from math import ceil, log10
 
 import ipywidgets
 
-from slamlab.displays import show_bundle, show_controls
+from slamlab.displays import grouped, show_bundle, show_controls
 from slamlab.views import play_button
 from slamlab.views.showing import bundle
 
@@ -74,7 +74,8 @@ def _control(name, given):
     if isinstance(given, bool):
         return ipywidgets.Checkbox(given, description=label, indent=False)
     if isinstance(given, list) and given:
-        return ipywidgets.Dropdown(options=given, description=label, layout=layout, style=style)
+        choices = [(grouped(each), each) for each in given]
+        return ipywidgets.Dropdown(options=choices, description=label, layout=layout, style=style)
     if isinstance(given, tuple) and len(given) == 3 and given[0] <= given[2] <= given[1]:
         whole = all(isinstance(bound, int) for bound in given)
         slider = ipywidgets.IntSlider if whole else ipywidgets.FloatSlider

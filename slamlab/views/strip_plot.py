@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from slamlab.displays import grouped
 from slamlab.views.colours import COLOURS
 from slamlab.views.figures import chart
 from slamlab.views.legends import legend
@@ -33,6 +34,6 @@ def strips(rows, limits, span, xlabel, title=None, size=(8, 3.8)):
         ax.axvline(limit, color=COLOURS["limit"], linestyle="dashdot", label=label)
     ax.set_yticks(range(len(rows)), rows)
     ax.set(xscale="log", xlim=span, ylim=(-2 * HIGH, len(rows) - 1 + 2 * HIGH))
-    ax.xaxis.set_major_formatter("{x:,g}")
+    ax.xaxis.set_major_formatter(lambda x, _: grouped(f"{x:g}"))
     legend(ax)
     return fig, ax

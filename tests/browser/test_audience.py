@@ -226,6 +226,72 @@ def test_a_number_is_asked_for_and_a_comma_is_understood(hall):
     hall.deck.get_by_text("2.5 m", exact=True).wait_for()
 
 
+@pytest.fixture
+def asked(hall):
+    """The lecturer's page, whose class is asked a question with choices."""
+    hall.open()
+    hall.deck.get_by_role("button", name="hide").click()
+    hall.go(2)
+    hall.deck.get_by_role("button", name="ask the class").click()
+    hall.deck.get_by_text("0 answers, 0 phones").wait_for()
+    return hall.deck
+
+
+def test_who_counts_hands_is_not_called_back_by_a_poll_that_closes_late(asked):
+    held = []
+    asked.route("**/poll/close", lambda route: held.append(route))
+    asked.get_by_role("button", name="close the poll").click()
+    asked.get_by_role("button", name="show of hands").click()
+    asked.keyboard.press("1")
+    held[0].continue_()
+    asked.locator(".slamlab-bars").wait_for()
+    asked.keyboard.press("End")
+    asked.keyboard.type("2")
+    assert asked.get_by_role("spinbutton", name="A").input_value() == "012"
+    asked.get_by_role("button", name="back").click()
+    asked.get_by_role("button", name="done").click()  # it is closed
+
+
+def test_who_counts_hands_goes_on_while_the_class_does_not_answer(asked):
+    asked.get_by_role("button", name="show of hands").click()
+    hands = asked.get_by_role("spinbutton", name="B")
+    hands.fill("3")
+    failed = []
+    asked.on("requestfailed", lambda request: failed.append(request))
+    asked.route("**/poll", lambda route: route.abort())
+    asked.get_by_text("does not answer").wait_for()
+    while len(failed) < 2:
+        asked.wait_for_timeout(50)
+    asked.keyboard.press("End")
+    asked.keyboard.type("4")
+    assert hands.input_value() == "34"
+
+
+def test_a_figure_that_comes_late_takes_nobody_from_the_question(hall):
+    hall.open()
+    hall.deck.get_by_role("button", name="hide").click()
+    hall.go(2)
+    button = hall.deck.get_by_role("button", name="ask the class")
+    button.focus()
+    hall.deck.evaluate("deck.changed.emit()")
+    assert button.evaluate("(one) => one === document.activeElement")
+    hall.deck.keyboard.press("Enter")
+    hall.deck.get_by_text("0 answers, 0 phones").wait_for()
+
+
+def test_who_looks_back_is_not_called_to_the_code_of_a_lecture_that_began_anew(hall):
+    hall.open()
+    phone = hall.come_in()
+    phone.get_by_role("heading", name="Odometry").wait_for()
+    hall.go(1)
+    phone.get_by_role("heading", name="Two").wait_for()
+    phone.locator("#earlier").focus()
+    phone.route("**/state/*", lambda route: route.fulfill(status=403))
+    hall.go(2)
+    phone.get_by_label("The code on the lecturer's screen").wait_for()
+    assert phone.evaluate("document.activeElement.id") == "earlier"
+
+
 def test_the_end_of_the_lecture_is_said_in_words(hall):
     hall.open()
     phone = hall.come_in()

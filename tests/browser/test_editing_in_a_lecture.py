@@ -9,6 +9,7 @@ from tests.browser.lecture import Lecture
 pytestmark = pytest.mark.slow
 
 UNLOCKED = ".slamlab-unlocked"
+SCALE = "Number(document.querySelector('.slamlab-deck .jp-WindowedPanel-viewport').style.zoom)"
 NOTICE = "() => document.querySelector('.slamlab-notice').textContent"
 
 
@@ -130,6 +131,82 @@ print('done')"""
     visit.page.get_by_text("done", exact=True).wait_for()
     busy.wait_for(state="hidden")
     visit.page.wait_for_function(f"() => !({NOTICE})()")
+
+
+def test_who_has_gone_on_while_a_cell_runs_is_not_called_back(visit, lab_folder):
+    go = lab_folder / "go_on"
+    code = f"""
+import os, time
+while not os.path.exists({str(go)!r}):
+    time.sleep(0.05)
+print('done')"""
+    shown = lecture(visit, lab_folder, slide(v4.new_code_cell(code)))
+    page = visit.page
+    page.wait_for_selector(".slamlab-deck .slamlab-bar")
+    shown.press("e")
+    shown.press("Control+Enter")
+    button = page.get_by_role("button", name="Next (PageDown)")
+    button.focus()
+    go.touch()
+    page.get_by_text("done", exact=True).wait_for()
+    page.wait_for_function(f"() => !({NOTICE})()")
+    assert button.evaluate("(one) => one === document.activeElement")
+
+
+# JupyterLab saves by itself every two minutes: from now on they are short, and counted
+AUTOSAVE = """async () => {
+    const later = window.setTimeout;
+    window.slamlabAutosaves = 0;
+    window.setTimeout = (deed, wait, ...more) => wait === 120000
+        ? later(() => { window.slamlabAutosaves += 1; deed(); }, 200) : later(deed, wait, ...more);
+    for (let turn = 0; turn < 2; turn++) { // off and on, which sets the time anew
+        await window.jupyterapp.commands.execute("docmanager:toggle-autosave");
+    }
+}"""
+
+
+def test_autosave_calls_nobody_to_the_question_that_the_lecture_left(visit, lab_folder):
+    shown = lecture(visit, lab_folder, slide(v4.new_code_cell("one = 1")))
+    page = visit.page
+    page.wait_for_selector(".slamlab-deck .slamlab-bar")
+    shown.press("e")
+    page.keyboard.type("# changed ")
+    shown.end()
+    page.get_by_role("button", name="Restore it").wait_for()
+    page.locator(".jp-CodeCell .cm-content").click()
+    page.keyboard.type("typed ")
+    page.evaluate(AUTOSAVE)
+    page.wait_for_function("() => window.slamlabAutosaves > 2")
+    page.keyboard.type("on ")
+    assert "typed on" in page.locator(".jp-CodeCell .cm-content").inner_text()
+    page.keyboard.press("Control+s")  # who saves is led to it
+    keep = page.get_by_role("button", name="Keep the changes")
+    page.keyboard.press("Tab")
+    assert keep.evaluate("(one) => one === document.activeElement")
+    keep.press("Enter")
+    page.wait_for_function("() => !window.jupyterapp.shell.currentWidget.context.model.dirty")
+    assert "typed on" in (lab_folder / "made_up.ipynb").read_text("utf-8")  # by itself, again
+
+
+def test_a_slide_that_cannot_grow_says_so(visit, lab_folder):
+    full = "\n\n".join(f"line {k}" for k in range(30))
+    shown = lecture(visit, lab_folder, *(slide(v4.new_markdown_cell(t)) for t in ("small", full)))
+    visit.page.wait_for_selector(".slamlab-deck .slamlab-bar")
+
+    def told_after(key, way):
+        before = visit.page.evaluate(SCALE)
+        shown.press(key)
+        told = visit.page.evaluate(NOTICE)
+        assert bool(told) != (way * (visit.page.evaluate(SCALE) - before) > 0)
+        return told
+
+    assert [told_after("+", 1), told_after("-", -1)] == ["", ""]
+    shown.press("PageDown")
+    steps = [told_after("+", 1) for _ in range(9)]
+    assert "This slide is full and does not grow; others are larger now." in steps
+    assert steps[-1] == "Slides can be no larger."
+    shown.press("0")
+    assert visit.page.evaluate(NOTICE) == ""
 
 
 def test_a_notebook_with_nothing_to_show_says_so(visit, lab_folder):

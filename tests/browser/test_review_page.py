@@ -243,6 +243,21 @@ def test_a_late_answer_calls_nobody_back_who_has_gone_on(page):
     assert page.evaluate("document.activeElement.id") == "who"
 
 
+def test_a_pair_that_comes_late_calls_nobody_back_to_it(page):
+    page.locator("#exercise").select_option(index=1)
+    page.locator("#compare").press("Enter")
+    page.locator("#pairs button").first.press("Enter")
+    page.locator("#sides section").nth(1).wait_for()
+    let_go = held(page, "**/likeness/**")
+    page.evaluate("void tried(() => showPair(0))")  # the key j, as if pressed once more
+    page.keyboard.press("Escape")
+    with page.expect_response("**/likeness/**"):
+        let_go()
+    page.evaluate("new Promise((done) => setTimeout(done))")
+    assert page.locator("#sides section").count() == 0
+    assert "100 %" in page.evaluate("document.activeElement.textContent")
+
+
 def test_what_is_typed_while_another_field_is_saved_goes_on(page):
     page.locator("td button").first.press("Enter")
     page.get_by_label("reason for the points of 04-h-robot").fill("my words")

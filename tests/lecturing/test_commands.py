@@ -89,7 +89,7 @@ def test_notes_stand_on_upright_white_pages(write, tmp_path):
     out = tmp_path / "out.pdf"
     assert main(["handout", str(write()), "--notes", "--out", str(out)]) == 0
     count, ((width, height),), data = pages(out)
-    assert count == 2 and height > width
+    assert count == 1 and height > width, "both slides and their notes fill one page"
     assert not re.search(rb"(\.7\d* ){3}rg", data), "JupyterLab's grey is below the notes"
 
 

@@ -10,7 +10,7 @@ import pytest
 from nbgrader.nbgraderformat import MetadataValidator
 from nbgrader.preprocessors import CheckCellMetadata
 
-from course import appendix
+from course import appendix, digits
 from course.asking import asks
 from course.build import differences, orphans
 from course.derive import derive
@@ -166,6 +166,17 @@ def test_stored_outputs_hold_no_warning_no_live_widget_and_no_path_of_a_machine(
             assert "application/vnd.jupyter.widget-view+json" not in mimes, cell.id
             for text in texts(output):
                 assert not re.search(r"(^|[\s\"'(=])(/(home|root|work|tmp|Users)/|[A-Z]:\\)", text)
+
+
+@each_notebook
+def test_no_text_and_no_output_has_a_large_number_in_another_form(path):
+    for cell in load(path).cells:
+        shown = [cell.source] if cell.cell_type == "markdown" else []
+        for output in cell.get("outputs", []):
+            kinds = {"printed": output.get("text")} | output.get("data", {})
+            shown += [kinds.get(each) for each in ("printed", "text/markdown", "text/plain")]
+        for text in filter(None, shown):
+            assert digits.in_prose(text) is None, f"{cell.id}: {digits.SAYS}"
 
 
 @each_lesson

@@ -4,7 +4,7 @@ import ast
 
 import pytest
 
-from course import per_cent
+from course import digits, per_cent
 from course.figure_lint import figure_problems
 from course.source import ROOT
 
@@ -120,3 +120,49 @@ def test_no_program_shows_per_cent_without_its_space(room):
         if file.name != "per_cent.py"
     ]
     assert told == []
+
+
+@pytest.mark.parametrize(
+    "code",
+    [
+        'print(f"{steps:,} steps")',
+        'print(f"{cost:9_.0f}")',
+        'print("40401 of them are understood")',
+        'views.axes("1,000 samples")',
+        'views.axes("1 000 samples")',
+        'print("from 0 to 12345.6 m")',
+    ],
+)
+def test_a_large_number_in_another_form_is_found_in_what_code_shows(code):
+    ((line, told),) = digits.in_code(ast.parse(f"x = 1\n{code}"))
+    assert line == 2 and "10 000" in told
+
+
+@pytest.mark.parametrize(
+    "code",
+    [
+        "steps = 10_000",
+        'print(f"{grouped(steps)} steps of 10 000, 1000 to 9999 samples in 2026")',
+        'print(f"{share:6.2f} and 0.000175 rad, 1.234567, 1, 200 and 37 749 of 115 200")',
+        'rest = "(last - first) % 36000 / n"',
+        'print("see #100100EF, `256000`, https://a.b/12345 and [11002, 11013, 11024]")',
+    ],
+)
+def test_a_large_number_in_its_form_a_small_one_or_code_is_none(code):
+    assert list(digits.in_code(ast.parse(code))) == []
+
+
+@pytest.mark.parametrize("room", ["slamlab", "course", "benchmarks"])
+def test_no_program_shows_a_large_number_in_another_form(room):
+    told = [
+        f"{file.relative_to(ROOT)}:{line}: {text}"
+        for file in sorted((ROOT / room).rglob("*.py"))
+        for line, text in digits.in_code(ast.parse(file.read_text("utf-8")))
+        if file.name not in ("digits.py", "displays.py")  # they make the form
+    ]
+    assert told == []
+
+
+@pytest.mark.parametrize("guide", [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))])
+def test_no_guide_says_a_large_number_in_another_form(guide):
+    assert digits.in_prose(guide.read_text("utf-8")) is None

@@ -37,7 +37,7 @@ async function enter(key) {
 function askForCode(why) {
   say(why);
   at("entry").hidden = false;
-  at("code").focus();
+  if (!document.activeElement.closest("section, nav")) at("code").focus(); // who looks back is not called
   return new Promise((done) => {
     at("entry").onsubmit = (event) => {
       event.preventDefault();

@@ -73,13 +73,13 @@ function showSide(row, cells) {
 }
 
 function leave() {
+  asking++; // a pair that comes late is not wanted any more
   if (pair >= 0) {
     const was = pair;
     listPairs();
     at("pairs").querySelector(`[data-index="${was}"]`)?.focus();
     return;
   }
-  asking++;
   at("likeness").hidden = true;
   at("class").hidden = false;
   document.title = "Review";

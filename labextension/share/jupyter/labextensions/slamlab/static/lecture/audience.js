@@ -90,7 +90,7 @@ class Audience {
     } catch (error) {
       this.status.textContent = error instanceof TypeError
         ? "The class's process does not answer. Press a, end it, and open it again." : String(error.message);
-      this.deck.bar.node.append(this.strip);
+      this.showStrip();
       if (!this.status.isConnected) this.strip.append(this.status);
       return null;
     }
@@ -231,13 +231,23 @@ class Audience {
     if (this.question) return;
     const question = this.asked;
     this.say(question ? "q asks the class." : "");
-    if (!question) {
-      this.strip.remove();
-      return;
-    }
     this.status.textContent = "";
-    this.strip.replaceChildren(button("ask the class", () => this.open(question)), this.status);
-    this.deck.bar.node.append(this.strip);
+    if (!question) this.strip.remove();
+    else if (question.id !== this.offered || !this.strip.isConnected) {
+      this.fillStrip(button("ask the class", () => this.goOn()));
+      this.offered = question.id; // drawn once: its button may have the focus when a figure comes late
+    }
+  }
+
+  fillStrip(...parts) {
+    this.offered = null;
+    this.strip.replaceChildren(...parts, this.status);
+    this.showStrip();
+  }
+
+  // Put anew into the page, it would take the focus from who types in it.
+  showStrip() {
+    if (!this.strip.isConnected) this.deck.bar.node.append(this.strip);
   }
 
   // What the presenter's window says of the class.
@@ -266,7 +276,7 @@ class Audience {
     const plain = question.items?.map((item) => item.textContent.slice(1).trim());
     this.question = { choices: plain ?? null, unit: question.unit };
     this.counting = this.every(COUNTING, () => this.count());
-    this.drawControls(true);
+    this.drawControls();
     this.count();
   }
 
@@ -279,23 +289,22 @@ class Audience {
     drawBars(this.bars, this.question, counts);
   }
 
-  drawControls(isOpen) {
+  drawControls() {
     const bars = button("", () => { this.show(!this.bars.isConnected); });
     this.label = () => { bars.textContent = this.bars.isConnected ? "hide bars" : "show bars"; };
-    const hands = this.question.choices ? [button("show of hands", () => this.drawHands(isOpen))] : [];
-    const last = isOpen
-      ? button("close the poll", () => this.closePoll())
-      : button("done", () => this.done());
-    this.strip.replaceChildren(bars, ...hands, last, this.status);
-    this.deck.bar.node.append(this.strip);
+    const hands = this.question.choices ? [button("show of hands", () => this.drawHands())] : [];
+    const last = this.question.over
+      ? button("done", () => this.done())
+      : button("close the poll", () => this.closePoll());
+    this.fillStrip(bars, ...hands, last);
     this.label();
   }
 
   async closePoll() {
-    if (!await this.tell("POST", "/poll/close")) return;
+    if (!await this.tell("POST", "/poll/close") || !this.question) return;
     this.question.over = true;
     this.show(true);
-    this.drawControls(false);
+    if (!this.hands?.isConnected) this.drawControls(); // who counts hands by now goes on
     this.count();
   }
 
@@ -305,7 +314,7 @@ class Audience {
     this.label();
   }
 
-  drawHands(isOpen) {
+  drawHands() {
     const fields = this.question.choices.map((_, n) => {
       const field = element("input");
       Object.assign(field, { type: "number", min: 0, max: 10000, step: 1, value: 0 });
@@ -313,15 +322,16 @@ class Audience {
     });
     const form = element("form", "slamlab-hands", ...fields.map(([label]) => label));
     const count = element("button", "", "count them");
-    form.append(count, button("back", () => this.drawControls(isOpen)));
+    form.append(count, button("back", () => this.drawControls()));
     form.onsubmit = async (event) => {
       event.preventDefault();
       const hands = fields.map(([, field]) => Math.round(Number(field.value) || 0));
-      if (!await this.tell("PUT", "/hands", { hands })) return;
-      this.drawControls(isOpen);
+      if (!await this.tell("PUT", "/hands", { hands }) || !this.question) return;
+      if (form.isConnected) this.drawControls();
       this.count();
     };
-    this.strip.replaceChildren(form, this.status);
+    this.hands = form;
+    this.fillStrip(form);
     fields[0][1].focus();
   }
 

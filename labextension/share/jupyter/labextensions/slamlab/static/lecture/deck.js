@@ -80,6 +80,9 @@ export class Deck {
 
   get zoom() { return zoomOf(this.size); }
 
+  // How large the page that is shown is: its zoom, less what it was shrunk by to fit.
+  get scale() { return this.zoom * this.shown.shrink; }
+
   // Find all stops anew; pages that were laid out begin stops of their own.
   gather() {
     this.stops = this.slides.flatMap((slide, number) => {

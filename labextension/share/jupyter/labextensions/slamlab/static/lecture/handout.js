@@ -41,7 +41,7 @@ function style({ width, height }, notes) {
     @page { size: ${width}px ${notes ? Math.round(width * Math.SQRT2) : height}px; margin: 0; }
     html, body { overflow: visible !important; height: auto !important; position: static !important; }
     html, body, body.jp-ThemedContainer { background: #ffffff !important; }
-    .slamlab-book section { break-after: page; }
+    .slamlab-book section { ${notes ? "break-inside: avoid; border-bottom: 1px solid #9e9e9e" : "break-after: page"}; }
     .slamlab-book section:last-child { break-after: auto; }
     .slamlab-book .slamlab-deck, .slamlab-book .slamlab-deck > .jp-Notebook { position: relative !important; width: ${w}; height: ${h}; display: block; }
     .slamlab-book .slamlab-layer { position: absolute; }

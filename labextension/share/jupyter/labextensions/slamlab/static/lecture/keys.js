@@ -3,14 +3,12 @@
 import { toggleOverview } from "./overview.js";
 import { foldOrUnfold, interrupt, restart, runAll, runCell, unlock } from "./running.js";
 
+const SIZES = { least: 0.7, most: 2 };
+
 // By key: {does, action}.
 export function keysOf(deck) {
   const keys = new Map();
   const add = (names, does, action) => names.forEach((key) => keys.set(key, { does, action }));
-  const resize = (factor) => () => {
-    deck.size = factor ? Math.min(2, Math.max(0.7, deck.size * factor)) : 1;
-    deck.again();
-  };
   add(["PageDown", "ArrowRight", " ", "Enter"], "next", () => deck.next());
   add(["PageUp", "ArrowLeft", "Shift+ "], "back", () => deck.back());
   add(["F5", "Home"], "from the beginning", () => deck.go(0));
@@ -27,12 +25,24 @@ export function keysOf(deck) {
   add(["n"], "slide number", () => deck.bar.toggle("number"));
   add(["t"], "timer", () => deck.bar.toggle("timer"));
   add(["f"], "full screen", () => fullScreen());
-  add(["+", "="], "larger", resize(1.1));
-  add(["-"], "smaller", resize(1 / 1.1));
-  add(["0"], "usual size", resize(0));
+  add(["+", "="], "larger", () => resize(deck, 1.1));
+  add(["-"], "smaller", () => resize(deck, 1 / 1.1));
+  add(["0"], "usual size", () => resize(deck));
   add(["?", "h"], "help", () => deck.bar.help());
   add(["Escape"], "out", () => leave(deck));
   return keys;
+}
+
+// All slides by a factor, or at their usual size; it is told why the one that is shown stays as it is.
+function resize(deck, factor) {
+  const { size, scale } = deck;
+  deck.size = factor ? Math.min(SIZES.most, Math.max(SIZES.least, size * factor)) : 1;
+  deck.again();
+  const larger = factor > 1;
+  if (!factor || (larger ? deck.scale > scale : deck.scale < scale)) deck.notice("");
+  else if (deck.size === size) deck.notice(`Slides can be no ${larger ? "larger" : "smaller"}.`);
+  else if (larger) deck.notice("This slide is full and does not grow; others are larger now.");
+  else deck.notice("This slide is small to fit and does not shrink; others are smaller now.");
 }
 
 function fullScreen() {

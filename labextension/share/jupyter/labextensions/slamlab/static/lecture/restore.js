@@ -17,8 +17,10 @@ export function keepFile(panel, Widget) {
   const before = plain(context.model), wasDirty = context.model.dirty;
   let asking;
   context.save = async () => { asking?.node.querySelector("button").focus(); };
+  Object.defineProperty(context, "canSave", { value: false, configurable: true }); // autosave would call who types there
   const release = () => {
     delete context.save; // the prototype's own again
+    delete context.canSave;
     delete context.slamlabKept;
     asking?.dispose();
   };

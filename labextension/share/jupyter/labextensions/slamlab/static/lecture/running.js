@@ -20,7 +20,8 @@ function codeCell(deck) {
 async function runThese(deck, cells, words) {
   deck.notice(words, Infinity);
   const typing = deck.unlocked?.editor.hasFocus();
-  const typeOn = () => { if (typing) deck.unlocked?.editor.focus(); }; // no letter of it is a key of the deck
+  const goneOn = () => document.activeElement?.matches(".slamlab-layer *, .jp-OutputArea-output *"); // to a control
+  const typeOn = () => { if (typing && !goneOn()) deck.unlocked?.editor.focus(); }; // no letter of it is a key of the deck
   const running = actions.runCells(deck.notebook, cells, deck.panel.sessionContext);
   typeOn();
   const ran = await running.catch(() => false); // a kernel that is restarted answers nothing
