@@ -140,6 +140,8 @@ STILL_LOST = Diagnosis(
     lambda inputs, outputs: 0.1 < np.mean(ENDS.of(inputs, outputs)[1][:, 2, 2] > 0.3**2) < 1,
 )
 
+# over 82 seeds the solution is 0.43 times as far at most, with a NEES of 5.6 at most; gates of any
+# fixed size are once as far and more, with a NEES of 8 to 50
 FALSE_SIGHTS = Task(
     id="06-false-sights",
     title="Make it better: one sight in ten is false",
