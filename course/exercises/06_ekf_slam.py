@@ -320,18 +320,21 @@ check("06-same")
 # %% [markdown]
 # ## 5 · Make it better: one sight in ten is false
 #
-# The sensor now lies. One sight in ten shows something else, about a metre and half a radian away
-# from the landmark whose id it carries, and nobody says which. A landmark's *first* sight is never
-# false. The wheels are worse than before, so a robot that ignores its eyes is lost as well.
+# The sensor now lies. One sight in ten shows another range, or another bearing, half a metre or 0.4 rad
+# away from the right one or farther, and nobody says which. Half-way the robot turns on the spot, twice
+# round, and sees nothing meanwhile, so that it hardly knows where it heads when it looks again. Then it sees all
+# landmarks at once. These sights are never false, and neither is a landmark's *first* one. The wheels are worse
+# than before, so a robot that ignores its eyes is lost as well.
 #
 # One false sight moves the robot, and with it every landmark that shares its error. How could you notice that a
 # sight cannot be true *before* it has done its harm? What does the filter know about how far off a true sight
-# may be?
+# may be, when it has just seen others and when it has seen nothing for long?
 #
 # **Your task.** Write another step of SLAM, called as `slam_step` is, as good as you can make it. The check
-# drives it through twenty runs of 23 steps and looks at the pose at the end: how far off it is, also beside a
-# filter that is told which sights are false, and whether yours knows how far (NEES, 3 on average). Points come
-# in four steps; `slam_step` itself reaches the lowest at most. The check stops after 10 s.
+# drives it through twenty runs of 81 steps and looks at the pose at the end: how far it is from where a filter
+# has it that is *told* which sights are false, in units of what that one errs, and whether yours knows how far
+# off it is (NEES, 3 on average). Points come in four steps; `slam_step` itself reaches the lowest at most. The
+# check stops after 10 s.
 
 
 # %%

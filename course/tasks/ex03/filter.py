@@ -122,6 +122,22 @@ SLIPS = (
         [("xs, Ps = [], []", "xs, Ps, x0 = [], [], x"), ("predict(x, P,", "predict(x0, P,")],
     ),
     Slip(
+        "gain-kept",
+        "The gain of the first step is kept in all others. It belongs to the belief: the surer that is, the "
+        "smaller it gets.",
+        """
+def kalman_filter(x, P, zs, F, Q, H, R):
+    xs, Ps, K = [], [], None
+    for z in zs:
+        x, P = predict(x, P, F, Q)
+        K = gain(P, H, R) if K is None else K
+        x, P = x + K @ (z - H @ x), P - K @ H @ P
+        xs.append(x)
+        Ps.append(P)
+    return np.array(xs), np.array(Ps)
+""",
+    ),
+    Slip(
         "P-never-updated",
         "x goes on from update to update, and P is only predicted: it grows and grows. Keep both "
         "results of the update.",

@@ -84,6 +84,12 @@ def gain(P, H, R):
         (" @ np.linalg.inv(S)", ""),
     ),
     Slip(
+        "H-undone",
+        "You undo H, and so correct only what is measured. P Hᵀ has rows for the rest as well: how much does "
+        "its error share with what is measured?",
+        ("P @ H.T @", "np.linalg.pinv(H) @ H @ P @ H.T @"),
+    ),
+    Slip(
         "S-not-inverted",
         "You multiply by S where you have to divide by it: the larger the innovations are anyway, the "
         "less may one of them correct.",

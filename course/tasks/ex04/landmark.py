@@ -204,6 +204,7 @@ SLIPS = (
         _rn("P @ Jxr.T + np.vstack([Jz @ R @ Jz.T, [0, 0]])"),
         _rn("P @ Jxr.T @ P_nn"),
         _rn("np.vstack([P_nn, (P @ Jxr.T)[2]])"),
+        _rn("np.vstack([P_nn, np.zeros((1, 2))])"),
     ),
     Slip(
         "cross-inverse",

@@ -81,6 +81,7 @@ WAYS = {
 }
 
 GATED = TOOLS + HEAD + "    return gated(x, P, drives, ids, zs, landmarks, C, R)[:2]\n"
+FIXED = "abs(z[0] - h(x, landmarks[id])[0])", "np.hypot(*(z - h(x, landmarks[id])))"
 BY_ONE = (
     TOOLS
     + HEAD
@@ -121,7 +122,8 @@ SLIPS = (
         "heading-of-the-start",
         "The filter doubts its sights, but begins with a heading that tells nothing: with it, true sights "
         "look false as well.",
-        GATED,
+        *(GATED.replace("gate=11", f"gate={most}") for most in (5.99, 9, 9.21, 11, 13.8, 16, 25)),
+        *(GATED.replace("d2 < gate", f"{off} < {most}") for off in FIXED for most in (0.5, 1, 2)),
     ),
     Slip(
         "heading-by-one-sight",

@@ -42,6 +42,8 @@ def careful_step(x, P, ids, u, seen, z, C, R):
 """,
 }
 
+_S = "v @ np.linalg.solve(H @ P @ H.T + R, v) < 13.8"
+
 SLIPS = (
     Slip(
         "every-sight-believed",
@@ -64,6 +66,22 @@ SLIPS = (
         "def careful_step(x, P, ids, u, seen, z, C, R):\n    return *predict(x, P, u, C), list(ids)\n",
     ),
     Slip(
+        "gate-of-one-size",
+        "Your gate has one size. When the robot has just seen landmarks, a true sight is a few "
+        "centimetres off, and after it has turned for long a radian: the filter knows which of the "
+        "two it is. Where does it say so?",
+        *((_S, f"np.hypot(*v) < {most}") for most in (0.2, 0.3, 0.4, 0.5, 0.6, 0.8, 1)),
+        *(
+            (_S, f"np.all(np.abs(v) < {most})")
+            for most in ([0.3, 0.2], [0.5, 0.3], [0.5, 0.5], [1, 0.5])
+        ),
+        (_S, "abs(v[0]) < 0.5"),
+        *(
+            (_S, f"np.hypot(*(g(x[:3], one) - x[3 + 2 * j : 5 + 2 * j])) < {most}")
+            for most in (0.5, 1, 2)
+        ),
+    ),
+    Slip(
         "gate-turned",
         "Sights that agree were thrown away and those that do not were used: the inequality is turned.",
         ("< 13.8", "> 13.8"),
@@ -72,7 +90,8 @@ SLIPS = (
         "gate-without-P",
         "The gate looks at R only. An innovation holds the error of pose and landmark as well, and after "
         "a drive that is most of it: measure it by S.",
-        ("np.linalg.solve(H @ P @ H.T + R, v) < 13.8", "np.linalg.solve(R, v) < 2"),
+        *((_S, f"v @ np.linalg.solve(R, v) < {most}") for most in (2, 9, 14, 25, 50, 100, 400)),
+        (_S, "np.all(np.abs(v) < 3 * np.sqrt(np.diag(R)))"),
     ),
 )
 

@@ -73,6 +73,7 @@ SLIPS = (
         (_PAIR, _NEW + "P[1:, 1:] = np.diag(np.diag(P[1:, 1:]))\n    return x, P"),
         (_PAIR, _NEW + "P[0, 1:] = P[1:, 0] = 0\n    return x, P"),
         ("x, P = x.copy(), P.copy()", "x, P = x.copy(), np.diag(np.diag(P))"),
+        ("P[0, 0] += q\n", "P[0, 0] += q\n    P[0, 1:] = P[1:, 0] = 0\n"),
     ),
     Slip(
         "others-not-moved",

@@ -72,6 +72,18 @@ SLIPS = (
         [(_S, "P_a + P_b"), (_C, "P_a")],
     ),
     Slip(
+        "gain-of-strangers",
+        "The gain leaves P_ab out, and only the covariance knows of it. This P is what such a mean has, "
+        "but another gain leaves less.",
+        """
+def fuse(a, P_a, b, P_b, P_ab):
+    K = P_a @ np.linalg.inv(P_a + P_b)
+    L = np.eye(2) - K
+    shared = L @ P_ab @ K.T
+    return a + K @ (b - a), L @ P_a @ L.T + K @ P_b @ K.T + shared + shared.T
+""",
+    ),
+    Slip(
         "one-of-the-two",
         "This is one of the two estimates, the other is thrown away. Even the worse one knows "
         "something.",

@@ -96,16 +96,7 @@ def _linked(
 
 
 _K, _P, _S = "P @ H.T @ np.linalg.inv(S)", "P - K @ S @ K.T", "H @ P @ H.T + R"
-_BOTH = "update(P_first, H_2)"
-_IN_PLACE = """
-def two_updates(P, H_1, H_2, R):
-    def update(P, H):
-        K = P @ H.T @ np.linalg.inv(H @ P @ H.T + R)
-        P -= K @ H @ P
-        return P
-    P_first = update(P, H_1)
-    return P_first, update(P_first, H_2)
-"""
+_BOTH, _FIRST_S = "update(P_first, H_2)", "np.linalg.inv(H_1 @ P @ H_1.T + R)"
 _OWN_BLOCKS = (
     "H[:, :3] @ P[:3, :3] @ H[:, :3].T + H[:, 3:5] @ P[3:5, 3:5] @ H[:, 3:5].T"
     " + H[:, 5:] @ P[5:, 5:] @ H[:, 5:].T + R"
@@ -116,7 +107,7 @@ SLIPS = (
         "overwritten",
         "P_first was overwritten: it equals P_both. P -= … changes the array itself, and P_first "
         "is that array. Make a new array, or keep a copy.",
-        _IN_PLACE,
+        ("return P - K @ S @ K.T", "P -= K @ S @ K.T\n        return P"),
         ("return P_first, P_both", "return P_both, P_both"),
     ),
     Slip(
@@ -150,7 +141,6 @@ SLIPS = (
         "the state and what was seen of it.",
         (_S, "H @ P @ H.T"),
         [(_S, "H @ P @ H.T"), (_P, "P - K @ H @ P")],
-        [(_S, "H @ P @ H.T"), (_K, "P @ H.T @ np.linalg.inv(S)")],
     ),
     Slip(
         "noise-squared",
@@ -248,15 +238,8 @@ SLIPS = (
     Slip(
         "S-of-the-first",
         "The second update divides by the first one's S. The second sight has an H of its own.",
-        (_BOTH, "P_first - P_first @ H_2.T @ np.linalg.inv(H_1 @ P @ H_1.T + R) @ H_2 @ P_first"),
-        """
-def two_updates(P, H_1, H_2, R):
-    S = H_1 @ P @ H_1.T + R
-    K = P @ H_1.T @ np.linalg.inv(S)
-    P_first = P - K @ S @ K.T
-    K = P_first @ H_2.T @ np.linalg.inv(S)
-    return P_first, P_first - K @ S @ K.T
-""",
+        (_BOTH, f"P_first - P_first @ H_2.T @ {_FIRST_S} @ H_2 @ P_first"),
+        (_BOTH, f"P_first - P_first @ H_1.T @ {_FIRST_S} @ H_1 @ P_first"),
     ),
     Slip(
         "S-after-the-update",

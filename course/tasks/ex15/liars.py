@@ -189,6 +189,18 @@ SLIPS = (
         REFUSED.format(test="e @ information @ e < 11.3"),
     ),
     Slip(
+        "gate-of-one-size",
+        "Each loop is measured by the wheels with one gate. The wheels drift: between poses far apart a true "
+        "loop may contradict them by metres, and where liars lie nearer than that, one size refuses the true "
+        "or keeps the false. What are the wheels' own doubts between the two poses, and what do other loops "
+        "say?",
+        *(
+            REFUSED.format(test=f"np.hypot(e[0], e[1]) < {most}")
+            for most in (0.5, 0.8, 1, 1.5, 2, 2.5, 3)
+        ),
+        *(REFUSED.format(test=f"e @ information @ e < {most}") for most in (100, 300, 1000, 3000)),
+    ),
+    Slip(
         "liars-kept",
         "The loops that agree with the wheels were thrown away, and the others kept: the inequality is "
         "turned.",

@@ -43,14 +43,9 @@ def _slipping(rng):
     return inputs | {"u": inputs["u"] * [0.1, 1]}
 
 
-def _backwards(rng):
+def _times(rng, share):
     inputs = _drives(rng, 3, rng.uniform(0.3, 0.8, 3))
-    return inputs | {"u": inputs["u"] * [-1, 1]}
-
-
-def _on_the_spot(rng):
-    inputs = _drives(rng, 3, rng.uniform(0.3, 0.8, 3))
-    return inputs | {"u": inputs["u"] * [0, 1]}
+    return inputs | {"u": inputs["u"] * [share, 1]}
 
 
 def _turned(rng):
@@ -165,6 +160,17 @@ def _straight_mean(inputs, outputs):
     return np.allclose(outputs["mean"][:, :2], straight, rtol=1e-6)
 
 
+def _sampled(inputs, outputs):
+    """Whether headings scatter, as only those of samples do, and all else is off as little."""
+    mean, best = ends(inputs)
+    off = wrap(outputs["mean"][:, 2] - mean[:, 2]) ** 2 / best[:, 2, 2]
+    share = (outputs["covariance"][:, 2, 2] / best[:, 2, 2] - 1) ** 2
+    small = np.median(lost(inputs, outputs)) < 40 * np.mean(off + share)  # on average 1.5 times
+    return bool(
+        (np.minimum(off, share) > 1e-12).all() and np.maximum(off, share).max() < 0.4 and small
+    )
+
+
 def _wrapped(inputs, outputs):
     """Whether the heading's variance is right in some drives and far too large in others."""
     share = outputs["covariance"][:, 2, 2] / ends(inputs)[1][:, 2, 2]
@@ -195,8 +201,7 @@ def _shapes(inputs):
 
 
 def _parts(inputs, outputs):
-    S = outputs["covariance"]
-    mean = outputs["mean"].copy()
+    S, mean = outputs["covariance"], outputs["mean"].copy()
     mean[:, 2] = np.sin(mean[:, 2])  # wrapped or not
     cross = np.stack([S[:, :2, 2], S[:, 2, :2]])
     return {"mean": mean, "place": S[:, :2, :2], "cross": cross, "heading": S[:, 2, 2]}
@@ -247,6 +252,12 @@ TASK = Task(
     ),
     diagnoses=(
         Diagnosis(
+            "too-few-samples",
+            "These are samples, and too few: what you lose falls with their number. How many does "
+            "a hundredth of a nat take in every drive? And over what need you draw at all?",
+            _sampled,
+        ),
+        Diagnosis(
             "straight-mean",
             "Your mean is f(x, u), the end of a robot that has just the believed heading. Those "
             "that head elsewhere get less far in that direction: where is their average?",
@@ -280,8 +291,8 @@ TASK = Task(
     probes=(
         Probe("a heading known to 0.06° and wheels that slip", _sure),
         Probe("short drives with an unsure heading and wheels that slip", _slipping),
-        Probe("drives backwards", _backwards),
-        Probe("turns on the spot", _on_the_spot),
+        Probe("drives backwards", lambda rng: _times(rng, -1)),
+        Probe("turns on the spot", lambda rng: _times(rng, 0)),
         Probe("headings near ±π", _turned),
     ),
     parts=_parts,
