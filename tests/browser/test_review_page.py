@@ -248,12 +248,10 @@ def test_a_pair_that_comes_late_calls_nobody_back_to_it(page):
     page.locator("#compare").press("Enter")
     page.locator("#pairs button").first.press("Enter")
     page.locator("#sides section").nth(1).wait_for()
-    let_go = held(page, "**/likeness/**")
-    page.evaluate("void tried(() => showPair(0))")  # the key j, as if pressed once more
+    page.evaluate(HOLD)
+    page.evaluate("void (late = tried(() => showPair(0)))")  # the key j, as if pressed once more
     page.keyboard.press("Escape")
-    with page.expect_response("**/likeness/**"):
-        let_go()
-    page.evaluate("new Promise((done) => setTimeout(done))")
+    page.evaluate("letGo(), late")
     assert page.locator("#sides section").count() == 0
     assert "100 %" in page.evaluate("document.activeElement.textContent")
 
