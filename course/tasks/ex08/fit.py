@@ -245,4 +245,5 @@ EQUIVALENT = {
     "grid": "the search begins elsewhere, or on a finer or coarser grid, and ends at the same place",
     "width": "the search takes other steps, and ends as near to the same place",
     "range(50)": "one step of the search more or less",
+    "-> cost = lambda a: np.mean": "a mean is least where the sum is, but for rounding",
 }

@@ -14,6 +14,7 @@ from slamlab.exercises.task import Task
 from slamlab.exercises.tasks.ex06.beliefs import either_sign
 from slamlab.exercises.tasks.ex06.ends import Ends, whole
 from slamlab.exercises.tasks.ex06.runs import EYES, RUNS, START, driven, measured, truth
+from slamlab.filters.data_association import squared_distances
 from slamlab.filters.landmark_models import POINTS
 from slamlab.filters.mak import MAK
 from slamlab.geometry import wrap
@@ -30,7 +31,9 @@ SCANS = np.array([[*seen, -1, -1, -1, -1, -1][:LANDMARKS] for seen in SEEN])
 ON_THE_SPOT = slice(1 + len(BEFORE), 2 + len(BEFORE) + TURNS)
 """The steps in which the robot turns, and sees nothing but in the last. There a true bearing is as
 far off as a false one elsewhere, so no gate of a fixed size fits both."""
-AS_TOLD = 0.6
+FALSER = np.geomspace(1, 4, 12)  # a bearing that is 0.6 rad off becomes 2.4 at most
+FAR = 40  # d² beyond which nobody's gate takes a sight for true
+AS_TOLD = 0.55
 """So far from a filter that is told all may the best step be, as a share of that one's error."""
 
 
@@ -46,15 +49,35 @@ def lies(rng):
     p = middle + far * np.column_stack([np.cos(around), np.sin(around)])
     inputs = measured(rng, start, drives, p, SCANS, (START, SLIPPERY, EYES))
     _turned(rng, inputs["u"][:, ON_THE_SPOT, 1], drives[ON_THE_SPOT, 1])
+    off = np.zeros(inputs["z"].shape)
     for step, seen in enumerate(SEEN):
         for k in range(len(seen)) if seen != ALL else ():
-            off = either_sign(rng, [0.5, 0.4], [1.2, 0.6])
-            off[(step + k) % 2] = 0  # either the range or the bearing is false
+            lie = either_sign(rng, [0.5, 0.4], [1.2, 0.6])
+            lie[(step + k) % 2] = 0  # either the range or the bearing is false
             told, untold = rng.choice(RUNS, 2, replace=False)
-            inputs["z"][told, step, k] += off
-            inputs["z"][untold, step, k] -= off
+            off[told, step, k], off[untold, step, k] = lie, -lie
+    inputs["z"] += off * _falser(inputs, off)
     inputs["z"][..., 1] = wrap(inputs["z"][..., 1])
     return inputs
+
+
+def _falser(inputs, off):
+    """(s, LANDMARKS, 1) how many times a lie has to be told so that S lets it pass in neither run.
+
+    A robot that is off by 3 σ, as one in 400 is, would else take a false bearing for a true one.
+    """
+    false = off.any(axis=-1)
+    nearest = np.full((*false.shape[1:], len(FALSER)), np.inf)
+    for run in range(RUNS):
+        for step, slam in _told(inputs, run, inputs["z"][run], ~false[run]):
+            for k in np.flatnonzero(false[run, step]):
+                lies = inputs["z"][run, step, k] + FALSER[:, None] * off[run, step, k]
+                possible, d2 = lies[:, 0] > 0, np.zeros(len(lies))
+                known = slam.ids.index(inputs["seen"][step, k])
+                d2[possible] = squared_distances(slam, lies[possible], inputs["R"])[:, known]
+                nearest[step, k] = np.minimum(nearest[step, k], d2)
+    # the least that is enough, else what is farthest
+    return FALSER[np.minimum(nearest, FAR).argmax(axis=-1)][..., None]
 
 
 def _turned(rng, told, true):
@@ -84,11 +107,10 @@ def told(inputs):
             if i >= 0:
                 off[:, step, k] = inputs["z"][:, step, k] - models.h(pose, landmarks[i])
     off[..., 1] = wrap(off[..., 1])
-    true = (np.abs(off) < 6 * EYES).all(axis=-1) & (inputs["seen"] >= 0)
-    return np.array([
-        _end(inputs, x, drives, z, kept)
-        for x, drives, z, kept in zip(inputs["x"], inputs["u"], inputs["z"], true, strict=True)
-    ])  # fmt: skip
+    true = (np.abs(off) < 6 * EYES).all(axis=-1)
+    return np.array(
+        [_end(inputs, *run) for run in zip(range(RUNS), inputs["z"], true, strict=True)]
+    )
 
 
 def share(inputs, outputs):
@@ -98,18 +120,25 @@ def share(inputs, outputs):
     return np.sqrt(np.square(found - believed).sum() / np.square(believed - where).sum())
 
 
-def _end(inputs, x, drives, sights, kept):
-    """(2,) where the filter believes the robot at the end of a run, of the sights that are kept."""
-    slam = MAK(x, inputs["P"])
-    for u, seen, z, true in zip(drives, inputs["seen"], sights, kept, strict=True):
+def _end(inputs, run, sights, true):
+    """(2,) where the filter that is told which sights are true believes the robot at the end."""
+    slam = [slam for _, slam in _told(inputs, run, sights, true)][-1]
+    return slam.pose[:2]  # it has looked for the last time, too
+
+
+def _told(inputs, run, sights, true):
+    """The filter that is told which sights (s, LANDMARKS) of a run are true, as it is before it
+    looks at each scan, and which."""
+    slam = MAK(inputs["x"][run], inputs["P"])
+    kept = true & (inputs["seen"] >= 0)
+    for step, (u, seen) in enumerate(zip(inputs["u"][run], inputs["seen"], strict=True)):
         W = jacobians.W_odometry(slam.pose, u)
         slam.predict(models.f_odometry(slam.pose, u), W @ inputs["C"] @ W.T)
+        yield step, slam
         known = np.isin(seen, slam.ids)
-        if (known & true).any():
-            slam.update(seen[known & true].tolist(), z[known & true], inputs["R"])
-        if (~known & true).any():
-            slam.add(seen[~known & true].tolist(), z[~known & true], inputs["R"])
-    return slam.pose[:2]
+        for rows, use in ((known & kept[step], slam.update), (~known & kept[step], slam.add)):
+            if rows.any():
+                use(seen[rows].tolist(), sights[step, rows], inputs["R"])
 
 
 def _step(name, points, says, far, doubt_below=np.inf):
@@ -140,8 +169,9 @@ STILL_LOST = Diagnosis(
     lambda inputs, outputs: 0.1 < np.mean(ENDS.of(inputs, outputs)[1][:, 2, 2] > 0.3**2) < 1,
 )
 
-# over 82 seeds the solution is 0.43 times as far at most, with a NEES of 5.6 at most; gates of any
-# fixed size are 0.8 times as far and more, with a NEES of 7.7 to 47 (3 seeds)
+# over 130 seeds gates by S of 9.2 to 25 are 0.48 times as far at most, with a NEES of 5; over 40
+# seeds seventeen gates of a fixed size, none among them, are 0.58 times as far at least, or have a
+# NEES of 15 and more
 FALSE_SIGHTS = Task(
     id="06-false-sights",
     title="Make it better: one sight in ten is false",
@@ -162,9 +192,9 @@ FALSE_SIGHTS = Task(
         _step(
             "honest",
             1,
-            f"which is below 8, where 3 is right; and the robot is {AS_TOLD} times as far at most",
+            f"which is below 10, where 3 is right; and the robot is {AS_TOLD} times as far at most",
             AS_TOLD,
-            8,
+            10,
         ),
     ),
     diagnoses=(STILL_LOST,),
