@@ -8,8 +8,14 @@ TASK = "02-echo"
 WAYS = echo_ways.WAYS
 
 PLACES = "(0, 1, np.clip(-(a @ w) / (w @ w), 0, 1))"
+TURNED = "a @ w / (w @ w)", "np.clip(a @ w / (w @ w), 0, 1)"
+FOOT = PLACES, "(np.clip(-(a @ w) / (w @ w), 0, 1),)"
 AW = "a, w = wall[:2] - p, wall[2:] - wall[:2]"
 INSIDE = "if place @ axis >= np.cos(half) * distance:"
+ENDS = [
+    (INSIDE, f"if {some}(q @ axis >= np.cos(half) * np.hypot(*q) for q in (a, a + w)):")
+    for some in ("any", "all")
+]
 NEARER = "                nearest = min(nearest, distance)"
 RIMS = "(phi - half, phi + half)"
 RIM = "nearest = min(nearest, ray_wall(p, rim, wall))"
@@ -67,6 +73,20 @@ SLIPS = (
         (PLACES, "(0, 1, np.clip(a @ w / (w @ w), 0, 1))"),
     ),
     Slip(
+        "foot-turned",
+        "τ has the wrong sign: w leads from the wall's first end to the other, and a from the sensor to the "
+        "first. Where a and w point the same way, the foot lies before the wall.",
+        *[(PLACES, f"({foot},)") for foot in TURNED],
+        *[[(PLACES, f"({foot},)"), (RIMS, "()")] for foot in (*TURNED, f"0, 1, {TURNED[1]}")],
+    ),
+    Slip(
+        "ends-in-the-cone",
+        "A wall was heard only if an end of it, or both, lie in the cone. A wall may cross the cone with "
+        "both ends outside.",
+        *[[ends, *more] for ends in ENDS for more in ([], [(RIMS, "()")], [FOOT, (RIMS, "()")])],
+        [(PLACES, "(0, 1)"), (RIMS, "()")],
+    ),
+    Slip(
         "ends-forgotten",
         "The end of a wall may be the nearest place: then no perpendicular meets the wall.",
         (PLACES, "(-(a @ w) / (w @ w),) if 0 <= -(a @ w) / (w @ w) <= 1 else ()"),
@@ -98,7 +118,7 @@ SLIPS = (
         "nearest-place-of-each-wall-only",
         "Of each wall you ask one place, the nearest of all. Where that is beside the cone, another "
         "place of the same wall may lie inside.",
-        [(PLACES, "(np.clip(-(a @ w) / (w @ w), 0, 1),)"), (RIMS, "()")],
+        [FOOT, (RIMS, "()")],
     ),
     Slip(
         "nearest-wall-only",
