@@ -153,7 +153,7 @@ def _step(name, points, says, far, doubt_below=np.inf):
         if not whole(inputs, outputs):
             return "the map does not hold each landmark once"
         found = share(inputs, outputs), doubt(inputs, outputs)
-        said = "it is {:.2f} times as far from there, and the mean NEES of its pose is {:.3g}"
+        said = "it is {:.2f} of that error away, and the mean NEES of its pose is {:.3g}"
         return said.format(*found)
 
     return Law(name, points, says, holds, why=why, asks=ASKS)
@@ -183,16 +183,16 @@ FALSE_SIGHTS = Task(
         _step(
             "better",
             1,
-            "a filter that is told which sights are false errs by some way at the end, over all "
-            "runs; yours has the robot no more than 0.95 times as far from where that one has it",
+            "a filter that is told which sights are false has an error left at the end; over all "
+            "runs, yours has the robot no farther from there than 0.95 of that error",
             0.95,
         ),
-        _step("good", 1, "0.7 times as far at most", 0.7),
+        _step("good", 1, "no farther than 0.7 of that error", 0.7),
         _step("careful", 1, "and the mean NEES of its pose is below 15", 0.7, 15),
         _step(
             "honest",
             1,
-            f"which is below 10, where 3 is right; and the robot is {AS_TOLD} times as far at most",
+            f"which is below 10, where 3 is right; and no farther than {AS_TOLD} of that error",
             AS_TOLD,
             10,
         ),
