@@ -187,7 +187,7 @@ def _():
 # `j`.
 #
 # **Your task.** Return the state, the covariance and the ids after the step, computed with your functions. The
-# check drives your filter through ten runs. It asks whether robot and map err as much as $P$ says, and whether
+# check drives your filter through twenty runs. It asks whether robot and map err as much as $P$ says, and whether
 # $P$ is as sure as least squares over the whole run is: nothing lost, and nothing counted twice.
 # The check stops after 10 s.
 

@@ -695,11 +695,12 @@ views.explore(
     step=(1, 100, closing - 1),
 )
 rho = np.abs(correlation(before.P))
-early, late = rho[3:13, 3:13].mean(), rho[-10:, -10:].mean()
+of_two = np.kron(1 - np.eye(5), np.ones((2, 2))) > 0  # of different landmarks
+early, late = rho[3:13, 3:13][of_two].mean(), rho[-10:, -10:][of_two].mean()
 
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # You begin just before the closing. The landmarks stand in the order in which they were found. The first are pale:
-# the correlations among the first five are {= early:.2f =} on average. Those among the last five are
+# the correlations between the first five are {= early:.2f =} on average. Those between the last five are
 # {= late:.2f =}, since each was placed with the error that the robot had by then. Now play on: at the closing
 # almost every block changes, even those of pairs which were never in view together.
 

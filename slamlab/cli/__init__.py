@@ -75,7 +75,9 @@ def main(argv=None):
     words = list(sys.argv[1:] if argv is None else argv)
     if words[1:2] and words[1] in SUBCOMMANDS.get(words[0], ()):
         words[:2] = [" ".join(words[:2])]
-    arguments = parser.parse_args(words)
+    arguments, rest = parser.parse_known_args(words)
+    if rest:  # of the command, whose help tells what it takes
+        Parser(prog=f"slamlab {words[0]}").error(f"unrecognized arguments: {' '.join(rest)}")
     try:
         return arguments.run(arguments)
     except KeyboardInterrupt:

@@ -83,7 +83,7 @@ class Exercise:
             unsolved = [need for need in task.needs if not found[need].solved]
             if unsolved:
                 names = " and ".join(unsolved)
-                found[task.id] = task.failed("needs", f"needs {names}, which must be solved first")
+                found[task.id] = task.failed("needs", f"needs {names}, solved and run first")
             else:
                 found[task.id] = judge_one(task)
         return found

@@ -1,11 +1,8 @@
 """Stub of :mod:`slamlab.checks` in a worker, where nothing is checked or shown."""
 
-import sys
-
 
 def check(task_id):
-    """Do nothing but offer ``hint``, as the real one does: the judge does the checking."""
-    sys._getframe(1).f_globals.setdefault("hint", hint)
+    """Do nothing: the judge does the checking."""
 
 
 def hint(task_id):

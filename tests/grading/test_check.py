@@ -105,7 +105,7 @@ def test_where_no_time_limit_can_be_set_it_says_so():
 
 def test_a_task_that_needs_another_waits_for_it():
     printed, _ = checked(double("return a"), "99-total")
-    assert "needs 99-double, which must be solved first" in printed
+    assert "needs 99-double, solved and run first" in printed
     assert "0 of 2 points" in printed
     assert "2 of 2 points" in checked("", "99-total")[0]
 

@@ -198,6 +198,9 @@ def test_a_hint_of_ones_own_is_left_alone():
     assert names["hint"] == 7
 
 
-def test_a_call_below_a_check_stops_no_cell_in_a_worker():
-    cells = fake.SOLUTION, "from slamlab.checks import check\ncheck('99-turn')", "hint('99-turn')"
-    assert judged(*cells, exercise=fake.EXERCISE)["cells"] == {}
+def test_a_call_below_the_import_stops_no_cell_in_a_worker():
+    """It needs no check before it there either: a notebook may be saved with it anywhere."""
+    cells = fake.SOLUTION, "from slamlab.checks import ask, check", "hint('99-turn')\nx = y"
+    assert judged(*cells, exercise=fake.EXERCISE)["cells"] == {
+        3: "NameError: name 'y' is not defined"
+    }

@@ -45,7 +45,7 @@ def test_a_missing_function_loses_its_task_and_those_that_need_it_and_is_named()
     result = judged(fake.SOLUTION, "del double")["verdicts"]
     assert [verdict.points for verdict in result] == [0, 2.5, 0]
     assert result[0].problem == "double is not defined"
-    assert result[2].problem == "needs 99-double, which must be solved first"
+    assert result[2].problem == "needs 99-double, solved and run first"
 
 
 def test_the_mistake_is_recognised():
