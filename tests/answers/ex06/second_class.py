@@ -45,6 +45,9 @@ def merge(x, P, i, j):
     return y[o] - G @ y[d], Q[np.ix_(o, o)] - G @ Q[np.ix_(d, o)]
 """,
     ),
+]
+
+WRONG = [
     (
         "06-false-sights",
         "half a metre as a gate",
@@ -62,9 +65,6 @@ def careful_step(x, P, ids, u, seen, z, C, R):
     return x, P, ids
 """,
     ),
-]
-
-WRONG = [
     (
         "06-augment",
         "no correlation with the old map",
