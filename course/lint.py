@@ -184,10 +184,7 @@ def _tables(source):
     """Problems of tables, those that code writes too: a column without a heading."""
     for cell in source.cells:
         if HEADLESS.search(cell.text):
-            yield (
-                cell,
-                "a column of a table has no heading, by which it is read out",
-            )
+            yield cell, "a column of a table has no heading, by which it is read out"
 
 
 def _first_and_last_cell(source):

@@ -49,3 +49,17 @@ def grouped(told):
     str
     """
     return _LARGE.sub(lambda found: f"{int(found[0]):,}".replace(",", " "), str(told))
+
+
+def grouped_tick(x, _position=None):
+    """The label of a tick, for ``set_major_formatter``: its number in short, :func:`grouped`.
+
+    Parameters
+    ----------
+    x : float
+
+    Returns
+    -------
+    str
+    """
+    return grouped(f"{x:g}")

@@ -5,7 +5,7 @@ from itertools import cycle
 import numpy as np
 from matplotlib.ticker import MaxNLocator, NullFormatter
 
-from slamlab.displays import grouped
+from slamlab.displays import grouped_tick
 from slamlab.layers import Ellipses, Points
 from slamlab.views.colours import COLOURS, SERIES
 from slamlab.views.figures import axes, band, chart
@@ -85,7 +85,7 @@ def against_band(x, ys, limits, xlabel, ylabel, title=None, size=(8, 4)):
     fig, ax = curves(x, ys, xlabel, ylabel, title, size)
     band(ax, *limits, "95 % band")
     ax.set(yscale="log", ylim=(1, 30 * max(map(np.max, ys.values()))))
-    ax.yaxis.set_major_formatter(lambda x, _: grouped(f"{x:g}"))
+    ax.yaxis.set_major_formatter(grouped_tick)
     ax.yaxis.set_minor_formatter(NullFormatter())
     legend(ax, loc="upper left", ncols=2)
     return fig, ax

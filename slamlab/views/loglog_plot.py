@@ -5,7 +5,7 @@ from itertools import cycle
 import numpy as np
 from matplotlib.ticker import NullFormatter
 
-from slamlab.displays import grouped
+from slamlab.displays import grouped_tick
 from slamlab.views.colours import COLOURS, SERIES
 from slamlab.views.figures import chart
 from slamlab.views.legends import legend
@@ -38,7 +38,7 @@ def growth(x, measured, predicted, xlabel, ylabel, title=None, size=(6, 4)):
     # whoever reads off an error wants 20, not 2 × 10¹
     ax.set_xticks(x, labels=_labels(x))
     ax.xaxis.set_minor_formatter(NullFormatter())
-    ax.yaxis.set_major_formatter(lambda x, _: grouped(f"{x:g}"))
+    ax.yaxis.set_major_formatter(grouped_tick)
     legend(ax)
     return fig, ax
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from slamlab.displays import grouped
+from slamlab.displays import grouped_tick
 from slamlab.views.colours import COLOURS
 from slamlab.views.figures import chart
 from slamlab.views.legends import legend
@@ -34,6 +34,6 @@ def strips(rows, limits, span, xlabel, title=None, size=(8, 3.8)):
         ax.axvline(limit, color=COLOURS["limit"], linestyle="dashdot", label=label)
     ax.set_yticks(range(len(rows)), rows)
     ax.set(xscale="log", xlim=span, ylim=(-2 * HIGH, len(rows) - 1 + 2 * HIGH))
-    ax.xaxis.set_major_formatter(lambda x, _: grouped(f"{x:g}"))
+    ax.xaxis.set_major_formatter(grouped_tick)
     legend(ax)
     return fig, ax

@@ -113,14 +113,18 @@ def test_what_runs_is_stopped_and_a_kernel_restarted_without_leaving_the_slides(
     assert shown.runs
 
 
-def test_running_is_said_as_long_as_it_runs(visit, lab_folder):
-    go = lab_folder / "go"
-    code = f"""
+def waiting_for(go):
+    """Code that runs until a file is there."""
+    return f"""
 import os, time
 while not os.path.exists({str(go)!r}):
     time.sleep(0.05)
 print('done')"""
-    shown = lecture(visit, lab_folder, slide(v4.new_code_cell(code)))
+
+
+def test_running_is_said_as_long_as_it_runs(visit, lab_folder):
+    go = lab_folder / "go"
+    shown = lecture(visit, lab_folder, slide(v4.new_code_cell(waiting_for(go))))
     visit.page.wait_for_selector(".slamlab-deck .slamlab-bar")
     shown.press("Control+Enter")
     visit.page.wait_for_timeout(4500)  # longer than other notices stay
@@ -135,12 +139,7 @@ print('done')"""
 
 def test_who_has_gone_on_while_a_cell_runs_is_not_called_back(visit, lab_folder):
     go = lab_folder / "go_on"
-    code = f"""
-import os, time
-while not os.path.exists({str(go)!r}):
-    time.sleep(0.05)
-print('done')"""
-    shown = lecture(visit, lab_folder, slide(v4.new_code_cell(code)))
+    shown = lecture(visit, lab_folder, slide(v4.new_code_cell(waiting_for(go))))
     page = visit.page
     page.wait_for_selector(".slamlab-deck .slamlab-bar")
     shown.press("e")
