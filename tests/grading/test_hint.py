@@ -202,5 +202,5 @@ def test_a_call_below_the_import_stops_no_cell_in_a_worker():
     """It needs no check before it there either: a notebook may be saved with it anywhere."""
     cells = fake.SOLUTION, "from slamlab.checks import ask, check", "hint('99-turn')\nx = y"
     assert judged(*cells, exercise=fake.EXERCISE)["cells"] == {
-        3: "NameError: name 'y' is not defined"
+        3: "NameError: name 'y' is not defined (line 2 of the cell)"
     }
