@@ -116,7 +116,7 @@ def test_an_ambiguous_observation_is_ignored_and_counted():
     for k, observations in enumerate(see):  # 0, 5 and 14 standard deviations off
         slam.step(Reading(float(k), observations=observations))
     assert len(slam.filter.ids) == 2 and slam.association.ambiguous == 1
-    assert "2 landmarks, 1 ambiguous observations" in slam.status
+    assert "2 landmarks, 1 ambiguous observation" in slam.status
 
 
 def test_two_observations_of_one_reading_are_never_one_landmark():

@@ -24,8 +24,8 @@ setup_check.report()
 
 # %% [markdown]
 # If everything has its tick, go on. If you see `No module named 'slamlab'`, this notebook runs
-# on another Python than that of the course. Close it, run `make lab` in the folder of the project
-# (on Windows `python lab.py`), and open it in the JupyterLab that comes up.
+# on another Python than that of the course. Close it, run `python lab.py` in the folder of the
+# project, and open it in the JupyterLab that comes up.
 
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=6
 # ## How a lesson works

@@ -18,6 +18,7 @@ from difflib import get_close_matches
 from slamlab.exercises.drives import describe
 
 WARNINGS = 3  # of Python's that a check tells
+NOT_RUN = ("missing", "needs")  # kinds of a problem in a fresh kernel: what was earned stays
 
 
 def check(task_id):
@@ -170,7 +171,8 @@ def _check(task_id, namespace):
     if warned.get(task.id):
         print(f"{warned[task.id]}\n")
     print(report.coloured(report.format_verdict(task, verdict)))
-    progress_records.keep_check(task.id, float(verdict.points), float(task.points))
+    if verdict.kind not in NOT_RUN:
+        progress_records.keep_check(task.id, float(verdict.points), float(task.points))
     if not verdict.full and (offered := ladder.offered(task, verdict)):
         print(f'    hint("{task.id}") {offered}.')
     return float(min(verdict.points, task.points))

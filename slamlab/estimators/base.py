@@ -10,6 +10,21 @@ from slamlab.layers import Layer
 from slamlab.readings import Reading, Trajectory
 
 
+def counted(number, noun):
+    """Say how many there are, for a status line: "1 landmark", "2 landmarks".
+
+    Parameters
+    ----------
+    number : int
+    noun : str, of one of them
+
+    Returns
+    -------
+    str
+    """
+    return f"{number} {noun}{'' if number == 1 else 's'}"
+
+
 class Estimator:
     """A SLAM algorithm: estimates the robot's pose and the map from readings, one at a time.
 

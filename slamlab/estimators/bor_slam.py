@@ -4,7 +4,7 @@ from contextlib import contextmanager
 
 import numpy as np
 
-from slamlab.estimators.base import Estimator
+from slamlab.estimators.base import Estimator, counted
 from slamlab.estimators.corner_names import CornerNames
 from slamlab.estimators.landmark_observations import require_landmarks
 from slamlab.estimators.mak_slam import predict
@@ -109,7 +109,7 @@ class BorSlam(Estimator):
         self.pose = self.filter.pose
         self.record(reading.time)
         self.status = self.status_line(
-            f"{len(self.filter)} landmarks", f"{self.ambiguous} ambiguous observations"
+            counted(len(self.filter), "landmark"), counted(self.ambiguous, "ambiguous observation")
         )
 
     def layers(self):

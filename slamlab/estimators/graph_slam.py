@@ -12,7 +12,7 @@ import numpy as np
 
 from slamlab import gridmap
 from slamlab.estimators import odometry_drift
-from slamlab.estimators.base import Estimator
+from slamlab.estimators.base import Estimator, counted
 from slamlab.estimators.loop_closure import LoopClosure, pose_difference
 from slamlab.estimators.odometry_calibration import OdometryCalibration
 from slamlab.estimators.relocalisation import Relocalisation
@@ -101,7 +101,7 @@ class GraphSlam(Estimator):
         self._naive_poses.append(self.naive_pose)
         self.pose = compose(self._last_keyframe_pose(), self._increment)
         self.record(reading.time)
-        self.status = self.status_line(f"{len(self.keyframes)} keyframes")
+        self.status = self.status_line(counted(len(self.keyframes), "keyframe"))
 
     def trajectory(self):
         """Every pose so far, after the pose graph has been optimised: Trajectory."""

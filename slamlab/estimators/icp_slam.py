@@ -7,7 +7,7 @@ from odometry alone. There is no loop closure: a place seen again is not recogni
 
 import numpy as np
 
-from slamlab.estimators.base import Estimator
+from slamlab.estimators.base import Estimator, counted
 from slamlab.estimators.growing_rows import GrowingRows
 from slamlab.estimators.sufficiency import THIN, thin_matches
 from slamlab.geometry import between, compose, transform
@@ -63,7 +63,9 @@ class IcpSlam(Estimator):
             self.skipped += 1
         self._naive_track.append(self.naive_pose)
         self.record(reading.time)
-        self.status = self.status_line(f"{self._mapped} scans mapped, {self.unmatched} unmatched")
+        self.status = self.status_line(
+            f"{counted(self._mapped, 'scan')} mapped, {self.unmatched} unmatched"
+        )
 
     @property
     def warnings(self):

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from slamlab.estimators.base import Estimator
+from slamlab.estimators.base import Estimator, counted
 from slamlab.estimators.landmark_observations import (
     DataAssociation,
     observed_landmarks,
@@ -85,7 +85,7 @@ class MakSlam(Estimator):
         self.record(reading.time)
         landmarks, ambiguous = len(self.filter.ids), self.association.ambiguous
         self.status = self.status_line(
-            f"{landmarks} landmarks", f"{ambiguous} ambiguous observations"
+            counted(landmarks, "landmark"), counted(ambiguous, "ambiguous observation")
         )
 
     @property

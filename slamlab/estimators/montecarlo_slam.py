@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from slamlab.estimators.base import Estimator
+from slamlab.estimators.base import Estimator, counted
 from slamlab.estimators.corner_names import CornerNames
 from slamlab.estimators.landmark_observations import DataAssociation, require_landmarks
 from slamlab.estimators.mak_slam import predict
@@ -78,7 +78,9 @@ class ParticleSlam(Estimator):
         self.status = self.status_line(*self._status_parts())
 
     def _status_parts(self):
-        return f"{len(self.filter.ids)} landmarks", f"{self.ambiguous} ambiguous observations"
+        return counted(len(self.filter.ids), "landmark"), counted(
+            self.ambiguous, "ambiguous observation"
+        )
 
     def _correct(self, found):
         """Update by observations of known landmarks, add the new landmarks."""

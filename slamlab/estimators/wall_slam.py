@@ -6,7 +6,7 @@ a measurement of their own, whereas the foot of the perpendicular is computed th
 
 import numpy as np
 
-from slamlab.estimators.base import Estimator
+from slamlab.estimators.base import Estimator, counted
 from slamlab.estimators.mak_slam import predict
 from slamlab.estimators.sufficiency import hardly_surer, mostly_unknown, wider_than_map
 from slamlab.estimators.wall_merging import ends_of, merge_pieces
@@ -96,9 +96,9 @@ class WallSlam(Estimator):
         self.pose = self.filter.pose
         self.record(reading.time)
         self.status = self.status_line(
-            f"{len(self.filter.ids)} walls, {len(self.tentative.tentative)} tentative",
+            f"{counted(len(self.filter.ids), 'wall')}, {len(self.tentative.tentative)} tentative",
             f"{self.merged} merged",
-            f"{self.ambiguous} ambiguous observations",
+            counted(self.ambiguous, "ambiguous observation"),
         )
 
     @property

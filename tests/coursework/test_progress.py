@@ -11,6 +11,7 @@ from datetime import datetime
 import pytest
 
 from slamlab import coursework
+from slamlab.checks import check
 from slamlab.coursework import folder, overview, progress_file, progress_records
 
 NOW = datetime(2026, 11, 22, 18, 0, 0)
@@ -38,6 +39,16 @@ def test_a_check_an_answer_and_a_validation_are_kept(course):
     assert (question["first"], question["answer"], question["right"]) == ("A", "B", True)
     assert kept["validated"]["04"]["points"] == 12.0
     assert set(kept["minutes"]) == {"04", "ex04"}
+
+
+def test_a_check_before_its_cell_takes_no_points_back(course, capsys):
+    """A fresh kernel knows no function yet; one that is worse than before counts."""
+    progress_records.keep_check("04-jxr-jz", 3.0, 3.0)
+    eval("check('04-jxr-jz')", {"check": check})
+    assert "not defined yet" in capsys.readouterr().out
+    assert progress_file.read(course)["tasks"]["04-jxr-jz"]["points"] == 3.0
+    eval("check('04-jxr-jz')", {"check": check, "J_xr": lambda *_: 0, "J_z": lambda *_: 0})
+    assert progress_file.read(course)["tasks"]["04-jxr-jz"]["points"] == 0.0
 
 
 def test_the_minutes_of_an_answer_count_for_the_notebook_that_asked(course):

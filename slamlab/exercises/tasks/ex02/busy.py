@@ -55,7 +55,7 @@ def offs(inputs, outputs):
 def _why(inputs, outputs):
     (middle, bad), (share, most) = np.quantile(offs(inputs, outputs), [0.5, 0.8], axis=0).T
     return (
-        f"in the middle error is off by a factor of {np.exp(min(middle, 9)):.3g} and blocked by "
+        f"in the median error is off by a factor of {np.exp(min(middle, 9)):.3g} and blocked by "
         f"{share:.2g}; of one sensor in five, by {np.exp(min(bad, 9)):.3g} or {most:.2g} and more"
     )
 
@@ -68,7 +68,7 @@ def _typical(name, points, factor, share, asks):
         return error < np.log(factor) and blocked < share
 
     says = (
-        f"in the middle of all sensors error is off by a factor of {factor} at most, and "
+        f"in the median of all sensors error is off by a factor of {factor} at most, and "
         f"blocked by {share}"
     )
     return Law(name, points, says, holds, why=_why, asks=asks)
@@ -78,7 +78,7 @@ def _nearly_all(inputs, outputs):
     return (offs(inputs, outputs) < [np.log(ALL[0]), ALL[1]]).all(axis=1).mean() >= ENOUGH
 
 
-# The logarithm of the factor in the middle is 0.04 for the solution (0.058 at most, 200 seeds),
+# The logarithm of the factor in the median is 0.04 for the solution (0.058 at most, 200 seeds),
 # 0.083 for those that forget the rounding, 0.11 the weights, 0.2 both. Near enough for the last
 # step are 33 of 40 of the solution's answers at least; 25 to 34 without the rounding, 27 at most
 # without the weights, 22 without both.

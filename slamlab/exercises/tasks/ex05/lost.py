@@ -87,8 +87,8 @@ def _why(inputs, outputs):
     off = offs(inputs, outputs)
     return (
         f"At the end, {np.sum(off < 0.4)} of {len(off)} robots are off by less than 0.4 m, and "
-        f"{np.sum(honest(inputs, outputs))} know how far; in the middle they are off by "
-        f"{np.median(off):.2f} m, at the worst by {off.max():.2f} m."
+        f"{np.sum(honest(inputs, outputs))} know how far; their errors are "
+        f"{np.median(off):.2f} m in the median and {off.max():.2f} m at the worst."
     )
 
 

@@ -21,7 +21,7 @@ def offs(inputs, outputs):
 def _why(inputs, outputs):
     best, *_, worst = off = np.sort(offs(inputs, outputs))
     return (
-        f"The errors are {best:.2f} m at the best, {np.median(off):.2f} m in the middle and "
+        f"The errors are {best:.2f} m at the best, {np.median(off):.2f} m in the median and "
         f"{worst:.2f} m at the worst."
     )
 
@@ -36,7 +36,7 @@ def _step(name, points, count, limit, asks):
     return Law(name, points, says, holds, why=_why, asks=asks)
 
 
-# the error in the middle is 0.19 m for the solution (0.24 at most, over 50 seeds) and 0.68 m for
+# the median error is 0.19 m for the solution (0.24 at most, over 50 seeds) and 0.68 m for
 # robust weights alone (0.25 at least); 15.7 maps of the solution are below 0.6 m (13 at least, over
 # 400 seeds), 7 with robust weights alone, and none if all loops are trusted
 # Of 432 maps of the solution 7.4 % are off by 0.38 m and 1.6 % by 0.6 m, no more in one set than
