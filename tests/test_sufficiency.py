@@ -151,7 +151,7 @@ def test_what_sees_enough_corners_or_walls_again_says_nothing(name, world):
 def test_on_the_intel_log_nobody_says_anything(name):
     try:
         path = sources.recording("intel")
-    except FileNotFoundError as error:
+    except sources.SourceError as error:
         pytest.skip(str(error))
     with sources.open(str(path)) as log:
         assert told(name, log, 450) == ""
