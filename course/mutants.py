@@ -6,6 +6,7 @@ reason, in ``EQUIVALENT`` of the task's programs. One that agrees on all draws i
 """
 
 import argparse
+import os
 import sys
 from collections import Counter
 from dataclasses import dataclass
@@ -45,7 +46,24 @@ class Survivor:
 
 
 def survives(one: Programs, source, seeds=SEEDS) -> bool:
-    """Whether a program keeps full marks, with the open seed and some others."""
+    """Whether a program keeps full marks, with the open seed and some others.
+
+    It runs in a process of its own where there can be one: after a failed product of matrices of
+    objects NumPy may crash Python.
+    """
+    if not hasattr(os, "fork"):
+        return _keeps_full_marks(one, source, seeds)
+    child = os.fork()
+    if child == 0:
+        code = 1
+        try:
+            code = 0 if _keeps_full_marks(one, source, seeds) else 1
+        finally:
+            os._exit(code)
+    return os.waitpid(child, 0)[1] == 0
+
+
+def _keeps_full_marks(one, source, seeds):
     for seed in [OPEN_SEED, *(b"mutants %d" % k for k in range(1, seeds))]:
         try:
             with time_limit(MUTANT_SECONDS, cpu=True):

@@ -236,7 +236,7 @@ def update_landmark(p, P, x, z, R):
 # One that is in the map already is corrected by `update_landmark`.
 #
 # **Your task.** Return a dict from each id to its pair `(p, P)`, of the landmarks seen and no others. Perhaps
-# nothing was seen (`n = 0`). The check's sensor is a surveyor's, good to a third of a millimetre.
+# nothing was seen (`n = 0`). The check's sensor is a surveyor's, good to a tenth of a millimetre.
 
 
 # %%

@@ -55,6 +55,7 @@ def test_a_wrong_one_is_told_which_law_broke_how_often_and_the_hint_for_its_mist
         (double("return str(a)"), "double returned str, which is no array of real numbers"),
         (double("return 2j * a"), "double returned complex numbers"),
         (double("return [[1], [1, 2]]"), "double returned list, which is no array"),
+        (double("b = []; b.extend([b, b]); return b"), "returned a list that contains itself"),
         (double("return [a, a]"), "double returned shape (2,), expected () (one number)"),
         (double("return [a] * int(a * 10)"), "double returned arrays of different shapes"),
         (double("return np.zeros(10**7)"), "10000000 numbers: at most 500000 are allowed"),

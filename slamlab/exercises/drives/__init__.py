@@ -61,6 +61,11 @@ def numbers(value, function):
     try:
         if isinstance(value, str | bytes):  # which astype would read as numbers
             raise TypeError
+        if _contains_itself(value):
+            raise StudentError(
+                "malformed",
+                f"{function} returned a list that contains itself: was it appended to itself?",
+            )
         array = np.asarray(value)
         if array.dtype.kind == "c":  # of which astype would take the half
             raise StudentError(
@@ -81,6 +86,14 @@ def numbers(value, function):
             "malformed",
             f"{function} returned {type(value).__name__}, which is no array of real numbers",
         ) from None
+
+
+def _contains_itself(value, above=()):
+    """Whether a list is one of its own elements, at any depth: NumPy would not end on one."""
+    if not isinstance(value, list | tuple):
+        return False
+    above = (*above, id(value))
+    return any(id(each) in above or _contains_itself(each, above) for each in value)
 
 
 def shaped(value, what, shape):
