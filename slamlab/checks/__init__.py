@@ -21,7 +21,7 @@ WARNINGS = 3  # of Python's that a check tells
 NOT_RUN = ("missing", "needs")  # kinds of a problem in a fresh kernel: what was earned stays
 
 
-def check(task_id):
+def check(task_id=None):
     """Check a task on the functions defined in the notebook and print the verdict.
 
     Parameters
@@ -38,7 +38,7 @@ def check(task_id):
     return points if "NBGRADER_EXECUTION" in os.environ else None
 
 
-def hint(task_id):
+def hint(task_id=None):
     """Print a hint on a task, at each call one rung further: a question, then a step on the way.
 
     Parameters

@@ -9,8 +9,8 @@ from pathlib import Path
 def notebook_file(names, folder="."):
     """Find the file of the notebook whose kernel this is.
 
-    Jupyter's server and Visual Studio Code tell their kernels. Elsewhere it is the notebook in the
-    kernel's folder that holds most of the cells that were run.
+    Jupyter's server and Visual Studio Code tell their kernels, but not of a new name. Elsewhere it
+    is the one notebook in the kernel's folder that holds most of the cells that were run.
 
     Parameters
     ----------
@@ -19,20 +19,32 @@ def notebook_file(names, folder="."):
 
     Returns
     -------
-    Path, or None where no file fits
+    Path, or None where no file fits, or two do
     """
     folder = Path(folder)
+    ran = {source.strip() for source in _history(names)} - {""}
     for told in (os.environ.get("JPY_SESSION_NAME"), names.get("__vsc_ipynb_file__")):
         if told and told.endswith(".ipynb"):
             # the server may name it from its own folder on; the kernel stands beside it
             for path in (Path(told), folder / Path(told).name):
                 if path.is_file():
-                    return path
-    ran = {source.strip() for source in _history(names)} - {""}
-    found = {path: len(ran & set(_sources(path))) for path in sorted(folder.glob("*.ipynb"))}
-    best = max(found, key=found.get, default=None)
+                    return None if _was_renamed(path, ran) else path
+    held = _held(folder, ran)
+    most = max(held.values(), default=0)
+    fitting = [path for path, count in held.items() if count == most]
     # one cell may be in many notebooks, as the imports are
-    return best if best is not None and found[best] >= 2 else None
+    return fitting[0] if most >= 2 and len(fitting) == 1 else None
+
+
+def _was_renamed(path, ran):
+    """Whether another file holds what was run, and one that bears its old name does not."""
+    held = _held(path.parent, {source for source in ran if _defined(source)})
+    return 2 * held.get(path, 0) < max(held.values(), default=0)
+
+
+def _held(folder, ran):
+    """How many of some cells each notebook of a folder holds: path to int."""
+    return {path: len(ran & set(_sources(path))) for path in sorted(folder.glob("*.ipynb"))}
 
 
 def unsaved_definitions(path, names):

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import ipywidgets
 
 from slamlab.coursework import progress_records
-from slamlab.displays import show_bundle, show_controls
+from slamlab.displays import grouped, show_bundle, show_controls
 
 
 @dataclass(frozen=True)
@@ -56,7 +56,8 @@ class Question:
         given : str or float
         """
         answer = self._judge(given)
-        self._say(f"{'✓' if answer.right else '✗'} {given}: {answer.reason}")
+        shown = given if isinstance(given, str) else grouped(f"{given:.15g}")
+        self._say(f"{'✓' if answer.right else '✗'} {shown}: {answer.reason}")
         progress_records.keep_answer(self.id, given, answer.right)
 
     def tell(self):
@@ -157,7 +158,7 @@ def ask_number(id, text, right, tolerance, unit, reason, wrong):
         for number, why in wrong.items():
             if abs(given - number) <= tolerance:
                 return Answer(False, why)
-        return Answer(False, f"what comes out is more than {tolerance:g} {unit} off; run and see")
+        return Answer(False, f"off by more than {tolerance:g} {unit}".strip() + "; run and see")
 
     question = Question(id, text, judge)
     field = ipywidgets.FloatText(

@@ -78,9 +78,9 @@ def validate_current_notebook(names):
     path = notebook_file(names)
     if path is None:
         print(
-            "The file of this notebook is not known here: save it beside the other exercises, run "
-            "its cells from the top, then this one.\nIn a terminal `slamlab check NOTEBOOK` says "
-            "the same."
+            "Which file this notebook is, is not known here: save it beside the other exercises "
+            "and run its\ncells from the top, then this one. If it has a new name, restart its "
+            "kernel first.\nIn a terminal `slamlab check NOTEBOOK` says the same."
         )
         return
     for name in unsaved_definitions(path, names):

@@ -279,13 +279,13 @@ def _print(summary):
     from rich.console import Console
     from rich.table import Table
 
-    table = Table("", "odometry alone", summary["estimator"])
-    for key, title in (("relations", "relations"), ("truth", "truth")):
+    table = Table("error", "odometry alone", summary["estimator"])
+    for key, title in (("relations", "relations"), ("truth", "true poses")):
         if key in summary:
             row = summary[key]
             for unit, name in (("m", "position [m]"), ("rad", "heading [rad]")):
                 table.add_row(
-                    f"{title} ({row['count']}): {name}",
+                    f"{name}, {row['count']} {title}",
                     f"{row[f'naive_{unit}']:.3f}",
                     f"{row[f'corrected_{unit}']:.3f}",
                 )

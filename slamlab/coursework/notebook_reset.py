@@ -76,8 +76,8 @@ def _name(folder, what):
     found = [name for name in known if re.fullmatch(pattern, name)]
     if not found:
         raise ResetError(
-            f"there is no {what!r}: give an exercise such as 04, a lesson such as lesson-04, a "
-            "task such as 04-h-robot, or the path of a notebook"
+            f"no notebook {what!r} was handed out: give an exercise such as 04, a lesson such as "
+            "lesson-04, a task such as 04-h-robot, or the path of a notebook under its first name"
         )
     return found[0], what if task else None
 
@@ -101,7 +101,8 @@ def _with_task_reset(path, handed_out, task):
         raise ResetError(
             f"{path.name} is no readable notebook: slamlab reset {task[:2]} resets all of it"
         ) from None
-    for cell in wanted:
+    check = next(cell for cell in cells if cell["id"] == task)  # what it said is of the old answer
+    for cell in (*wanted, check):
         if cell["id"] in places:
             own[places[cell["id"]]] = cell
     for cell in wanted:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple
 
+from slamlab.coursework import progress_file
 from slamlab.exercises import catalogue
 from slamlab.exercises.report import number
 
@@ -107,9 +108,11 @@ def overview(folder: Path | None, progress: dict) -> str:
     spent = f"{hours} h {minutes} min" if hours else f"{minutes} min"
     lines += [
         "",
-        f"{whole} of {tasks} tasks, {number(points)} of {number(of)} points, {spent}",
+        f"{whole} of {tasks} tasks, {number(points)} of {number(of)} points, {spent} of work",
         f"next: {next_step(table)}",
     ]
+    if folder and progress_file.is_damaged(folder):
+        lines.append(f"{progress_file.NAME} cannot be read: the next check puts it aside")
     return "\n".join(lines)
 
 

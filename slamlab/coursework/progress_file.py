@@ -52,7 +52,7 @@ def change(folder: Path, change, now: datetime) -> bool:
     path = folder / NAME
     try:
         with FileLock(folder / f".{NAME}.lock", timeout=PATIENCE):
-            if path.exists() and not _is_readable(path):
+            if is_damaged(folder):
                 keep_beside(path, now)
             progress = read(folder)
             change(progress)
@@ -62,11 +62,13 @@ def change(folder: Path, change, now: datetime) -> bool:
     return True
 
 
-def _is_readable(path):
+def is_damaged(folder: Path) -> bool:
+    """Whether there is a file of the progress that cannot be read."""
+    path = folder / NAME
     try:
-        return isinstance(json.loads(path.read_text(encoding="utf-8")), dict)
+        return path.exists() and not isinstance(json.loads(path.read_text("utf-8")), dict)
     except (OSError, ValueError):
-        return False
+        return True
 
 
 def _entries(found):

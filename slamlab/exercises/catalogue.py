@@ -66,6 +66,10 @@ def task(task_id) -> Task:
     ------
     KeyError : with a message that names the tasks there are
     """
+    if not re.match(r"\d\d-", str(task_id)):
+        raise KeyError(
+            f"no task {task_id!r}: its id is a text such as '04-h-robot', see its heading"
+        )
     of = exercise(str(task_id)[:2])
     try:
         return of.task(task_id)

@@ -13,7 +13,10 @@ CHANNELS = ("chrome", "msedge", None)  # where Playwright looks by itself; None:
 NEWS = "@jupyterlab/apputils-extension:announcements"
 PATIENCE = 300  # [s] for JupyterLab to start: a guard against hanging
 LEAVE = 20  # [s] for its kernels to end; it keeps nothing, so it is ended then
-NO_PLAYWRIGHT = "Playwright is missing: set up with `python lab.py --lecture`"
+NO_PLAYWRIGHT = (
+    "Playwright is missing: set up with `python lab.py --lecture`, in the whole project or the "
+    "lecturers' pack"
+)
 NO_BROWSER = (
     "no Chromium, Chrome or Edge was found: install one of them, or let Playwright fetch a "
     "Chromium of its own with `python -m playwright install chromium`"

@@ -156,6 +156,12 @@ def test_the_overview_says_what_is_next(course):
     assert last.id in overview.next_step(table)
 
 
+def test_a_file_that_cannot_be_read_is_told(course):
+    assert "cannot be read" not in overview.overview(course, progress_file.read(course))
+    (course / progress_file.NAME).write_text("{", "utf-8")
+    assert "cannot be read" in overview.overview(course, progress_file.read(course))
+
+
 def test_questions_of_a_lesson_and_of_its_exercise_are_counted_and_shown(course):
     for name, asked in {
         "notebooks/01_x": ["01-why"],

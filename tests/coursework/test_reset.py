@@ -117,6 +117,20 @@ def test_a_tasks_cells_are_reset_and_all_else_stays(course):
     assert after["mine"] == "print(a())"
 
 
+def test_what_a_check_said_of_the_old_answer_goes_with_it(course):
+    notebook = json.loads((course / EXERCISE).read_bytes())
+    said = {"output_type": "stream", "name": "stdout", "text": "full marks"}
+    for cell in notebook["cells"]:
+        if cell["id"] in ("04-a", "04-b"):
+            cell["outputs"] = [said]
+    file_writing.write(course / EXERCISE, json_bytes(notebook))
+    notebook_reset.reset(course, "04-a", NOW)
+    cells = json.loads((course / EXERCISE).read_bytes())["cells"]
+    outputs = {cell["id"]: cell.get("outputs") for cell in cells}
+    assert not outputs["04-a"]
+    assert outputs["04-b"] == [said]
+
+
 def test_a_tasks_cell_that_was_deleted_comes_back_before_its_check(course):
     notebook = json.loads((course / EXERCISE).read_bytes())
     notebook["cells"] = [c for c in notebook["cells"] if c["id"] not in ("a", "a2", "b")]
@@ -141,7 +155,7 @@ def test_what_is_as_handed_out_stays_and_is_not_copied(course):
 @pytest.mark.parametrize("what", ["99", "04-none", "nothing", "", "../secret", "exercises"])
 def test_what_is_not_there_is_refused_in_words(course, what):
     before = (course / EXERCISE).read_bytes()
-    with pytest.raises(ResetError, match=r"there is no|no task"):
+    with pytest.raises(ResetError, match=r"was handed out|no task"):
         notebook_reset.reset(course, what, NOW)
     assert (course / EXERCISE).read_bytes() == before
 

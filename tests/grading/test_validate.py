@@ -84,6 +84,17 @@ def test_where_no_program_tells_the_file_it_is_known_by_the_cells_that_ran(
     assert "save it" in said(capsys, In=["", "import math"])
 
 
+def test_after_a_new_name_no_other_file_is_taken_for_it(file, capsys):
+    """The kernel keeps the old name: nothing may bear it now, or what was handed out again."""
+    ran = ["", fake.SOLUTION, CELL]
+    (file.parent / "an older copy.ipynb").write_text(file.read_text("utf-8"), "utf-8")
+    assert said(capsys, In=ran).startswith("99 fake.ipynb as saved")
+    file.rename(file.parent / "new name.ipynb")
+    assert "If it has a new name, restart its kernel" in said(capsys, In=ran)
+    file.write_text(notebook("def double(a):\n    raise NotImplementedError", CELL), "utf-8")
+    assert "If it has a new name, restart its kernel" in said(capsys, In=ran)
+
+
 def test_of_all_that_was_run_just_what_differs_from_the_file_is_named(file, capsys):
     two = "def f():\n    return 1\n\nclass Mine:\n    step = f"
     trial = "@attempt\ndef _():\n    print({})"
