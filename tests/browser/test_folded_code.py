@@ -102,6 +102,26 @@ def test_answers_stay_folded_when_all_is_run_and_open_once_they_are_asked_for(vi
     assert (answer.count(), words.count()) == (1, 1)
 
 
+def test_who_goes_on_without_an_answer_is_told_what_opens_it(visit, question):
+    """Cell by cell, as students run them: what answers the question stays folded."""
+    texts = "the answer", "What it means."
+    answer, words = (question.get_by_text(text).locator("visible=true") for text in texts)
+    question.locator(".jp-Cell").first.click()
+    for _ in range(5):
+        question.keyboard.press("Shift+Enter")
+    question.get_by_text("the end", exact=True).wait_for()
+    assert (answer.count(), words.count()) == (0, 0)
+    told = question.locator("[data-slamlab-answers] .jp-Placeholder-contentContainer:visible")
+    said = "node => getComputedStyle(node, '::after').content"
+    assert "answer the question above" in told.last.evaluate(said)
+    words_cell = question.locator(".jp-MarkdownCell[data-slamlab-answers]")
+    words_cell.locator(".jp-InputPlaceholder").click()
+    words.wait_for()
+    question.keyboard.press("Shift+Enter")  # who has opened it keeps it open
+    visit.settle()
+    assert words.count() == 1
+
+
 def test_a_lesson_that_was_only_shown_is_as_it_was(visit, question):
     lecture = Lecture(visit)
     lecture.start()

@@ -3,23 +3,37 @@
 import { forEachElement } from "./watching.js";
 
 const answerOf = (cell) => cell.model.getMetadata("slamlab")?.answers;
+const isText = (cell) => cell.model.type === "markdown";
+const foldedTexts = new WeakSet(); // as they were before the last key or press
 
 export function openAnswers(panel) {
+  forEachElement(panel, ".jp-Cell", (node) => { // its place says what opens it: style.css
+    const cell = panel.content.widgets.find((each) => each.node === node);
+    if (cell && answerOf(cell)) node.dataset.slamlabAnswers = answerOf(cell);
+  });
   forEachElement(panel, "[data-slamlab-answered]", (told) => {
     for (const cell of panel.content.widgets) {
       if (answerOf(cell) !== told.dataset.slamlabAnswered) continue;
       if (cell.outputHidden) cell.outputHidden = false;
-      if (cell.inputHidden) cell.inputHidden = false;
+      if (isText(cell) && cell.inputHidden) cell.inputHidden = false; // code is folded for itself
+      foldedTexts.delete(cell);
     }
   });
 }
 
 // JupyterLab opens a cell that is run: an answer that was folded is folded again, until it is asked for.
-export function keepFolded(NotebookActions) {
+export function keepFolded(NotebookActions, tracker) {
+  const look = () => tracker.forEach((panel) => {
+    for (const cell of panel.content.widgets) foldedTexts[cell.inputHidden ? "add" : "delete"](cell);
+  });
+  for (const event of ["keydown", "pointerdown"]) document.addEventListener(event, look, true);
   let before; // how the answers were when a run began; cells that run together are opened at once
   const begun = (_, { notebook }) => {
     if (before) return;
-    before = notebook.widgets.filter(answerOf).map((cell) => [cell, cell.outputHidden, cell.inputHidden]);
+    before = notebook.widgets.filter(answerOf).map((cell) => {
+      const wasFolded = isText(cell) && foldedTexts.has(cell); // by now it is open
+      return [cell, cell.outputHidden, cell.inputHidden || wasFolded];
+    });
     queueMicrotask(() => {
       for (const [cell, output, input] of before) {
         if (output) cell.outputHidden = true;
@@ -29,5 +43,5 @@ export function keepFolded(NotebookActions) {
     });
   };
   NotebookActions.executionScheduled.connect(begun); // of code
-  NotebookActions.executed.connect(begun); // of text, which is not scheduled
+  NotebookActions.executed.connect(begun); // of text, which is not scheduled, and open by then
 }

@@ -49,7 +49,8 @@ export function plugins(offered) {
       id: "slamlab:folded",
       description: "Answers stay folded when they are run.",
       autoStart: true,
-      activate: () => keepFolded(NotebookActions),
+      requires: [INotebookTracker],
+      activate: (app, tracker) => keepFolded(NotebookActions, tracker),
     },
     lecturePlugin(offered),
     {
