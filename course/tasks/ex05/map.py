@@ -274,4 +274,8 @@ STUMBLES = (
     ),
 )
 
-EQUIVALENT = {}
+EQUIVALENT = {
+    "(g(x, z), np.eye(2))": "a metre is as vague as a hundred beside a tenth of a millimetre",
+    "both.T @": "a covariance is its own transpose, to rounding",
+    "np.linalg.solve(Q, q)) @ both": "a covariance is its own transpose, to rounding",
+}
