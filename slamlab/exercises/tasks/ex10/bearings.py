@@ -95,8 +95,9 @@ def far_round(rng):
 
 
 def narrowed(rng):
-    """Headings that reach beyond what the sighting tells on both sides."""
-    return _any(rng, 12, 1.2, 1.3)
+    """Headings that reach beyond what the sighting tells on both sides, far from the origin."""
+    given, away = _any(rng, 40, 1.2, 1.3), rng.uniform(-40, 40, (40, 2)).repeat(2, axis=1)
+    return given | {name: given[name] + away for name in ("robot", "box")}
 
 
 def inside(rng):

@@ -96,7 +96,7 @@ HEADING = Task(
         Probe("bearings and headings on both sides of π", across_pi),
         Probe("an object due east, north, west or south", side_by_side),
         Probe("a wide heading", far_round),
-        Probe("a sighting that narrows the heading at both ends", narrowed),
+        Probe("a sighting far from the origin that narrows the heading at both ends", narrowed),
         Probe("a sighting that tells nothing new", inside),
         Probe("boxes that overlap in other ways", meeting),
     ),
