@@ -48,7 +48,8 @@ def update(folder: Path, pack: Path, now: datetime) -> list[str]:
             with zipfile.ZipFile(pack) as packed:
                 packed.extractall(staged)
         except (OSError, zipfile.BadZipFile) as error:
-            raise UpdateError(f"{pack} cannot be read: {error}") from None
+            why = getattr(error, "strerror", None) or error
+            raise UpdateError(f"{pack} cannot be read: {why}") from None
         tops = [place.parent.parent.parent for place in Path(staged).rglob(originals.ARCHIVE)]
         if not tops:
             raise UpdateError(f"{pack} is no students' pack of this course")
