@@ -84,6 +84,22 @@ def fuse(a, P_a, b, P_b, P_ab):
 """,
     ),
     Slip(
+        "common-part-taken-off",
+        "What both share was taken off, the rests were fused as if independent, and it was put back. That "
+        "is right only where both err by one common error *and* something of their own. P_ab may be any "
+        "matrix: P_a − P_ab need not be a covariance.",
+        *(
+            f"""
+def fuse(a, P_a, b, P_b, P_ab):
+    common = {common}
+    own_a, own_b = P_a - common, P_b - common
+    K = own_a @ np.linalg.inv(own_a + own_b)
+    return a + K @ (b - a), own_a - K @ own_a + common
+"""
+            for common in ("P_ab", "(P_ab + P_ab.T) / 2")
+        ),
+    ),
+    Slip(
         "one-of-the-two",
         "This is one of the two estimates, the other is thrown away. Even the worse one knows "
         "something.",

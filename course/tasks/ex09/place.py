@@ -72,6 +72,23 @@ SLIPS = (
         (LINE, "line = x[:2] + z[0] * np.array([c, s])"),
     ),
     Slip(
+        "foot-of-the-robot",
+        "The point of the wall that is nearest to the robot was taken for the one nearest to the origin: "
+        "its distance and direction from there are not ρ and α. The wall's normal is the same from both.",
+        """
+def place(x, P, z, R):
+    a = x[2] + z[1]
+    c, s = np.cos(a), np.sin(a)
+    foot = x[:2] + z[0] * np.array([c, s])
+    rho = np.hypot(*foot)
+    J = np.array([foot / rho, [-foot[1] / rho**2, foot[0] / rho**2]])
+    J_x = J @ np.array([[1, 0, -z[0] * s], [0, 1, z[0] * c]])
+    J_z = J @ np.array([[c, -z[0] * s], [s, z[0] * c]])
+    line = np.array([rho, np.arctan2(foot[1], foot[0])])
+    return line, J_x @ P @ J_x.T + J_z @ R @ J_z.T, J_x @ P
+""",
+    ),
+    Slip(
         "turned",
         "Where ρ is negative you turned the normal or dropped the sign. It keeps pointing away from the "
         "robot that saw it: turned, the wall would look quite different from what is seen.",

@@ -69,6 +69,9 @@ H_W = "H[:, at : at + 2] = [[1, x[0] * s - x[1] * c], [0, 1]]"
 S = "S = H @ P @ H.T + R"
 K = "K = P @ H.T @ np.linalg.inv(S)"
 RETURN = "return x + K @ v, P - K @ S @ K.T"
+TURNED = """
+    if rho < x[0] * c + x[1] * s:
+        v = z - [x[0] * c + x[1] * s - rho, alpha - x[2] + np.pi]"""
 
 
 def _x(x):
@@ -114,11 +117,8 @@ SLIPS = (
         "turned-round",
         "A wall with a negative expected ρ' was turned round. It is the same wall, which the estimate has "
         "passed: its ρ' stays negative.",
-        (
-            V,
-            V + "\n    if rho < x[0] * c + x[1] * s:"
-            "\n        v = z - [x[0] * c + x[1] * s - rho, alpha - x[2] + np.pi]",
-        ),
+        (V, V + TURNED),
+        [(V, V + TURNED), (H_W, f"{H_W}\n    H[0] *= np.sign(rho - x[0] * c - x[1] * s)")],
     ),
     Slip(
         "unwrapped",

@@ -77,6 +77,7 @@ SLIPS = (
         "A run that is beyond the limit from its first reading on has no crossing, and no near reading "
         "before it, and is lost all the same: since 0.",
         (NONE, "    if len(near) == 0:\n        return -1\n"),
+        (NONE, "    if len(near) == 0:\n        return len(errors)\n"),
         FAR + "c = np.flatnonzero(np.diff(far.astype(int)) == 1)\n"
         "    return c[-1] + 1 if far[-1] and len(c) else -1",
     ),

@@ -248,8 +248,14 @@ SLIPS = (
     Slip(
         "begin-of-each-step",
         "Each of your little steps takes the heading of its begin. Half a step later is the mean.",
-        Edit("in many little steps", (("np.arange(steps) + 0.5", "np.arange(steps)"),)),
-        Edit("in many little steps", (("np.arange(steps) + 0.5", "np.arange(steps) + 1"),)),
+        *(
+            Edit(
+                "in many little steps",
+                (("steps = 1000", f"steps = {n}"), ("np.arange(steps) + 0.5", heading)),
+            )
+            for n in (10, 20, 50, 100, 999, 1001, 10000)
+            for heading in ("np.arange(steps)", "np.arange(steps) + 1")
+        ),
     ),
     Slip(
         "never-more-than-a-round",

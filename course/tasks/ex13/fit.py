@@ -14,6 +14,7 @@ SHIFT = "T[:2, 2] = b - T[:2, :2] @ a"
 MEND = "Vt[1] *= -1"
 GUARD = "if np.linalg.det(Vt.T @ U.T) < 0:"
 RETURN = "return T"
+MEAN_TURN = "(lambda off: np.angle(np.exp(1j * off).mean()))"
 
 
 def _mended(how):
@@ -132,6 +133,30 @@ SLIPS = (
         (Rot, "T[:2, :2] = (np.linalg.pinv(source - a) @ (target - b)).T"),
     ),
     Slip(
+        "turn-of-an-affine-map",
+        "The best linear map was sought first, and the rotation nearest to it taken. By then its stretch and "
+        "shear have swallowed some of the errors: seek the best among rotations alone.",
+        *(
+            f"""
+def best_motion(source, target):
+    a, b = source.mean(axis=0), target.mean(axis=0)
+    A = np.linalg.lstsq(source - a, target - b, rcond=None)[0].T
+    {turn}
+    T = np.eye(3)
+    T[:2, :2], T[:2, 2] = Rot, b - Rot @ a
+    return T
+"""
+            for turn in (
+                "U, _, Vt = np.linalg.svd(A); Rot = U @ np.diag([1, np.linalg.det(U @ Vt)]) @ Vt",
+                "U, _, Vt = np.linalg.svd(A); Rot = U @ Vt",
+                "Rot, up = np.linalg.qr(A); Rot = Rot * np.sign(np.diag(up))",
+                "t = np.arctan2(A[1, 0], A[0, 0]); "
+                "Rot = np.array([[np.cos(t), -np.sin(t)], [np.sin(t), np.cos(t)]])",
+            )
+        ),
+        shaky=True,  # of points on a line the map is not determined across it
+    ),
+    Slip(
         "mirrored",
         "det Rot = −1: the wall is turned inside out. Find out when V Uᵀ is a mirror, and which column of "
         "V costs least to turn over.",
@@ -201,7 +226,7 @@ SLIPS = (
                     ),
                 ),
             )
-            for of in ("np.mean", "np.median", "(lambda off: off[0])")
+            for of in ("np.mean", "np.median", "(lambda off: off[0])", MEAN_TURN)
         ),
     ),
     Slip(

@@ -228,8 +228,19 @@ SLIPS = (
         ),
     ),
     Slip(
+        "only-pairs-that-choose-each-other",
+        "Only pairs were fitted in which each is the other's nearest. Here each source point has a partner, "
+        "even if that one has somebody nearer.",
+        (
+            PAIRS,
+            PAIRS
+            + "\n        both = nearest(target, moved)[1][rows] == np.arange(len(rows))"
+            + "\n        moved, rows = moved[both], rows[both]",
+        ),
+    ),
+    Slip(
         "far-pairs-dropped",
-        "Some pairs were dropped because they are long. That is the next task: here all are fitted.",
+        "The long pairs were dropped. That is the next task: here all pairs are fitted.",
         (
             PAIRS,
             "distances, rows = nearest(moved, target)\n        near = distances <= np.median(distances)\n        moved, rows = moved[near], rows[near]",

@@ -1,6 +1,9 @@
 """Right ways and slips of 13-line-step."""
 
 from course.tasks import Slip, Stumble
+from course.tasks.ex13.line_step_ways import PASTED, WAYS
+
+__all__ = ["PASTED", "WAYS"]
 
 TASK = "13-line-step"
 
@@ -168,6 +171,19 @@ SLIPS = (
         (P, "P = np.linalg.inv(Q + J.T @ w @ J)"),
     ),
     Slip(
+        "walls-first",
+        "The walls' own correction was found first, by pinv, and then weighed against odometry. Where the "
+        "walls leave a direction open, pinv makes its covariance 0, which says *known exactly*. Add up "
+        "information before anything is inverted.",
+        [
+            (
+                P,
+                "C = np.linalg.pinv(J.T @ w @ J)\n    K = Q @ np.linalg.pinv(Q + C)\n    P = Q - K @ Q",
+            ),
+            (DELTA, "delta = -K @ C @ J.T @ w @ e"),
+        ],
+    ),
+    Slip(
         "covariances-added",
         "The covariances of walls and odometry were added. Two who know something know more together: "
         "it is information that adds up.",
@@ -273,22 +289,5 @@ STUMBLES = (
     Stumble("malformed", (RETURN, "pass"), (RETURN, "return delta, np.sqrt(np.diag(P))")),
     Stumble("raised", (P, "P = np.linalg.inv(J @ w @ J.T)")),
 )
-
-PASTED = {
-    "the lesson's step and covariance": """
-def line_step(source, target, normals, sigma, T, Q):
-    moved = carry(T, source)
-    arm = moved - T[:2, 2]
-    e = np.sum(normals * (moved - target), axis=1)
-    J = np.column_stack([normals, arm[:, 0] * normals[:, 1] - arm[:, 1] * normals[:, 0]])
-    P = np.mean(sigma**2) * np.linalg.pinv(J.T @ J) if len(e) else Q
-    return np.linalg.lstsq(J, -e, rcond=None)[0], P
-""",
-    "the best motion of the pairs": """
-def line_step(source, target, normals, sigma, T, Q):
-    step = np.linalg.inv(T) @ best_motion(source, target) if len(source) > 1 else np.eye(3)
-    return pose(step), Q
-""",
-}
 
 EQUIVALENT = {}
