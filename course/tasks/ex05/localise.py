@@ -193,7 +193,7 @@ SLIPS = (
     ),
     Slip(
         "sight-keeps-x",
-        "The sight makes P smaller, and its x is thrown away.",
+        "The sight makes P smaller, and its x is thrown away, or kept and not handed on to the next step.",
         (LOCATE, "_, P = locate(x, P, z, landmarks[id], R)"),
     ),
     Slip(

@@ -39,6 +39,25 @@ SLIPS = (
         shaky=True,  # where it is far off, it wanders
     ),
     Slip(
+        "one-number-after-the-other",
+        "Range and bearing were taken one after the other, each with an H of its own. The second would need "
+        "the H of the pose that you were given, and what the two share in their errors stands beside the "
+        "diagonal of R. Take both at once.",
+        *(
+            f"""
+def locate(x, P, z, p, R):
+    for k in {order}:
+        H = H_robot(x, p)[k]
+        v = z[k] - h(x, p)[k]
+        v = wrap(v) if k == 1 else v
+        K = P @ H / (H @ P @ H + R[k, k])
+        x, P = x + K * v, P - np.outer(K, H @ P)
+    return x, P
+"""
+            for order in ("(0, 1)", "(1, 0)")
+        ),
+    ),
+    Slip(
         "gated",
         "A sight that is far off was thrown away. The text asks you to take in every sight, one that "
         "contradicts the belief as well.",

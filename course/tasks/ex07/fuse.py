@@ -122,6 +122,24 @@ def fuse(a, P_a, b, P_b, P_ab):
         (_PAIR, "return (a + b) / 2, P_a - K @ S @ K.T"),
     ),
     Slip(
+        "one-weight-for-x-and-y",
+        "The weight of b is a single number. Errors of x and y differ in size and are correlated, so K has "
+        "to be a matrix.",
+        *(
+            f"""
+def fuse(a, P_a, b, P_b, P_ab):
+    w = {weight}
+    P = (1 - w) ** 2 * P_a + w**2 * P_b + w * (1 - w) * (P_ab + P_ab.T)
+    return a + w * (b - a), P
+"""
+            for weight in (
+                "np.trace(P_a - P_ab) / np.trace(P_a + P_b - 2 * P_ab)",
+                "np.trace(P_a) / np.trace(P_a + P_b)",
+                "np.linalg.det(P_a) / (np.linalg.det(P_a) + np.linalg.det(P_b))",
+            )
+        ),
+    ),
+    Slip(
         "weights-swapped",
         "a and b have changed places in x. Test it: if P_a is tiny, x must be close to a.",
         (_x, "b + K @ (a - b)"),

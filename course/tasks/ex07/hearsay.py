@@ -96,6 +96,28 @@ SLIPS = (
         _MEASURED,
     ),
     Slip(
+        "P_seen-inverted",
+        "P_seen was inverted. It may be 0: the entries are known exactly then, and no inverse says so; pinv "
+        "even says that nothing is known. G needs the inverse of the old covariance only.",
+        *(
+            f"""
+def hearsay(x, P, seen, x_seen, P_seen):
+    now, before = {inverse}, np.linalg.inv(P[np.ix_(seen, seen)])
+    L = np.linalg.inv(P)
+    b = L @ x
+    L[np.ix_(seen, seen)] += now - before
+    b[seen] += now @ x_seen - before @ x[seen]
+    new = np.linalg.inv(L)
+    return new @ b, new
+"""
+            for inverse in (
+                "np.linalg.pinv(P_seen)",
+                "np.linalg.inv(P_seen + 1e-6 * np.eye(len(seen)))",
+            )
+        ),
+        shaky=True,
+    ),
+    Slip(
         "rest-forgotten",
         "The covariance is that of G x̃_s alone. The others' errors have another part, the rest: nothing "
         "was learned of it, so it is as large as it was.",

@@ -197,6 +197,11 @@ def keep_book(book, seen, N, lives):
         (USED, "used = [i for i in sorted(set(seen)) if i in book and book[i][0] >= N]"),
         (USED, USED.replace(">=", "==")),
     ),
+    Slip(
+        "new-walls-not-used",
+        "A wall that is new is never used. With N = 1 its first sighting is enough.",
+        (USED, "used = [i for i in sorted(set(seen)) if i in book and after[i][0] >= N]"),
+    ),
     Slip("at-once", "Walls are used at their first sighting: N is not asked.",
          (USED, "used = sorted(set(seen))")),
     Slip(

@@ -115,6 +115,25 @@ def log_likelihoods(rows, p, z, R):
         (ONE, "0.5 * np.sqrt(np.sum(v @ np.linalg.inv(R) * v, axis=1))"),
     ),
     Slip(
+        "compared-as-points",
+        "Landmark and sighting were compared as points, in x and y. R is told of range and bearing: turned "
+        "into x and y it would be another matrix for each sighting.",
+        *(
+            f"""
+def log_likelihoods(rows, p, z, R):
+    seen = z[:, :1] * np.column_stack([np.cos(z[:, 1]), np.sin(z[:, 1])])
+    logs = []
+    for x in rows:
+        c, s = np.cos(x[2]), np.sin(x[2])
+        Rot = np.array([[c, -s], [s, c]])
+        v = {off}
+        logs.append(-0.5 * np.sum(v @ np.linalg.inv(R) * v))
+    return np.array(logs)
+"""
+            for off in ("seen - (p - x[:2]) @ Rot", "seen @ Rot.T + x[:2] - p")
+        ),
+    ),
+    Slip(
         "R-forgotten",
         "R does not count at all: metres and radians are added up as they are.",
         ("v @ np.linalg.inv(R) * v", "v * v"),
@@ -189,6 +208,14 @@ def log_likelihoods(rows, p, z, R):
         ("return logs", "return np.log(np.exp(logs) + 1e-300)"),
         ("return logs", "return np.maximum(logs, -700)"),
         [*EXP, ("return logs", "return np.log(np.maximum(logs, 1e-300))")],
+        *(
+            (ADD, f"logs += np.log(np.exp(-{ONE}) + {small})")
+            for small in ("1e-300", "1e-12", "1e-9")
+        ),
+        *(
+            (ADD, f"logs += np.log(np.maximum(np.exp(-{ONE}), {small}))")
+            for small in ("1e-300", "1e-12")
+        ),
     ),
     Slip(
         "no-logarithm",

@@ -137,15 +137,7 @@ SLIPS = (
         "The best linear map was sought first, and the rotation nearest to it taken. By then its stretch and "
         "shear have swallowed some of the errors: seek the best among rotations alone.",
         *(
-            f"""
-def best_motion(source, target):
-    a, b = source.mean(axis=0), target.mean(axis=0)
-    A = np.linalg.lstsq(source - a, target - b, rcond=None)[0].T
-    {turn}
-    T = np.eye(3)
-    T[:2, :2], T[:2, 2] = Rot, b - Rot @ a
-    return T
-"""
+            fit_ways.AFFINE.format(turn=turn)
             for turn in (
                 "U, _, Vt = np.linalg.svd(A); Rot = U @ np.diag([1, np.linalg.det(U @ Vt)]) @ Vt",
                 "U, _, Vt = np.linalg.svd(A); Rot = U @ Vt",
@@ -228,6 +220,23 @@ def best_motion(source, target):
             )
             for of in ("np.mean", "np.median", "(lambda off: off[0])", MEAN_TURN)
         ),
+    ),
+    Slip(
+        "main-axes",
+        "The main axes of both clouds were laid over each other. An axis has no sense, so the cloud may come "
+        "out turned by half a turn, and which point belongs to which was not used at all.",
+        *(
+            fit_ways.MAIN_AXES.format(axis=axis)
+            for axis in ("np.linalg.eigh(off.T @ off)[1][:, -1]", "np.linalg.svd(off)[2][0]")
+        ),
+        shaky=True,
+    ),
+    Slip(
+        "too-few-steps",
+        "The angle was sought by steps, from no turn at all, and had not arrived when you stopped. In the "
+        "plane it has a closed form, which needs no steps.",
+        *(fit_ways.STEPWISE.format(steps=steps) for steps in (1, 2, 3, 4, 5)),
+        shaky=True,
     ),
     Slip(
         "turned-by-cosine",

@@ -142,13 +142,9 @@ SLIPS = (
         (WEIGHT, "w = np.diag(1 / sigma**4)"),
     ),
     Slip(
-        "weights-ignored",
-        "All pairs count alike: each has its own σ.",
-        (WEIGHT, "w = np.eye(len(sigma))"),
-    ),
-    Slip(
         "one-sigma",
         "All pairs count alike, with one σ for all. Each has its own.",
+        (WEIGHT, "w = np.eye(len(sigma))"),
         (WEIGHT, "w = np.eye(len(sigma)) / np.mean(sigma**2)"),
         (WEIGHT, "w = np.eye(len(sigma)) / np.mean(sigma) ** 2"),
     ),
@@ -171,15 +167,25 @@ SLIPS = (
         (P, "P = np.linalg.inv(Q + J.T @ w @ J)"),
     ),
     Slip(
+        "target-frame-and-back",
+        "You solved in the target's frame and turned δ and P back. But Q is told as the robot sees it, and "
+        "the robot turns about itself, not about the target's origin.",
+        [
+            (SEEN, "seen = normals"),
+            (
+                LEVER,
+                "p = source @ Rot.T + t\n    lever = p[:, 0] * seen[:, 1] - p[:, 1] * seen[:, 0]",
+            ),
+            (RETURN, "G = np.eye(3)\n    G[:2, :2] = Rot.T\n    return G @ delta, G @ P @ G.T"),
+        ],
+    ),
+    Slip(
         "walls-first",
         "The walls' own correction was found first, by pinv, and then weighed against odometry. Where the "
         "walls leave a direction open, pinv makes its covariance 0, which says *known exactly*. Add up "
         "information before anything is inverted.",
         [
-            (
-                P,
-                "C = np.linalg.pinv(J.T @ w @ J)\n    K = Q @ np.linalg.pinv(Q + C)\n    P = Q - K @ Q",
-            ),
+            (P, "C = np.linalg.pinv(J.T @ w @ J); K = Q @ np.linalg.inv(Q + C); P = Q - K @ Q"),
             (DELTA, "delta = -K @ C @ J.T @ w @ e"),
         ],
     ),
@@ -196,7 +202,8 @@ SLIPS = (
     ),
     Slip(
         "Q-turned",
-        "Q was turned into the target's frame. It is the covariance of δ, as the robot sees it, already.",
+        "Q is the covariance of δ as the robot sees it. Yours meets walls that are told in the target's "
+        "frame, or was turned though they are not: all has to be told in one frame.",
         (
             P,
             "G = np.eye(3)\n    G[:2, :2] = Rot\n    P = np.linalg.inv(np.linalg.inv(G @ Q @ G.T) + J.T @ w @ J)",
@@ -289,5 +296,3 @@ STUMBLES = (
     Stumble("malformed", (RETURN, "pass"), (RETURN, "return delta, np.sqrt(np.diag(P))")),
     Stumble("raised", (P, "P = np.linalg.inv(J @ w @ J.T)")),
 )
-
-EQUIVALENT = {}

@@ -34,6 +34,20 @@ def locate_by_ranges(x, P, rs, beacons, a, sigma):
     return x + after @ H.T @ (rs - ranges(x)) / sigma**2, after
 """,
     ),
+    (
+        "05-map",
+        "all sights of a landmark fused by their information",
+        """
+def build_map(xs, ids, zs, R):
+    sums = {}
+    for x, i, z in zip(xs, ids, zs):
+        J = J_z(x, z)
+        W = np.linalg.inv(J @ R @ J.T)
+        L, b = sums.get(int(i), (np.zeros((2, 2)), np.zeros(2)))
+        sums[int(i)] = L + W, b + W @ g(x, z)
+    return {i: (np.linalg.solve(L, b), np.linalg.inv(L)) for i, (L, b) in sums.items()}
+""",
+    ),
 ]
 
 WRONG = [
@@ -117,20 +131,6 @@ def build_map(xs, ids, zs, R):
             p[i], P[i] = g(x, z), J_z(x, z) @ R @ J_z(x, z).T
             seen[i] = True
     return {i: (p[i], P[i]) for i in range(size)}
-""",
-    ),
-    (
-        "05-map",
-        "all sights of a landmark fused by their information, each linearised at its own place",
-        """
-def build_map(xs, ids, zs, R):
-    sums = {}
-    for x, i, z in zip(xs, ids, zs):
-        J = J_z(x, z)
-        W = np.linalg.inv(J @ R @ J.T)
-        L, b = sums.get(int(i), (np.zeros((2, 2)), np.zeros(2)))
-        sums[int(i)] = L + W, b + W @ g(x, z)
-    return {i: (np.linalg.solve(L, b), np.linalg.inv(L)) for i, (L, b) in sums.items()}
 """,
     ),
     (
