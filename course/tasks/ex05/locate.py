@@ -113,6 +113,13 @@ def locate(x, P, z, p, R):
         (WRAP, "v[1] = abs(v[1]) if abs(v[1]) > np.pi else v[1]"),
     ),
     Slip(
+        "sine-for-angle",
+        "The sine of the bearing's innovation stands for the innovation. It is like it while it is small; at "
+        "100° it is already smaller than at 90°. Wrap the angle instead.",
+        (WRAP, "v[1] = np.sin(v[1])"),
+        (WRAP, "v[1] = 2 * np.sin(v[1] / 2)"),
+    ),
+    Slip(
         "from-zero",
         "The innovation's bearing runs from 0 to 2π, so that a landmark a little to the right looks as if "
         "it were almost a full turn to the left.",

@@ -118,6 +118,18 @@ def hearsay(x, P, seen, x_seen, P_seen):
         shaky=True,
     ),
     Slip(
+        "one-entry-after-the-other",
+        "The entries in sight were taken one after the other, each with its variance alone. What they share "
+        "among each other, before and now, is in P and P_seen: take them all at once.",
+        """
+def hearsay(x, P, seen, x_seen, P_seen):
+    for k, i in enumerate(seen):
+        G = P[:, i] / P[i, i]
+        x, P = x + G * (x_seen[k] - x[i]), P + np.outer(G, G) * (P_seen[k, k] - P[i, i])
+    return x, P
+""",
+    ),
+    Slip(
         "rest-forgotten",
         "The covariance is that of G x̃_s alone. The others' errors have another part, the rest: nothing "
         "was learned of it, so it is as large as it was.",

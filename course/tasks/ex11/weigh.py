@@ -59,7 +59,14 @@ def log_likelihoods(rows, p, z, R):
     ),
     Slip(
         "row-wrapped",
-        "v holds one row for each sample. You wrap the row of sample 1, not the column of bearings.",
+        "v holds a row for each sample, or each landmark. You wrap one of these rows, not the column of "
+        "bearings: that stands on the last axis.",
+        """
+def log_likelihoods(rows, p, z, R):
+    v = np.array([z - h(x, p) for x in rows])
+    v[:, -1] = wrap(v[:, -1])
+    return -0.5 * np.einsum("ijk,kl,ijl->i", v, np.linalg.inv(R), v)
+""",
         ("v[:, 1] = wrap(v[:, 1])", "v[min(1, len(v) - 1)] = wrap(v[min(1, len(v) - 1)])"),
     ),
     Slip(

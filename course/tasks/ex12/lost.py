@@ -102,6 +102,22 @@ SLIPS = (
         "    return k if k < len(far) else -1",
     ),
     Slip(
+        "longest-time",
+        "This is where the longest time beyond the limit began. It may have ended: asked for is the one that "
+        "reaches to the end, however short.",
+        *(
+            FAR
+            + f"""runs, since = [], None
+    for k, out in enumerate([*far, False]):
+        since = (k if since is None else since) if out else since
+        if not out and since is not None:
+            runs.append((k - since, -since))
+            since = None
+    return -max(runs)[1] if {lost} else -1"""
+            for lost in ("far[-1]", "runs")
+        ),
+    ),
+    Slip(
         "last-far",
         "This is the last reading that was too far off. Asked for is the first of those that reach to the "
         "end.",

@@ -106,6 +106,20 @@ SLIPS = (
         (D, "(r - l) / 2 *"),
     ),
     Slip(
+        "about-the-standing-wheel",
+        "With one wheel at rest the robot turns about that wheel, but what is asked for is the way of its "
+        "middle, half a base from there. The formula needs no case of its own.",
+        Edit(
+            RADIUS,
+            (
+                (
+                    "    radius = (l + r) / 2 / turn\n",
+                    "    radius = (l + r) / 2 / turn if l and r else base\n",
+                ),
+            ),
+        ),
+    ),
+    Slip(
         "never-backwards",
         "This robot never drives backwards: negative ticks roll back, and the sign of the way matters.",
         (D, "abs(l + r) / 2 *"),

@@ -132,9 +132,9 @@ def _alone(inputs, outputs):
 
 
 def _adrift(inputs, outputs):
-    """Whether the ways between doors are known as well as is said, and single doors far worse."""
+    """Whether the ways between doors are known as well as is said, and single doors worse."""
     honest = WAYS[0] <= _nees_ways(inputs, outputs) <= WAYS[1]
-    return _error(inputs, outputs) <= FAIR and honest and _nees_each(inputs, outputs) > 2
+    return _error(inputs, outputs) <= FAIR and honest and _nees_each(inputs, outputs) > EACH[1]
 
 
 FAIR, NEAR = 1.4, 1.04
@@ -210,7 +210,8 @@ MORNINGS = Task(
         Diagnosis(
             "sure-of-where-it-lies",
             "The ways between doors are as sure as P says, but each door by itself is not: where "
-            "the whole map lies is only as sure as the mean of the mornings' errors.",
+            "the whole map lies is only as sure as the mean of the mornings' errors, and these are "
+            "larger than the readings' means seem to say.",
             _adrift,
         ),
     ),

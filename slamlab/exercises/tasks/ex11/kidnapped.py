@@ -146,8 +146,9 @@ KIDNAPPED = Task(
         ),
         Diagnosis(
             "too-rare",
-            "Some of the robots are found, but too late: samples that are thrown anywhere hardly "
-            "ever hit. Ask the sighting where the robot may be.",
+            "Some of the robots are found, but too late. Samples that are thrown anywhere hardly "
+            "ever hit: ask the sighting where the robot may be. What a step keeps elsewhere than "
+            "in its samples and weights is of another robot, since they drive in turn.",
             lambda i, o: not _again(i, o) and steady(i, o) > STEADY and before(i, o) < STEADY,
         ),
         Diagnosis(
