@@ -286,8 +286,8 @@ ask(
 #
 # **Your task.** Write a step that finds the robot again soon, and that false sightings do not lead astray. Any method
 # will do. It gets as many samples as it must return, with weights that are not negative, and all that it knows of the
-# past is in them. Sixteen drives are scored by how far the samples are from the robot on average,
-# each counted by its weight. The check stops after 10 s.
+# past is in them: sixteen robots drive in turn. Each is scored by how far its samples are from it on average, each sample
+# counted by its weight. The check stops after 10 s.
 
 # %%
 ROOM, REACH, GHOSTS = np.array([10.0, 8.0]), 10.0, 0.1

@@ -123,10 +123,10 @@ def recognise(task, sets, answers) -> Recognised | None:
     """Name the mistake that explains an answer, if exactly one does.
 
     One program that computes all of it explains it best; else one that computes all that is wrong.
-    Where none does there are several mistakes, and the first part that one explains is told; but
-    not of an answer that fails on some inputs: that alone would make its parts like those of every
-    program that fails there, and where nothing else is wrong no family is told. Slips go before
-    families; two families explain nothing.
+    Where none does there are several mistakes, and the first part that only one explains is told;
+    but not of an answer that fails on some inputs: that alone would make its parts like those of
+    every program that fails there, and where nothing else is wrong no family is told. Slips go
+    before families; two families explain nothing.
 
     Parameters
     ----------
@@ -144,14 +144,16 @@ def recognise(task, sets, answers) -> Recognised | None:
     wrong = ~same[table.labels == 0].any(axis=0)
     if not wrong.any():
         return None
-    explaining = [same.all(axis=1)]
+    explaining, parts = [same.all(axis=1)], []
     found = {name: measured(task, sets[name], answers.get(name)) for name in sets}
     if not any(isinstance(outputs, StudentError) for outputs in found.values()):
-        explaining += [same[:, wrong].all(axis=1), *same[:, wrong].T]
+        explaining.append(same[:, wrong].all(axis=1))
+        parts = list(same[:, wrong].T)
     elif _right_elsewhere(task, sets, found):
         explaining = [same.all(axis=1) & (table.labels <= table.slips)]
-    for programs in explaining:
-        label = _single(set(table.labels[programs].tolist()), table.slips)
+    for k, programs in enumerate(explaining + parts):
+        labels = set(table.labels[programs].tolist())
+        label = _single(labels, table.slips, first=k < len(explaining))
         if label:
             return Recognised(table.names[label], table.hints[label], label > table.slips)
     return None
@@ -180,11 +182,11 @@ def tables(exercise_id) -> dict[str, Table]:
     return found
 
 
-def _single(labels, slips):
-    """The one label that explains: the first slip, else the only family, else None."""
+def _single(labels, slips, first):
+    """The label that explains: the only slip, or the first, else the only family, or None."""
     labels = labels - {0}
     named = sorted(label for label in labels if label <= slips)
-    if named:
+    if named and (first or len(named) == 1):
         return named[0]
     return labels.pop() if len(labels) == 1 else None
 

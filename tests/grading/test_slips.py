@@ -175,3 +175,13 @@ def test_what_cannot_be_run_on_a_probe_costs_that_probe_only(id):
         assert not verdict.full
         judged = [law for law in one.task.laws if one.task.judges(law, probe.name)]
         assert {law.name for law in verdict.laws if law.failed} == {law.name for law in judged}
+
+
+def test_no_program_is_left_out():
+    for id in catalogue.EXERCISES:
+        for file in (compiler.ROOT / "course" / "tasks" / f"ex{id}").glob("[a-z]*.py"):
+            others = (f.read_text("utf-8") for f in file.parent.glob("*.py") if f != file)
+            is_task = re.search(r"^TASK = ", file.read_text("utf-8"), re.M)
+            assert is_task or any(
+                re.search(rf"import.*\b{file.stem}\b|\.{file.stem} import", t) for t in others
+            ), file

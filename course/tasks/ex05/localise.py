@@ -145,6 +145,26 @@ SLIPS = (
         [(f"{PREDICT}{LINE}", ""), (LOCATE, f"{PREDICT}{LINE}    {LOCATE}")],
     ),
     Slip(
+        "blind-steps-not-kept",
+        "Where nothing was seen, nothing was kept, or the entry before it once more. The robot has driven, "
+        "and its belief after that drive is asked for as well.",
+        HEAD
+        + """    xs, Ps = np.zeros((len(drives), 3)), np.zeros((len(drives), 3, 3))
+    for k in range(len(drives)):
+        x, P = predict(x, P, drives[k], C)
+        if ids[k] < 0:
+            continue
+        x, P = xs[k], Ps[k] = locate(x, P, zs[k], landmarks[ids[k]], R)
+    return xs, Ps
+""",
+        (
+            KEEP,
+            KEEP.replace("(x)", "(x if id >= 0 else (xs or [x])[-1])").replace(
+                "(P)", "(P if id >= 0 else (Ps or [P])[-1])"
+            ),
+        ),
+    ),
+    Slip(
         "drive-of-another-step",
         "Step k uses another step's drive, or the first one in all steps.",
         (PREDICT, "x, P = predict(x, P, drives[0], C)"),
@@ -173,7 +193,7 @@ SLIPS = (
     ),
     Slip(
         "sight-keeps-x",
-        "The sight makes P smaller, and its x is thrown away.",
+        "The sight makes P smaller, and its x is thrown away, or kept and not handed on to the next step.",
         (LOCATE, "_, P = locate(x, P, z, landmarks[id], R)"),
     ),
     Slip(

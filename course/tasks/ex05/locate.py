@@ -1,72 +1,11 @@
 """Right ways and slips of 05-locate."""
 
 from course.tasks import Edit, Slip, Stumble
+from course.tasks.ex05.locate_ways import WAYS
+
+__all__ = ["WAYS"]
 
 TASK = "05-locate"
-
-WAYS = {
-    "Joseph's form": """
-def locate(x, P, z, p, R):
-    v = z - h(x, p)
-    v[1] = wrap(v[1])
-    H = H_robot(x, p)
-    S = H @ P @ H.T + R
-    K = np.linalg.solve(S, H @ P).T
-    keep = np.eye(3) - K @ H
-    return x + K @ v, keep @ P @ keep.T + K @ R @ K.T
-""",
-    "information": """
-def locate(x, P, z, p, R):
-    v = z - h(x, p)
-    v[1] = (v[1] + np.pi) % (2 * np.pi) - np.pi
-    H, weight = H_robot(x, p), np.linalg.inv(R)
-    P = np.linalg.inv(np.linalg.inv(P) + H.T @ weight @ H)
-    return x + P @ H.T @ weight @ v, P
-""",
-    "(I − K H) P, heading wrapped": """
-def locate(x, P, z, p, R):
-    v = z - h(x, p)
-    v = np.array([v[0], np.arctan2(np.sin(v[1]), np.cos(v[1]))])
-    H = H_robot(x, p)
-    K = P @ H.T @ np.linalg.pinv(H @ P @ H.T + R)
-    x = x + K @ v
-    x[2] = wrap(x[2])
-    return [x.tolist(), ((np.eye(3) - K @ H) @ P).tolist()]
-""",
-    "least squares": """
-def locate(x, P, z, p, R):
-    v = z - h(x, p)
-    v[1] = wrap(v[1])
-    belief, sight = (np.linalg.cholesky(np.linalg.inv(M)).T for M in (P, R))
-    M = np.vstack([belief, sight @ H_robot(x, p)])
-    step = np.linalg.lstsq(M, np.r_[np.zeros(3), sight @ v], rcond=None)[0]
-    return x + step, np.linalg.inv(M.T @ M)
-""",
-    "H by differences": """
-def locate(x, P, z, p, R):
-    columns = []
-    for e in 1e-6 * np.eye(3):
-        d = h(x + e, p) - h(x - e, p)
-        columns.append([d[0] / 2e-6, wrap(d[1]) / 2e-6])
-    H = np.array(columns).T
-    r, b = z - h(x, p)
-    v = np.array([r, b - 2 * np.pi * np.round(b / (2 * np.pi))])
-    S = H @ P @ H.T + R
-    return x + P @ H.T @ np.linalg.solve(S, v), P - P @ H.T @ np.linalg.solve(S, H @ P)
-""",
-    "one number after the other, once they share nothing": """
-def locate(x, P, z, p, R):
-    L = np.linalg.cholesky(R)
-    v = z - h(x, p)
-    v[1] = wrap(v[1])
-    H, v, here = np.linalg.solve(L, H_robot(x, p)), np.linalg.solve(L, v), x
-    for k in range(2):
-        K = P @ H[k] / (H[k] @ P @ H[k] + 1)
-        here = here + K * (v[k] - H[k] @ (here - x))
-        P = P - np.outer(K, H[k] @ P)
-    return here, P
-""",
-}
 
 V, WRAP = "v = z - h(x, p)", "v[1] = wrap(v[1])"
 H, S = "H = H_robot(x, p)", "S = H @ P @ H.T + R"
@@ -74,7 +13,50 @@ K = "K = P @ H.T @ np.linalg.inv(S)"
 X, P_AFTER = "x + K @ v", "P - K @ S @ K.T"
 OUT = f"return {X}, {P_AFTER}"
 
+ITERATED = """
+def locate(x, P, z, p, R):
+    y = x
+    for _ in range({rounds}):
+        v = z - h(y, p)
+        v[1] = wrap(v[1])
+        H = H_robot(y, p)
+        S = H @ P @ H.T + R
+        K = P @ H.T @ np.linalg.inv(S)
+        y = {better}
+    return y, P - K @ S @ K.T
+"""
+
 SLIPS = (
+    Slip(
+        "iterated",
+        "H and K were found anew at the corrected pose, and the same sight corrects from there. That is "
+        "another filter, the iterated one. Here all is taken at the pose that you were given, and once.",
+        *(
+            ITERATED.format(rounds=rounds, better=better)
+            for rounds in (2, 3, 4, 5, 10, 20)
+            for better in ("x + K @ (v - H @ (x - y))", "y + K @ v")
+        ),
+        shaky=True,  # where it is far off, it wanders
+    ),
+    Slip(
+        "one-number-after-the-other",
+        "Range and bearing were taken one after the other, each with an H of its own. The second would need "
+        "the H of the pose that you were given, and what the two share in their errors stands beside the "
+        "diagonal of R. Take both at once.",
+        *(
+            f"""
+def locate(x, P, z, p, R):
+    for k in {order}:
+        H = H_robot(x, p)[k]
+        v = z[k] - h(x, p)[k]
+        v = wrap(v) if k == 1 else v
+        K = P @ H / (H @ P @ H + R[k, k])
+        x, P = x + K * v, P - np.outer(K, H @ P)
+    return x, P
+"""
+            for order in ("(0, 1)", "(1, 0)")
+        ),
+    ),
     Slip(
         "gated",
         "A sight that is far off was thrown away. The text asks you to take in every sight, one that "
@@ -129,6 +111,13 @@ SLIPS = (
         (WRAP, "v[1] = (v[1] + 180) % 360 - 180"),
         (V + "\n    " + WRAP, "v = np.array([z[0], wrap(z[1])]) - h(x, p)"),
         (WRAP, "v[1] = abs(v[1]) if abs(v[1]) > np.pi else v[1]"),
+    ),
+    Slip(
+        "sine-for-angle",
+        "The sine of the bearing's innovation stands for the innovation. It is like it while it is small; at "
+        "100° it is already smaller than at 90°. Wrap the angle instead.",
+        (WRAP, "v[1] = np.sin(v[1])"),
+        (WRAP, "v[1] = 2 * np.sin(v[1] / 2)"),
     ),
     Slip(
         "from-zero",

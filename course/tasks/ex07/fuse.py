@@ -84,6 +84,22 @@ def fuse(a, P_a, b, P_b, P_ab):
 """,
     ),
     Slip(
+        "common-part-taken-off",
+        "What both share was taken off, the rests were fused as if independent, and it was put back. That "
+        "is right only where both err by one common error *and* something of their own. P_ab may be any "
+        "matrix: P_a − P_ab need not be a covariance.",
+        *(
+            f"""
+def fuse(a, P_a, b, P_b, P_ab):
+    common = {common}
+    own_a, own_b = P_a - common, P_b - common
+    K = own_a @ np.linalg.inv(own_a + own_b)
+    return a + K @ (b - a), own_a - K @ own_a + common
+"""
+            for common in ("P_ab", "(P_ab + P_ab.T) / 2")
+        ),
+    ),
+    Slip(
         "one-of-the-two",
         "This is one of the two estimates, the other is thrown away. Even the worse one knows "
         "something.",
@@ -104,6 +120,24 @@ def fuse(a, P_a, b, P_b, P_ab):
         (_PAIR, "return (a + b) / 2, (P_a + P_b + P_ab + P_ab.T) / 4"),
         (_PAIR, "return (a + b) / 2, (P_a + P_b) / 4"),
         (_PAIR, "return (a + b) / 2, P_a - K @ S @ K.T"),
+    ),
+    Slip(
+        "one-weight-for-x-and-y",
+        "The weight of b is a single number. Errors of x and y differ in size and are correlated, so K has "
+        "to be a matrix.",
+        *(
+            f"""
+def fuse(a, P_a, b, P_b, P_ab):
+    w = {weight}
+    P = (1 - w) ** 2 * P_a + w**2 * P_b + w * (1 - w) * (P_ab + P_ab.T)
+    return a + w * (b - a), P
+"""
+            for weight in (
+                "np.trace(P_a - P_ab) / np.trace(P_a + P_b - 2 * P_ab)",
+                "np.trace(P_a) / np.trace(P_a + P_b)",
+                "np.linalg.det(P_a) / (np.linalg.det(P_a) + np.linalg.det(P_b))",
+            )
+        ),
     ),
     Slip(
         "weights-swapped",

@@ -96,6 +96,40 @@ SLIPS = (
         _MEASURED,
     ),
     Slip(
+        "P_seen-inverted",
+        "P_seen was inverted. It may be 0: the entries are known exactly then, and no inverse says so; pinv "
+        "even says that nothing is known. G needs the inverse of the old covariance only.",
+        *(
+            f"""
+def hearsay(x, P, seen, x_seen, P_seen):
+    now, before = {inverse}, np.linalg.inv(P[np.ix_(seen, seen)])
+    L = np.linalg.inv(P)
+    b = L @ x
+    L[np.ix_(seen, seen)] += now - before
+    b[seen] += now @ x_seen - before @ x[seen]
+    new = np.linalg.inv(L)
+    return new @ b, new
+"""
+            for inverse in (
+                "np.linalg.pinv(P_seen)",
+                "np.linalg.inv(P_seen + 1e-6 * np.eye(len(seen)))",
+            )
+        ),
+        shaky=True,
+    ),
+    Slip(
+        "one-entry-after-the-other",
+        "The entries in sight were taken one after the other, each with its variance alone. What they share "
+        "among each other, before and now, is in P and P_seen: take them all at once.",
+        """
+def hearsay(x, P, seen, x_seen, P_seen):
+    for k, i in enumerate(seen):
+        G = P[:, i] / P[i, i]
+        x, P = x + G * (x_seen[k] - x[i]), P + np.outer(G, G) * (P_seen[k, k] - P[i, i])
+    return x, P
+""",
+    ),
+    Slip(
         "rest-forgotten",
         "The covariance is that of G x̃_s alone. The others' errors have another part, the rest: nothing "
         "was learned of it, so it is as large as it was.",

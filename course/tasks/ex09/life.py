@@ -92,6 +92,26 @@ def keep_book(book, seen, N, lives):
 """,
     ),
     Slip(
+        "paid-to-each-wall-seen",
+        "A wall that is not seen pays a life to each wall that is: one loop stands inside the other. A scan "
+        "costs it one life, whether it shows ten walls or none.",
+        *(
+            f"""
+def keep_book(book, seen, N, lives):
+    book = dict(book)
+    for i in {each}:
+        book[i] = (book.get(i, (0, 0))[0] + 1, lives)
+        for k in list(book):
+            if k not in seen:
+                book[k] = (book[k][0], book[k][1] - 1)
+                if book[k][1] == 0:
+                    del book[k]
+    return book, [i for i in sorted(set(seen)) if book[i][0] >= N]
+"""
+            for each in ("set(seen)", "seen")
+        ),
+    ),
+    Slip(
         "one-life-too-many",
         "A sighting gives one life more than there are.",
         (SEEN, "after[i] = (count + 1, lives + 1)"),
@@ -176,6 +196,11 @@ def keep_book(book, seen, N, lives):
         (USED, USED.replace(">= N", ">= N - 1")),
         (USED, "used = [i for i in sorted(set(seen)) if i in book and book[i][0] >= N]"),
         (USED, USED.replace(">=", "==")),
+    ),
+    Slip(
+        "new-walls-not-used",
+        "A wall that is new is never used. With N = 1 its first sighting is enough.",
+        (USED, "used = [i for i in sorted(set(seen)) if i in book and after[i][0] >= N]"),
     ),
     Slip("at-once", "Walls are used at their first sighting: N is not asked.",
          (USED, "used = sorted(set(seen))")),

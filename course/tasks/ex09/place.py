@@ -72,6 +72,41 @@ SLIPS = (
         (LINE, "line = x[:2] + z[0] * np.array([c, s])"),
     ),
     Slip(
+        "foot-of-the-robot",
+        "The point of the wall that is nearest to the robot was taken for the one nearest to the origin: "
+        "its distance and direction from there are not ρ and α. The wall's normal is the same from both.",
+        """
+def place(x, P, z, R):
+    a = x[2] + z[1]
+    c, s = np.cos(a), np.sin(a)
+    foot = x[:2] + z[0] * np.array([c, s])
+    rho = np.hypot(*foot)
+    J = np.array([foot / rho, [-foot[1] / rho**2, foot[0] / rho**2]])
+    J_x = J @ np.array([[1, 0, -z[0] * s], [0, 1, z[0] * c]])
+    J_z = J @ np.array([[c, -z[0] * s], [s, z[0] * c]])
+    line = np.array([rho, np.arctan2(foot[1], foot[0])])
+    return line, J_x @ P @ J_x.T + J_z @ R @ J_z.T, J_x @ P
+""",
+    ),
+    Slip(
+        "coarse-differences",
+        "The Jacobians are differences over a step that is too large, or taken to one side only. Derive them, "
+        "or take a step of 1e-6 to both sides.",
+        *(
+            f"""
+def place(x, P, z, R):
+    def line(s):
+        a = s[2] + s[4]
+        return np.array([s[3] + s[0] * np.cos(a) + s[1] * np.sin(a), a])
+    s, steps = np.concatenate([x, z]), {step} * np.eye(5)
+    J = np.column_stack([(line(s + e) - line(s)) / {step} for e in steps])
+    J_x, J_z = J[:, :3], J[:, 3:]
+    return line(s), J_x @ P @ J_x.T + J_z @ R @ J_z.T, J_x @ P
+"""
+            for step in ("0.1", "0.01", "1e-3", "1e-4")
+        ),
+    ),
+    Slip(
         "turned",
         "Where ρ is negative you turned the normal or dropped the sign. It keeps pointing away from the "
         "robot that saw it: turned, the wall would look quite different from what is seen.",

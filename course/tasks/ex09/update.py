@@ -69,6 +69,9 @@ H_W = "H[:, at : at + 2] = [[1, x[0] * s - x[1] * c], [0, 1]]"
 S = "S = H @ P @ H.T + R"
 K = "K = P @ H.T @ np.linalg.inv(S)"
 RETURN = "return x + K @ v, P - K @ S @ K.T"
+TURNED = """
+    if rho < x[0] * c + x[1] * s:
+        v = z - [x[0] * c + x[1] * s - rho, alpha - x[2] + np.pi]"""
 
 
 def _x(x):
@@ -111,14 +114,31 @@ SLIPS = (
         (V, "v = z - np.array([abs(rho) - x[0] * c - x[1] * s, alpha - x[2]])"),
     ),
     Slip(
+        "compared-in-the-world",
+        "What was seen was placed in the world first, and compared there with the wall. The place that it "
+        "gets errs with the robot, whose error is in P already: a sight's own error is that of range and "
+        "angle alone. Compare what is seen with what is expected.",
+        *(
+            f"""
+def update(x, P, z, j, R):
+    at = 3 + 2 * j
+    line, C, _ = place(x[:3], P[:3, :3], z, R)
+    v = line - x[at : at + 2]
+    v[1] = wrap(v[1])
+    H = np.eye(len(x))[at : at + 2]
+    S = H @ P @ H.T + {noise}
+    K = P @ H.T @ np.linalg.inv(S)
+    return x + K @ v, P - K @ S @ K.T
+"""
+            for noise in ("C", "R")
+        ),
+    ),
+    Slip(
         "turned-round",
         "A wall with a negative expected ρ' was turned round. It is the same wall, which the estimate has "
         "passed: its ρ' stays negative.",
-        (
-            V,
-            V + "\n    if rho < x[0] * c + x[1] * s:"
-            "\n        v = z - [x[0] * c + x[1] * s - rho, alpha - x[2] + np.pi]",
-        ),
+        (V, V + TURNED),
+        [(V, V + TURNED), (H_W, f"{H_W}\n    H[0] *= np.sign(rho - x[0] * c - x[1] * s)")],
     ),
     Slip(
         "unwrapped",

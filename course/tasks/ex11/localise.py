@@ -1,61 +1,12 @@
 """Programs of task 11-localise."""
 
 from course.tasks import Slip, Stumble
+from course.tasks.ex11.localise_ways import WAYS
+
+__all__ = ["WAYS"]
 
 TASK = "11-localise"
 MUTANTS = 120  # of the solution: a run takes long
-
-WAYS = {
-    "weights multiplied, a list returned": """
-def localise(rows, weights, u, C, p, z, R, rng):
-    n, rows = len(rows), move(rows, u, C, rng)
-    logs = log_likelihoods(rows, p, z, R)
-    weights = weights * np.exp(logs - np.max(logs))
-    weights = weights / np.sum(weights)
-    if np.sum(weights**2) * n >= 2:
-        rows, weights = rows[draw(weights, rng)], np.ones(n) / n
-    return [rows, list(weights)]
-""",
-    "all in one, by tickets": """
-def localise(rows, weights, u, C, p, z, R, rng):
-    n = len(rows)
-    d, turn = rng.multivariate_normal(u, C, n).T
-    x, y, theta = rows.T
-    rows = np.column_stack([x + d * np.cos(theta), y + d * np.sin(theta), theta + turn])
-    v = z[:, None] - h(rows, p[:, None])
-    v[..., 1] = wrap(v[..., 1])
-    logs = np.log(weights) - np.einsum("mna,ab,mnb->n", v, np.linalg.inv(R), v) / 2
-    weights = np.exp(logs - logs.max())
-    weights /= weights.sum()
-    if 1 / (weights @ weights) < n / 2:
-        rows, weights = rows[rng.choice(n, n, p=weights)], np.ones(n) / n
-    return rows, weights
-""",
-    "landmark by landmark": """
-def localise(rows, weights, u, C, p, z, R, rng):
-    n, rows = len(rows), move(rows, u, C, rng)
-    logs = np.log(weights)
-    for place, seen in zip(p, z):
-        logs = logs + log_likelihoods(rows, place[None], seen[None], R)
-    weights = normalise(logs)
-    if effective_size(weights) <= 0.5 * n:
-        picked = rng.permutation(draw(weights, rng))
-        return rows[picked], np.full(n, 1.0 / n)
-    return rows, weights
-""",
-    "drawn by a loop, sample by sample": """
-def localise(rows, weights, u, C, p, z, R, rng):
-    n, L = len(rows), np.linalg.cholesky(C)
-    rows = np.array([f_odometry(x, u + L @ rng.standard_normal(2)) for x in rows])
-    logs = np.array([np.log(w) + log_likelihoods(x[None], p, z, R)[0] for x, w in zip(rows, weights)])
-    weights = np.exp(logs - np.logaddexp.reduce(logs))
-    weights = weights / weights.sum()
-    if 2 * effective_size(weights) < n:
-        rows = np.array([rows[i] for i in draw(weights, rng)])
-        weights = np.repeat(1 / n, n)
-    return rows, weights
-""",
-}
 
 MOVE = "    rows = move(rows, u, C, rng)\n"
 WEIGH = "    weights = normalise(np.log(weights) + log_likelihoods(rows, p, z, R))\n"
@@ -91,6 +42,17 @@ SLIPS = (
         ("move(rows, u, C, rng)", "move(rows, u, 0 * C, rng)"),
     ),
     Slip(
+        "one-draw-for-all",
+        "The whole cloud drives by one draw of the wheels' noise, so that it is shifted and never spreads. "
+        "Nobody knows what the wheels did: each sample has a draw of its own.",
+        (
+            MOVE,
+            "    drive = rng.multivariate_normal(u, C)\n"
+            "    rows = np.array([f_odometry(x, drive) for x in rows])\n",
+        ),
+        ("move(rows, u, C, rng)", "move(rows, rng.multivariate_normal(u, C), 0 * C, rng)"),
+    ),
+    Slip(
         "noise-rooted",
         "C holds variances, and move takes it as it is.",
         ("move(rows, u, C, rng)", "move(rows, u, np.sqrt(np.abs(C)) * np.eye(2), rng)"),
@@ -116,6 +78,22 @@ SLIPS = (
             (LOGS, "log_likelihoods(rows, p, z, R)"),
             (WHEN, "False"),
         ],
+    ),
+    Slip(
+        "drawn-at-the-beginning",
+        "You draw before the drive, by the weights of the step before, and not after the scan: what comes "
+        "back may be worth next to nothing. The order is: move, weigh, draw.",
+        *(
+            [
+                (
+                    MOVE,
+                    f"    if {when}:\n        rows = rows[draw(weights, rng)]\n"
+                    f"        weights = np.full(len(rows), 1 / len(rows))\n{MOVE}",
+                ),
+                (WHEN, "False"),
+            ]
+            for when in ("2 * effective_size(weights) < len(rows)", "True")
+        ),
     ),
     Slip(
         "motion-in-the-weight",

@@ -148,6 +148,11 @@ SLIPS = (
         "You ask how likely the mean of the drawing is. What counts is the drive that the sample made.",
         (PAIR, "m[k] - u, e[k] - m[k]"),
         (PAIR, "m[k] - u, 0 * m[k]"),
+        [
+            (PAIR, "m[k] - u, 0 * m[k]"),
+            ("inv(C)", "inv(C + D[k])"),
+            (DET, DET.replace("+=", "-=").replace("D[k]", "C + D[k]")),
+        ],
     ),
     Slip(
         "not-inverted",

@@ -1,55 +1,11 @@
 """Programs of task 11-weigh."""
 
 from course.tasks import Slip, Stumble
+from course.tasks.ex11.weigh_ways import WAYS
+
+__all__ = ["WAYS"]
 
 TASK = "11-weigh"
-
-WAYS = {
-    "sample by sample": """
-def log_likelihoods(rows, p, z, R):
-    logs = []
-    for x in rows:
-        v = z - h(x, p)
-        v[:, 1] = wrap(v[:, 1])
-        logs.append(sum(-0.5 * e @ np.linalg.solve(R, e) for e in v))
-    return logs
-""",
-    "all at once, with the constant": """
-def log_likelihoods(rows, p, z, R):
-    v = z - h(rows[:, None], p)
-    v[..., 1] = np.arctan2(np.sin(v[..., 1]), np.cos(v[..., 1]))
-    logs = -0.5 * np.einsum("nma,ab,nmb->n", v, np.linalg.inv(R), v)
-    return logs - len(p) * np.log(2 * np.pi * np.sqrt(np.linalg.det(R)))
-""",
-    "h − z, the largest taken off": """
-def log_likelihoods(rows, p, z, R):
-    logs = 0
-    for j in range(len(p)):
-        v = h(rows, p[j]) - z[j]
-        v[:, 1] = (v[:, 1] + np.pi) % (2 * np.pi) - np.pi
-        logs = logs - (v.T * np.linalg.solve(R, v.T)).sum(axis=0) / 2
-    return logs - logs.max()
-""",
-    "whitened by a root of R": """
-def log_likelihoods(rows, p, z, R):
-    L = np.linalg.inv(np.linalg.cholesky(R))
-    logs = np.zeros(len(rows))
-    for place, seen in zip(p, z):
-        v = seen - h(rows, place)
-        v[:, 1] = np.remainder(v[:, 1] + np.pi, 2 * np.pi) - np.pi
-        logs -= np.linalg.norm(v @ L.T, axis=1) ** 2 / 2
-    return logs
-""",
-    "h written out, R⁻¹ by hand": """
-def log_likelihoods(rows, p, z, R):
-    (a, b), (_, c) = R
-    det = a * c - b * b
-    d = p[:, None] - rows[:, :2]
-    r = z[:, :1] - np.hypot(d[..., 0], d[..., 1])
-    beta = wrap(z[:, 1:] - np.arctan2(d[..., 1], d[..., 0]) + rows[:, 2])
-    return -np.sum(c * r**2 - 2 * b * r * beta + a * beta**2, axis=0) / det / 2
-""",
-}
 
 V, WRAP, INV = "seen - h(rows, place)", "wrap(v[:, 1])", "np.linalg.inv(R)"
 ADD = "logs -= 0.5 * np.sum(v @ np.linalg.inv(R) * v, axis=1)"
@@ -103,7 +59,14 @@ def log_likelihoods(rows, p, z, R):
     ),
     Slip(
         "row-wrapped",
-        "v holds one row for each sample. You wrap the row of sample 1, not the column of bearings.",
+        "v holds a row for each sample, or each landmark. You wrap one of these rows, not the column of "
+        "bearings: that stands on the last axis.",
+        """
+def log_likelihoods(rows, p, z, R):
+    v = np.array([z - h(x, p) for x in rows])
+    v[:, -1] = wrap(v[:, -1])
+    return -0.5 * np.einsum("ijk,kl,ijl->i", v, np.linalg.inv(R), v)
+""",
         ("v[:, 1] = wrap(v[:, 1])", "v[min(1, len(v) - 1)] = wrap(v[min(1, len(v) - 1)])"),
     ),
     Slip(
@@ -157,6 +120,25 @@ def log_likelihoods(rows, p, z, R):
         "distance-not-squared",
         "That is a distance in units of σ, not its square.",
         (ONE, "0.5 * np.sqrt(np.sum(v @ np.linalg.inv(R) * v, axis=1))"),
+    ),
+    Slip(
+        "compared-as-points",
+        "Landmark and sighting were compared as points, in x and y. R is told of range and bearing: turned "
+        "into x and y it would be another matrix for each sighting.",
+        *(
+            f"""
+def log_likelihoods(rows, p, z, R):
+    seen = z[:, :1] * np.column_stack([np.cos(z[:, 1]), np.sin(z[:, 1])])
+    logs = []
+    for x in rows:
+        c, s = np.cos(x[2]), np.sin(x[2])
+        Rot = np.array([[c, -s], [s, c]])
+        v = {off}
+        logs.append(-0.5 * np.sum(v @ np.linalg.inv(R) * v))
+    return np.array(logs)
+"""
+            for off in ("seen - (p - x[:2]) @ Rot", "seen @ Rot.T + x[:2] - p")
+        ),
     ),
     Slip(
         "R-forgotten",
@@ -233,6 +215,14 @@ def log_likelihoods(rows, p, z, R):
         ("return logs", "return np.log(np.exp(logs) + 1e-300)"),
         ("return logs", "return np.maximum(logs, -700)"),
         [*EXP, ("return logs", "return np.log(np.maximum(logs, 1e-300))")],
+        *(
+            (ADD, f"logs += np.log(np.exp(-{ONE}) + {small})")
+            for small in ("1e-300", "1e-12", "1e-9")
+        ),
+        *(
+            (ADD, f"logs += np.log(np.maximum(np.exp(-{ONE}), {small}))")
+            for small in ("1e-300", "1e-12")
+        ),
     ),
     Slip(
         "no-logarithm",
@@ -264,6 +254,25 @@ def log_likelihoods(rows, p, z, R):
         "pairs-mixed-up",
         "A landmark is compared with the sighting of another one: row j of z belongs to row j of p.",
         ("zip(p, z, strict=True)", "zip(p, z[::-1])"),
+    ),
+    Slip(
+        "the-landmark-that-fits-best",
+        "Each sighting is compared with the landmark that fits it best. The landmarks have names here: row "
+        "j of z belongs to row j of p, however badly it fits. A sample that takes one for another is wrong.",
+        *(
+            f"""
+def log_likelihoods(rows, p, z, R):
+    logs = np.zeros(len(rows))
+    for i, x in enumerate(rows):
+        for seen in z:
+            v = seen - h(x, p)
+            v[:, 1] = wrap(v[:, 1])
+            l = -0.5 * np.sum(v @ np.linalg.inv(R) * v, axis=1)
+            logs[i] += l[{best}]
+    return logs
+"""
+            for best in ("l.argmax()", "np.hypot(*v.T).argmin()", "np.abs(v[:, 1]).argmin()")
+        ),
     ),
     Slip(
         "each-landmark-with-all",

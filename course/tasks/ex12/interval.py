@@ -206,6 +206,12 @@ def interval(k, n):
         (END, "max(middle - half, 0.0), k / n"),
     ),
     Slip(
+        "not-cut-off",
+        "This interval leaves the shares that there are: nothing lies below 0 or above 1. Cut it off there.",
+        Edit("Agresti and Coull", (("max(p - half, 0), min(p + half, 1)", "p - half, p + half"),)),
+        Edit("two and two more", (("np.clip([p - half, p + half], 0, 1)", "p - half, p + half"),)),
+    ),
+    Slip(
         "lost-for-kept",
         "This is the share of the runs that were *not* lost.",
         (END, "max(1 - middle - half, 0.0), min(1 - middle + half, 1.0)"),

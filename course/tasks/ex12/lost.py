@@ -77,6 +77,7 @@ SLIPS = (
         "A run that is beyond the limit from its first reading on has no crossing, and no near reading "
         "before it, and is lost all the same: since 0.",
         (NONE, "    if len(near) == 0:\n        return -1\n"),
+        (NONE, "    if len(near) == 0:\n        return len(errors)\n"),
         FAR + "c = np.flatnonzero(np.diff(far.astype(int)) == 1)\n"
         "    return c[-1] + 1 if far[-1] and len(c) else -1",
     ),
@@ -99,6 +100,22 @@ SLIPS = (
         (END, END.replace("len(errors) - 1", "len(errors) - 2")),
         FAR + "far = far[:-1]\n    k = len(far) - np.argmin(np.append(far[::-1], False))\n"
         "    return k if k < len(far) else -1",
+    ),
+    Slip(
+        "longest-time",
+        "This is where the longest time beyond the limit began. It may have ended: asked for is the one that "
+        "reaches to the end, however short.",
+        *(
+            FAR
+            + f"""runs, since = [], None
+    for k, out in enumerate([*far, False]):
+        since = (k if since is None else since) if out else since
+        if not out and since is not None:
+            runs.append((k - since, -since))
+            since = None
+    return -max(runs)[1] if {lost} else -1"""
+            for lost in ("far[-1]", "runs")
+        ),
     ),
     Slip(
         "last-far",

@@ -1,60 +1,11 @@
 """Programs of task 12-odometry."""
 
 from course.tasks import Edit, Slip, Stumble
+from course.tasks.ex12.odometry_ways import WAYS
+
+__all__ = ["WAYS"]
 
 TASK = "12-odometry"
-
-WAYS = {
-    "by the radius of the arc": """
-def odometry(left, right, tick, base):
-    l, r = left * tick, right * tick
-    turn = (r - l) / base
-    if abs(turn) < 1e-9:
-        return [(l + r) / 2, 0.0, 0.0]
-    radius = (l + r) / 2 / turn
-    return [radius * np.sin(turn), radius * (1 - np.cos(turn)), turn]
-""",
-    "in many little steps": """
-def odometry(left, right, tick, base):
-    steps = 1000
-    d, turn = (left + right) / 2 * tick / steps, (right - left) * tick / base / steps
-    heading = turn * (np.arange(steps) + 0.5)
-    return np.array([d * np.cos(heading).sum(), d * np.sin(heading).sum(), turn * steps])
-""",
-    "heading wrapped": """
-def odometry(left, right, tick, base):
-    d, turn = (left + right) * tick / 2, (right - left) * tick / base
-    chord = d * np.sinc(turn / (2 * np.pi))
-    pose = chord * np.exp(1j * turn / 2)
-    return pose.real, pose.imag, np.angle(np.exp(1j * turn))
-""",
-    "by the exponential of a matrix": """
-def odometry(left, right, tick, base):
-    from scipy.linalg import expm
-    l, r = left * tick, right * tick
-    turn = (r - l) / base
-    T = expm(np.array([[0, -turn, (l + r) / 2], [turn, 0, 0], [0, 0, 0]]))
-    return np.array([T[0, 2], T[1, 2], turn])
-""",
-    "integrated": """
-def odometry(left, right, tick, base):
-    from scipy.integrate import quad
-    d, turn = (left + right) * tick / 2, (right - left) * tick / base
-    x, _ = quad(lambda s: d * np.cos(s * turn), 0, 1)
-    y, _ = quad(lambda s: d * np.sin(s * turn), 0, 1)
-    return np.array([x, y, turn])
-""",
-    "about the middle of the curve": """
-def odometry(left, right, tick, base):
-    if left == right:
-        return np.array([left * tick, 0.0, 0.0])
-    R = base / 2 * (right + left) / (right - left)
-    w = (right - left) * tick / base
-    turned = np.array([[np.cos(w), -np.sin(w)], [np.sin(w), np.cos(w)]])
-    at = turned @ np.array([0, -R]) + np.array([0, R])
-    return np.append(at, w)
-""",
-}
 
 L_R = "left * tick, right * tick"
 TURN = "turn = (r - l) / base"
@@ -155,6 +106,20 @@ SLIPS = (
         (D, "(r - l) / 2 *"),
     ),
     Slip(
+        "about-the-standing-wheel",
+        "With one wheel at rest the robot turns about that wheel, but what is asked for is the way of its "
+        "middle, half a base from there. The formula needs no case of its own.",
+        Edit(
+            RADIUS,
+            (
+                (
+                    "    radius = (l + r) / 2 / turn\n",
+                    "    radius = (l + r) / 2 / turn if l and r else base\n",
+                ),
+            ),
+        ),
+    ),
+    Slip(
         "never-backwards",
         "This robot never drives backwards: negative ticks roll back, and the sign of the way matters.",
         (D, "abs(l + r) / 2 *"),
@@ -248,8 +213,23 @@ SLIPS = (
     Slip(
         "begin-of-each-step",
         "Each of your little steps takes the heading of its begin. Half a step later is the mean.",
-        Edit("in many little steps", (("np.arange(steps) + 0.5", "np.arange(steps)"),)),
-        Edit("in many little steps", (("np.arange(steps) + 0.5", "np.arange(steps) + 1"),)),
+        *(
+            Edit(
+                "in many little steps",
+                (("steps = 1000", f"steps = {n}"), ("np.arange(steps) + 0.5", heading)),
+            )
+            for n in (10, 20, 50, 100, 999, 1001, 10000)
+            for heading in ("np.arange(steps)", "np.arange(steps) + 1")
+        ),
+    ),
+    Slip(
+        "one-stride-of-integration",
+        "The heading was looked at in two or three moments of the way only, as one step of Runge and Kutta "
+        "does. For small turns that is excellent, for large ones it is wrong, and an arc has a formula.",
+        [
+            (CHORD, "h = np.array([0, 0.5, 0.5, 0.5, 0.5, 1]) * turn\n    chord = (l + r) / 2"),
+            (END, "[chord * np.cos(h).mean(), chord * np.sin(h).mean(), turn]"),
+        ],
     ),
     Slip(
         "never-more-than-a-round",

@@ -14,6 +14,7 @@ SHIFT = "T[:2, 2] = b - T[:2, :2] @ a"
 MEND = "Vt[1] *= -1"
 GUARD = "if np.linalg.det(Vt.T @ U.T) < 0:"
 RETURN = "return T"
+MEAN_TURN = "(lambda off: np.angle(np.exp(1j * off).mean()))"
 
 
 def _mended(how):
@@ -132,6 +133,22 @@ SLIPS = (
         (Rot, "T[:2, :2] = (np.linalg.pinv(source - a) @ (target - b)).T"),
     ),
     Slip(
+        "turn-of-an-affine-map",
+        "The best linear map was sought first, and the rotation nearest to it taken. By then its stretch and "
+        "shear have swallowed some of the errors: seek the best among rotations alone.",
+        *(
+            fit_ways.AFFINE.format(turn=turn)
+            for turn in (
+                "U, _, Vt = np.linalg.svd(A); Rot = U @ np.diag([1, np.linalg.det(U @ Vt)]) @ Vt",
+                "U, _, Vt = np.linalg.svd(A); Rot = U @ Vt",
+                "Rot, up = np.linalg.qr(A); Rot = Rot * np.sign(np.diag(up))",
+                "t = np.arctan2(A[1, 0], A[0, 0]); "
+                "Rot = np.array([[np.cos(t), -np.sin(t)], [np.sin(t), np.cos(t)]])",
+            )
+        ),
+        shaky=True,  # of points on a line the map is not determined across it
+    ),
+    Slip(
         "mirrored",
         "det Rot = −1: the wall is turned inside out. Find out when V Uᵀ is a mirror, and which column of "
         "V costs least to turn over.",
@@ -201,8 +218,25 @@ SLIPS = (
                     ),
                 ),
             )
-            for of in ("np.mean", "np.median", "(lambda off: off[0])")
+            for of in ("np.mean", "np.median", "(lambda off: off[0])", MEAN_TURN)
         ),
+    ),
+    Slip(
+        "main-axes",
+        "The main axes of both clouds were laid over each other. An axis has no sense, so the cloud may come "
+        "out turned by half a turn, and which point belongs to which was not used at all.",
+        *(
+            fit_ways.MAIN_AXES.format(axis=axis)
+            for axis in ("np.linalg.eigh(off.T @ off)[1][:, -1]", "np.linalg.svd(off)[2][0]")
+        ),
+        shaky=True,
+    ),
+    Slip(
+        "too-few-steps",
+        "The angle was sought by steps, from no turn at all, and had not arrived when you stopped. In the "
+        "plane it has a closed form, which needs no steps.",
+        *(fit_ways.STEPWISE.format(steps=steps) for steps in (1, 2, 3, 4, 5)),
+        shaky=True,
     ),
     Slip(
         "turned-by-cosine",

@@ -1,4 +1,4 @@
-"""Right ways through 13-best-motion."""
+"""Right ways through 13-best-motion, and other methods that go wrong."""
 
 WAYS = {
     "mirror mended by a diagonal": """
@@ -78,3 +78,40 @@ def best_motion(source, target):
     return T
 """,
 }
+
+# other methods, which go wrong
+AFFINE = """
+def best_motion(source, target):
+    a, b = source.mean(axis=0), target.mean(axis=0)
+    A = np.linalg.lstsq(source - a, target - b, rcond=None)[0].T
+    {turn}
+    T = np.eye(3)
+    T[:2, :2], T[:2, 2] = Rot, b - Rot @ a
+    return T
+"""
+MAIN_AXES = """
+def best_motion(source, target):
+    def main(points):
+        off = points - points.mean(axis=0)
+        axis = {axis}
+        return np.arctan2(axis[1], axis[0])
+    t = main(target) - main(source)
+    T = np.array([[np.cos(t), -np.sin(t), 0], [np.sin(t), np.cos(t), 0], [0, 0, 1]])
+    T[:2, 2] = target.mean(axis=0) - T[:2, :2] @ source.mean(axis=0)
+    return T
+"""
+STEPWISE = """
+def best_motion(source, target):
+    angle, t = 0.0, np.zeros(2)
+    for _ in range({steps}):
+        c, s = np.cos(angle), np.sin(angle)
+        moved = source @ np.array([[c, s], [-s, c]])
+        J = np.zeros((len(source), 2, 3))
+        J[:, 0, 0] = J[:, 1, 1] = 1
+        J[:, 0, 2], J[:, 1, 2] = -moved[:, 1], moved[:, 0]
+        e = (target - moved - t).ravel()
+        step = np.linalg.lstsq(J.reshape(-1, 3), e, rcond=None)[0]
+        t, angle = t + step[:2], angle + step[2]
+    c, s = np.cos(angle), np.sin(angle)
+    return np.array([[c, -s, t[0]], [s, c, t[1]], [0, 0, 1]])
+"""

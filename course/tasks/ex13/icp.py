@@ -103,6 +103,20 @@ SLIPS = (
         (LOOP, "T = np.eye(3)\n    for _ in range(rounds):"),
     ),
     Slip(
+        "begun-at-the-centroids",
+        "The clouds' centroids were laid over each other before the first round. The first pairs are sought "
+        "from where T lays the source, and one cloud may see what the other does not.",
+        (
+            LOOP,
+            "T = np.array(T)\n    T[:2, 2] += (target.mean(axis=0) - carry(T, source).mean(axis=0))"
+            f" * (rounds > 0)\n    {LOOP}",
+        ),
+        (
+            LOOP,
+            f"T = np.array(T)\n    T[:2, 2] += target.mean(axis=0) - carry(T, source).mean(axis=0)\n    {LOOP}",
+        ),
+    ),
+    Slip(
         "paired-as-given",
         "The pairs were sought with the source as it was given, not as T lays it.",
         (PAIRS, "_, rows = nearest(source, target)"),
@@ -228,8 +242,19 @@ SLIPS = (
         ),
     ),
     Slip(
+        "only-pairs-that-choose-each-other",
+        "Only pairs were fitted in which each is the other's nearest. Here each source point has a partner, "
+        "even if that one has somebody nearer.",
+        (
+            PAIRS,
+            PAIRS
+            + "\n        both = nearest(target, moved)[1][rows] == np.arange(len(rows))"
+            + "\n        moved, rows = moved[both], rows[both]",
+        ),
+    ),
+    Slip(
         "far-pairs-dropped",
-        "Some pairs were dropped because they are long. That is the next task: here all are fitted.",
+        "The long pairs were dropped. That is the next task: here all pairs are fitted.",
         (
             PAIRS,
             "distances, rows = nearest(moved, target)\n        near = distances <= np.median(distances)\n        moved, rows = moved[near], rows[near]",

@@ -1,6 +1,9 @@
 """Right ways and slips of 13-line-step."""
 
 from course.tasks import Slip, Stumble
+from course.tasks.ex13.line_step_ways import PASTED, WAYS
+
+__all__ = ["PASTED", "WAYS"]
 
 TASK = "13-line-step"
 
@@ -139,13 +142,9 @@ SLIPS = (
         (WEIGHT, "w = np.diag(1 / sigma**4)"),
     ),
     Slip(
-        "weights-ignored",
-        "All pairs count alike: each has its own σ.",
-        (WEIGHT, "w = np.eye(len(sigma))"),
-    ),
-    Slip(
         "one-sigma",
         "All pairs count alike, with one σ for all. Each has its own.",
+        (WEIGHT, "w = np.eye(len(sigma))"),
         (WEIGHT, "w = np.eye(len(sigma)) / np.mean(sigma**2)"),
         (WEIGHT, "w = np.eye(len(sigma)) / np.mean(sigma) ** 2"),
     ),
@@ -168,6 +167,29 @@ SLIPS = (
         (P, "P = np.linalg.inv(Q + J.T @ w @ J)"),
     ),
     Slip(
+        "target-frame-and-back",
+        "You solved in the target's frame and turned δ and P back. But Q is told as the robot sees it, and "
+        "the robot turns about itself, not about the target's origin.",
+        [
+            (SEEN, "seen = normals"),
+            (
+                LEVER,
+                "p = source @ Rot.T + t\n    lever = p[:, 0] * seen[:, 1] - p[:, 1] * seen[:, 0]",
+            ),
+            (RETURN, "G = np.eye(3)\n    G[:2, :2] = Rot.T\n    return G @ delta, G @ P @ G.T"),
+        ],
+    ),
+    Slip(
+        "walls-first",
+        "The walls' own correction was found first, by pinv, and then weighed against odometry. Where the "
+        "walls leave a direction open, pinv makes its covariance 0, which says *known exactly*. Add up "
+        "information before anything is inverted.",
+        [
+            (P, "C = np.linalg.pinv(J.T @ w @ J); K = Q @ np.linalg.inv(Q + C); P = Q - K @ Q"),
+            (DELTA, "delta = -K @ C @ J.T @ w @ e"),
+        ],
+    ),
+    Slip(
         "covariances-added",
         "The covariances of walls and odometry were added. Two who know something know more together: "
         "it is information that adds up.",
@@ -180,7 +202,8 @@ SLIPS = (
     ),
     Slip(
         "Q-turned",
-        "Q was turned into the target's frame. It is the covariance of δ, as the robot sees it, already.",
+        "Q is the covariance of δ as the robot sees it. Yours meets walls that are told in the target's "
+        "frame, or was turned though they are not: all has to be told in one frame.",
         (
             P,
             "G = np.eye(3)\n    G[:2, :2] = Rot\n    P = np.linalg.inv(np.linalg.inv(G @ Q @ G.T) + J.T @ w @ J)",
@@ -273,22 +296,3 @@ STUMBLES = (
     Stumble("malformed", (RETURN, "pass"), (RETURN, "return delta, np.sqrt(np.diag(P))")),
     Stumble("raised", (P, "P = np.linalg.inv(J @ w @ J.T)")),
 )
-
-PASTED = {
-    "the lesson's step and covariance": """
-def line_step(source, target, normals, sigma, T, Q):
-    moved = carry(T, source)
-    arm = moved - T[:2, 2]
-    e = np.sum(normals * (moved - target), axis=1)
-    J = np.column_stack([normals, arm[:, 0] * normals[:, 1] - arm[:, 1] * normals[:, 0]])
-    P = np.mean(sigma**2) * np.linalg.pinv(J.T @ J) if len(e) else Q
-    return np.linalg.lstsq(J, -e, rcond=None)[0], P
-""",
-    "the best motion of the pairs": """
-def line_step(source, target, normals, sigma, T, Q):
-    step = np.linalg.inv(T) @ best_motion(source, target) if len(source) > 1 else np.eye(3)
-    return pose(step), Q
-""",
-}
-
-EQUIVALENT = {}

@@ -70,3 +70,20 @@ def line_step(source, target, normals, sigma, T, Q):
     return (G.T @ step, G.T @ np.linalg.inv(A) @ G)
 """,
 }
+
+PASTED = {
+    "the lesson's step and covariance": """
+def line_step(source, target, normals, sigma, T, Q):
+    moved = carry(T, source)
+    arm = moved - T[:2, 2]
+    e = np.sum(normals * (moved - target), axis=1)
+    J = np.column_stack([normals, arm[:, 0] * normals[:, 1] - arm[:, 1] * normals[:, 0]])
+    P = np.mean(sigma**2) * np.linalg.pinv(J.T @ J) if len(e) else Q
+    return np.linalg.lstsq(J, -e, rcond=None)[0], P
+""",
+    "the best motion of the pairs": """
+def line_step(source, target, normals, sigma, T, Q):
+    step = np.linalg.inv(T) @ best_motion(source, target) if len(source) > 1 else np.eye(3)
+    return pose(step), Q
+""",
+}

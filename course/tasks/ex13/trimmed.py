@@ -178,6 +178,11 @@ SLIPS = (
         "The share is one of the number of pairs, not of a distance: pairs below a share of the longest "
         "one, or of the mean, are fewer or more.",
         (KEPT, "kept = distances <= share * distances.max()"),
+        (
+            KEPT,
+            "kept = distances <= share * distances.max()\n        "
+            "kept = kept if kept.sum() > 1 else np.argsort(distances)[:2]",
+        ),
         (KEPT, "kept = distances <= distances.mean()"),
         (KEPT, "kept = distances <= np.median(distances)"),
     ),

@@ -89,13 +89,16 @@ def localised(functions, inputs):
     """
     found = []
     for samples, weights, us, C, p, zs, R, seed in rows(inputs):
-        found.append(_run(functions, (samples, weights), us, C, [p] * len(us), zs, R, seed))
+        steps = _steps(functions, (samples, weights), us, C, [p] * len(us), zs, R, seed)
+        found.append(zip(*steps, strict=True))
     samples, weights = zip(*found, strict=True)
     return {"rows": np.array(samples), "weights": np.array(weights)}
 
 
 def kept(functions, inputs):
-    """Call find_again on every run, step by step, beginning with equal weights.
+    """Call find_again on all runs in turn, step by step, beginning with equal weights.
+
+    So what a step has kept elsewhere than in its samples is of another run.
 
     Parameters
     ----------
@@ -111,23 +114,23 @@ def kept(functions, inputs):
     ------
     StudentError : "malformed" when a step does not return samples and weights
     """
-    found = {"places": [], "weights": []}
-    for samples, us, C, ps, zs, R, seed, _ in rows(inputs):
-        equal = np.full(len(samples), 1 / len(samples))
-        places, weights = _run(functions, (samples, equal), us, C, ps, zs, R, seed)
-        found["places"].append(places[..., :2])
-        found["weights"].append(weights)
-    return {name: np.array(parts) for name, parts in found.items()}
+    runs = [
+        _steps(functions, (samples, np.full(len(samples), 1 / len(samples))), *told)
+        for samples, *told, _ in rows(inputs)
+    ]
+    in_turn = list(zip(*runs, strict=True))
+    places = np.array([[samples[:, :2] for samples, _ in beliefs] for beliefs in in_turn])
+    weights = np.array([[weights for _, weights in beliefs] for beliefs in in_turn])
+    return {"places": places.swapaxes(0, 1), "weights": weights.swapaxes(0, 1)}
 
 
-def _run(functions, belief, us, C, ps, zs, R, seed):
-    """The samples (t, n, 3) and weights (t, n) after each step of one run."""
+def _steps(functions, belief, us, C, ps, zs, R, seed):
+    """Yield the samples (n, 3) and weights (n,) after each step of one run."""
     name, step = next(iter(functions.items()))
-    rng, shapes, beliefs = np.random.default_rng(int(seed)), [part.shape for part in belief], []
+    rng, shapes = np.random.default_rng(int(seed)), [part.shape for part in belief]
     for u, p, z in zip(us, ps, zs, strict=True):
         belief = _belief(step(*belief, u, C, p, z, R, rng), name, shapes)
-        beliefs.append(belief)
-    return tuple(np.array(part) for part in zip(*beliefs, strict=True))
+        yield belief
 
 
 def _belief(pair, name, shapes):

@@ -83,6 +83,22 @@ def honest(inputs, outputs):
     return (fits > 0) & (fits < 15) & (sigma < 0.3)
 
 
+def _believing(inputs, outputs):
+    """Whether hardly a robot finds its place, and yet none is far from it."""
+    off = offs(inputs, outputs)
+    return np.mean(off < 0.4) < 0.3 and np.median(off) > 0.6 and off.max() < 6
+
+
+def _some_led_astray(inputs, outputs):
+    """Whether some robots are found, and the others are metres off."""
+    off = offs(inputs, outputs)
+    return 0.3 <= np.mean(off < 0.4) < ENOUGH and np.median(off[off >= 0.4]) > 1.5
+
+
+def _found_but_sure(inputs, outputs):
+    return np.mean(offs(inputs, outputs) < 0.4) >= ENOUGH and np.mean(honest(inputs, outputs)) < 0.5
+
+
 def _why(inputs, outputs):
     off = offs(inputs, outputs)
     return (
@@ -142,6 +158,26 @@ LOST = Task(
             "Most robots are metres off: they still head where they did when they were switched "
             "on, or where a false sight sent them. Several headings may be tried.",
             lambda inputs, outputs: np.median(offs(inputs, outputs)) > 1.5,
+        ),
+        Diagnosis(
+            "every-sight-believed",
+            "The heading may be right, but hardly a robot finds its place: every sight is "
+            "believed, the false ones too. Does a sight agree with what the filter expects, as far "
+            "as the filter knows?",
+            _believing,
+        ),
+        Diagnosis(
+            "heading-by-few-sights",
+            "Some robots are found, and the others are metres off: they set out with a heading "
+            "that false sights told, and true ones look false from there. Let more sights speak "
+            "for each heading before you choose.",
+            _some_led_astray,
+        ),
+        Diagnosis(
+            "P-made-up",
+            "The robots are found, but P does not say how far they are off: nobody is so sure, or "
+            "so unsure.",
+            _found_but_sure,
         ),
     ),
     probes=(Probe("four landmarks, and no lies", _short, ("better",)),),

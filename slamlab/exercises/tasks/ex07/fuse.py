@@ -3,7 +3,7 @@
 import numpy as np
 
 from slamlab.exercises.drives.ex07 import DRIVES
-from slamlab.exercises.law import equals
+from slamlab.exercises.law import Diagnosis, equals
 from slamlab.exercises.task import Probe, Task
 from slamlab.exercises.tasks.ex07.beliefs import EXACT, T, covariances
 
@@ -69,6 +69,17 @@ def _promised(inputs):
     return found[:, 0] > 1e-5 * found[:, 3]
 
 
+def _between(inputs, outputs):
+    """Whether all P are some P_w⁻¹ = w P_a⁻¹ + (1 − w) P_b⁻¹, with 0 ≤ w ≤ 1, at two w at least."""
+    P_a, P_b, P = (
+        np.linalg.pinv(M).reshape(-1, 4) for M in (inputs["P_a"], inputs["P_b"], outputs["P"])
+    )
+    way, gone = P_a - P_b, P - P_b
+    w = (gone * way).sum(axis=1) / (way**2).sum(axis=1)
+    off = np.linalg.norm(gone - w[:, None] * way, axis=1) / np.linalg.norm(way, axis=1)
+    return (off < 1e-6).all() and w.min() > -1e-6 and w.max() < 1 + 1e-6 and np.ptp(w) > 1e-6
+
+
 FUSE = Task(
     id="07-fuse",
     title="Two estimates that share an error",
@@ -101,6 +112,14 @@ FUSE = Task(
             tolerance=EXACT,
             asks="What is left of the error of a when its share in b − a is taken away?",
             step=_innovation,
+        ),
+    ),
+    diagnoses=(
+        Diagnosis(  # the w that is best hangs on how it was sought, so no program is like another
+            "covariance-intersection",
+            "This P lies between P_a and P_b, as covariance intersection puts it: the way out when "
+            "P_ab is unknown. You have P_ab, and it makes surer.",
+            _between,
         ),
     ),
     rounds=_promised,

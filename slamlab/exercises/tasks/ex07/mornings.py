@@ -3,7 +3,7 @@
 import numpy as np
 
 from slamlab.exercises.drives.ex07 import DRIVES
-from slamlab.exercises.law import Law, once
+from slamlab.exercises.law import Diagnosis, Law, once
 from slamlab.exercises.task import Probe, Task
 from slamlab.exercises.tasks.ex07.beliefs import T, expected_nees
 
@@ -125,6 +125,18 @@ def _honest_why(nees, of):
     return why
 
 
+def _alone(inputs, outputs):
+    """Whether P has variances only."""
+    P = outputs["P"]
+    return (np.abs(P * (1 - np.eye(P.shape[1]))) < 1e-12 * np.abs(P).max()).all()
+
+
+def _adrift(inputs, outputs):
+    """Whether the ways between doors are known as well as is said, and single doors worse."""
+    honest = WAYS[0] <= _nees_ways(inputs, outputs) <= WAYS[1]
+    return _error(inputs, outputs) <= FAIR and honest and _nees_each(inputs, outputs) > EACH[1]
+
+
 FAIR, NEAR = 1.4, 1.04
 """Multiples of the least mean square error, seen in many seeds. Means of the readings: 1.8 to 2.7;
 shifts left wholly free: 1.1 to 1.4; a size estimated from the readings: 1.000 to 1.013."""
@@ -186,6 +198,21 @@ MORNINGS = Task(
             why=_honest_why(_nees_each, "a single door"),
             asks="The mornings contradict each other. By how much, and what does that tell of "
             "them?",
+        ),
+    ),
+    diagnoses=(
+        Diagnosis(
+            "cross-terms-dropped",
+            "P holds variances only. Doors passed on one morning err together: without cross terms "
+            "the ways between them seem far less sure than they are.",
+            _alone,
+        ),
+        Diagnosis(
+            "sure-of-where-it-lies",
+            "The ways between doors are as sure as P says, but each door by itself is not: where "
+            "the whole map lies is only as sure as the mean of the mornings' errors, and these are "
+            "larger than the readings' means seem to say.",
+            _adrift,
         ),
     ),
     rounds=False,

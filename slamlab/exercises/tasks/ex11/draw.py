@@ -162,6 +162,12 @@ DRAW = Task(
     ),
     diagnoses=(
         Diagnosis(
+            "no-random-number",
+            "Every seed draws the same: some samples would never get the copy that is due to them "
+            "now and then.",
+            lambda i, o: _same_again(o).all() and not np.ptp(o["copies"], axis=1).any(),
+        ),
+        Diagnosis(
             "another-generator",
             "The same seed draws other samples: draw from the rng that is passed in, none from "
             "np.random or a generator of your own.",

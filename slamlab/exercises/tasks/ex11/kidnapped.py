@@ -45,6 +45,13 @@ def errors(i, o):
     return np.sort([e[at].mean() for e, at in zip(error, others, strict=True)])
 
 
+def before(i, o):
+    """How far the weight is from the robot before anyone carries it off, in the median run."""
+    d, w = off(i, o)
+    error, since = np.sum(w * d, axis=-1), np.arange(i["us"].shape[1]) - room.truth(i)[1][:, None]
+    return np.median([e[at].mean() for e, at in zip(error, since < 0, strict=True)])
+
+
 def steady(i, o):
     return np.median(errors(i, o))
 
@@ -139,15 +146,17 @@ KIDNAPPED = Task(
         ),
         Diagnosis(
             "too-rare",
-            "Some of the robots are found, but too late: samples that are thrown anywhere hardly "
-            "ever hit. Ask the sighting where the robot may be.",
-            lambda i, o: not _again(i, o) and steady(i, o) > STEADY,
+            "Some of the robots are found, but too late. Samples that are thrown anywhere hardly "
+            "ever hit: ask the sighting where the robot may be. What a step keeps elsewhere than "
+            "in its samples and weights is of another robot, since they drive in turn.",
+            lambda i, o: not _again(i, o) and steady(i, o) > STEADY and before(i, o) < STEADY,
         ),
         Diagnosis(
             "deceived",
-            "The robot is found soon, but false sightings lead the cloud astray, even before "
-            "anyone has carried the robot off. A doubt may be kept by a few samples for a while.",
-            lambda i, o: _again(i, o) and sure(i, o) > SURE,
+            "False sightings lead the cloud astray, even before anyone has carried the robot off. "
+            "A doubt may be kept by a few samples for a while: how much may a stranger weigh that "
+            "has explained one sighting only?",
+            lambda i, o: sure(i, o) > SURE and (_again(i, o) or before(i, o) >= STEADY),
         ),
     ),
     parts=lambda i, o: {

@@ -124,6 +124,12 @@ def _certain(i, o):
     return (np.abs(of_none) < SLACK).all() or (np.abs(of_all - 1) < SLACK).all()
 
 
+def _in_steps(i, o):
+    """Whether all ends are whole ten-thousandths, and yet many numbers."""
+    steps = 1e4 * o["result"]
+    return len(np.unique(steps)) > 8 and (np.abs(steps - np.round(steps)) < 1e-5).all()
+
+
 INTERVAL = Task(
     id="12-interval",
     title="How sure is a share?",
@@ -170,6 +176,12 @@ INTERVAL = Task(
             "0 of n is taken for certain, or n of n: who draws from the share that was counted, "
             "or lets that share scatter, never sees there what was not counted.",
             _certain,
+        ),
+        Diagnosis(
+            "in-steps",
+            "All your ends are whole thousandths, or the like: they were rounded, or shares were "
+            "tried in such steps. With very many runs the whole interval is narrower than a step.",
+            _in_steps,
         ),
     ),
     probes=(

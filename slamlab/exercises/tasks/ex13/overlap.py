@@ -87,9 +87,14 @@ def _inverted(inputs, outputs):
     return within(inputs, turned, SOLVED).mean() >= 0.25
 
 
-def _guess(inputs, outputs):
-    """Whether most answers lie about as far off as the guess, or farther."""
-    return np.median(offs(inputs, outputs["result"])[1]) > 15
+def _turned(inputs, outputs):
+    """Whether most answers that are not home are turned about as far as the guess, or farther."""
+    lost = ~within(inputs, outputs, SOLVED)
+    return lost.mean() > 3 / 16 and np.median(offs(inputs, outputs["result"])[1][lost]) > 15
+
+
+def _home(inputs, outputs, limits=SOLVED):
+    return within(inputs, outputs, limits).mean()
 
 
 MISTAKES = (
@@ -100,9 +105,22 @@ MISTAKES = (
     ),
     Diagnosis(
         "turn-not-found",
-        "Most of your matches are off by a large turn, as the guess is: from there no ICP goes "
-        "home. Try many turns, and choose by a number that points without a partner cannot spoil.",
-        _guess,
+        "Most matches that are not home are off by a large turn, as the guess is: from there no "
+        "ICP goes home. Try many turns, and choose by a number that points without a partner "
+        "cannot spoil.",
+        _turned,
+    ),
+    Diagnosis(
+        "shift-not-found",
+        "Most matches that are not home are turned nearly right, and shifted wrongly. With the "
+        "turn right, which shift do most pairs of points ask for?",
+        lambda i, o: _home(i, o) < 13 / 16,
+    ),
+    Diagnosis(
+        "not-finished",
+        "The matches are home, but not sharp: points of the two scans lie at different spots of a "
+        "wall, and along it their distance means nothing. Finish across the walls.",
+        lambda i, o: _home(i, o, SHARP) < 9 / 16,
     ),
 )
 
