@@ -704,7 +704,7 @@ views.show(
 # %% [markdown] slideshow={"slide_type": "fragment"}
 # Each gridline is ten times less. After three rounds, point to line is {= turned["point to line"][3]:.2f =}° off, and
 # {= turned["bare"][3]:.2f =}° when it is bare. Plain ICP is {= turned["point to point"][3]:.1f =}° off by then, and at
-# {= turned["point to point"][20]:.1f =}° after twenty. So the speed comes of the distances across the walls: what is
+# {= turned["point to point"][20]:.1f =}° after twenty. So the speed comes from the distances across the walls: what is
 # counted along them no longer holds them back.
 
 # %% [markdown] slideshow={"slide_type": "subslide"}
@@ -792,7 +792,7 @@ def fan(method, share_kept, metres_off):
 views.explore(
     fan,
     lambda method, share_kept, metres_off: (
-        f"Errors of the heading by round, of 24 matches {method} that begin all round, {metres_off:.2f} m off: "
+        f"Errors of the heading by round, of matches {method} that begin all round, {metres_off:.2f} m off: "
         f"{sum(came for _, came in fan_of(method, share_kept, metres_off))} come home, the others end elsewhere."
     ),
     method=["point to point", "point to line"],
@@ -853,7 +853,7 @@ views.show(fig, f"Shares that come home, by how far the guess is off; over all c
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="13-basin"
 # Up to 30° plain ICP comes home in {= 100 * basins["point to point"][:3].mean():.0f =} % of these tries, three in each cell, even from a
 # metre away, and point to line in {= 100 * basins["point to line"][:3].mean():.0f =} %. When it is bare, it is
-# {= 100 * basins["bare"][:3].mean():.0f =} %. So near home it is not the distances across the walls that make its basin
+# {= 100 * basins["bare"][:3].mean():.0f =} %. So up to there it is not the distances across the walls that make its basin
 # smaller, but the gates and weights, which make it accurate. From 45° and 60°, plain ICP comes home in
 # {= 100 * basins["point to point"][3:5].mean():.0f =} %, bare in {= 100 * basins["bare"][3:5].mean():.0f =} %, and point
 # to line in {= 100 * basins["point to line"][3:5].mean():.0f =} %; farther off, none of them does. The last, `match`, came
