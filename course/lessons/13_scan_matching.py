@@ -854,7 +854,7 @@ views.show(fig, f"Shares that come home, by how far the guess is off; over all c
 # Up to 30° plain ICP comes home in {= 100 * basins["point to point"][:3].mean():.0f =} % of these tries, three in each cell, even from a
 # metre away, and point to line in {= 100 * basins["point to line"][:3].mean():.0f =} %. When it is bare, it is
 # {= 100 * basins["bare"][:3].mean():.0f =} %. So up to there it is not the distances across the walls that make its basin
-# smaller, but the gates and weights, which make it accurate. From 45° and 60°, plain ICP comes home in
+# smaller, but the gates and weights, which keep out what only one scan saw. From 45° and 60°, plain ICP comes home in
 # {= 100 * basins["point to point"][3:5].mean():.0f =} %, bare in {= 100 * basins["bare"][3:5].mean():.0f =} %, and point
 # to line in {= 100 * basins["point to line"][3:5].mean():.0f =} %; farther off, none of them does. The last, `match`, came
 # home in {= 100 * basins["match"].mean():.0f =} % of all tries. It has a trick.
