@@ -27,6 +27,15 @@ def test_the_looks_hardly_tell_a_place_from_the_opposite_one():
     assert 0.8 < np.median([evidence(seed, 10) for seed in range(40)]) < 1.5
 
 
+@pytest.mark.parametrize("seed", range(0, 60, 6))
+def test_the_post_is_out_of_sight_from_both_places_while_a_cloud_decides(seed):
+    way = np.array([truth[:2] for _, truth in film(1, seed)])
+    here, opposite = np.hypot(*(np.stack([way, -way]) - MAP[4]).T).T
+    assert here[:11].min() > 1.2
+    assert opposite.min() > 1.2
+    assert here.min() < 1.2
+
+
 def test_the_post_is_seen_from_near_by_only():
     rng, beside = np.random.default_rng(0), np.array([*MAP[4] - [0.9, 0], 0.0])
     assert [len(look(beside, rng, reach)) for reach in (0.5, 1.2)] == [len(MAP) - 1, len(MAP)]

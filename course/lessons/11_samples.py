@@ -60,7 +60,7 @@ ask(
     {
         "at one place: four distances fix it": "they would, if we knew which distance belongs to which corner.",
         "at two places": "turn the room by half a turn, and its corners lie on one another again. What the "
-        "robot sees is the same from both places.",
+        "robot sees is the same from both places, as long as the post is out of sight from both.",
         "at four places, one for each corner": "the room is longer than it is wide: a quarter of a turn does not "
         "bring it back onto itself.",
         "anywhere": "the distances to four corners rule out nearly all of the room.",
@@ -88,19 +88,27 @@ def scene(cloud, truth, title):
     fig, ax = views.axes(title, size=(9, 5.6))
     for label, layer in layers.items():
         views.draw(ax, layer, label=label)
+    ax.set(xlim=(-6.5, 6.5), ylim=(-3.5, 3.5), adjustable="box")  # the same in every step
     views.legend_below(fig)
     return fig
 
 
 # %% slideshow={"slide_type": "fragment"} answers="11-where"
 drive = cache(lambda samples: film(samples, seed=2))
-from_the_post = [np.hypot(*(truth[:2] - POST[0])) for _, truth in drive(10_000)]
-post_seen = np.argmax(np.array(from_the_post) < 1.2)  # the first step from which it is seen
+way = np.array([truth[:2] for _, truth in drive(10_000)])
+from_the_post, opposite_from_it = np.hypot(*(np.stack([way, -way]) - POST[0]).T).T
+post_seen = np.argmax(from_the_post < 1.2)  # the first step from which it is seen
 
 
 def at_step(samples, step):
     cloud, truth = drive(samples)[step]
     return scene(cloud, truth, f"{samples} samples after {step} steps")
+
+
+def long_axis(samples, step):
+    """How long the Gaussian's ellipse is [m]."""
+    P = drive(samples)[step][0].moments.P[:2, :2]
+    return 2 * np.sqrt(5.99 * np.linalg.eigvalsh(P)[1])
 
 
 # %% slideshow={"slide_type": "subslide"} answers="11-where"
@@ -109,7 +117,7 @@ views.explore(
     lambda samples, step: (
         f"{samples} samples after {step} steps: {100 * near(*drive(samples)[step]):.0f} % of the weight lies near the true "
         f"robot, {100 * near(drive(samples)[step][0], -drive(samples)[step][1]):.0f} % near the opposite place; the "
-        "ellipse of one Gaussian reaches over both."
+        f"ellipse of one Gaussian is {long_axis(samples, step):.1f} m long."
     ),
     play="step",
     samples=[10_000, 1000, 200, 50],
@@ -147,8 +155,10 @@ for step in (0, 4, 8, 36):
 # %% [markdown] slideshow={"slide_type": "slide"} minutes=6
 # ## A cloud that is too small
 #
-# Until step {= post_seen =} the robot sees hardly anything that could tell the two places apart. With 10 000 samples,
-# both clusters lived that long. Now we take 200, on the same drive.
+# Until step {= post_seen =} the robot sees hardly anything that could tell the two places apart. That it does *not*
+# see the post tells nothing either: the post is seen from 1.2 m, and until then neither place is so near. (The opposite
+# place never comes nearer than {= opposite_from_it.min():.1f =} m.) With 10 000 samples, both clusters lived that long.
+# Now we take 200, on the same drive.
 
 # %% slideshow={"slide_type": "fragment"}
 ask(
@@ -171,16 +181,16 @@ opposite = np.array([near(cloud, -truth) for cloud, truth in few])
 counts = sum(at_robot > 0.98), sum(opposite > 0.98), sum(np.minimum(at_robot, opposite) > 0.02)
 print(f"{len(few)} clouds of 200 samples, after 10 steps:")
 print("at the robot only {}, at the opposite place only {}, at both {}".format(*counts))
-reason = np.median([evidence(seed, steps=10) for seed in range(100)])
+reasons = np.percentile([evidence(seed, steps=10) for seed in range(100)], [5, 95])
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="11-few"
 # After ten steps, only {= counts[2] =} of the {= len(few) =} clouds still have samples at both
 # places. {= counts[0] =} have decided for the robot's place and {= counts[1] =} for the opposite
 # one (of the other {= len(few) - sum(counts) =}, some samples lie elsewhere), and *what they have
-# seen gives them no reason to decide*: all ten looks together are only {= reason:.1f =} times as
-# likely from where the robot is as from the opposite place (median of the drives). When the post
-# comes into sight, a cloud at the wrong place cannot change over: it has no sample at the right
-# one.
+# seen gives them no reason to decide*: in 90 of the 100 drives, all ten looks together are between
+# {= reasons[0]:.2f =} and {= reasons[1]:.2f =} times as likely from where the robot is as from the
+# opposite place. When the post comes into sight, a cloud at the wrong place cannot change over: it
+# has no sample at the right one.
 
 # %% slideshow={"slide_type": "subslide"} answers="11-few"
 found = many["found"]
@@ -190,7 +200,7 @@ shown = ", ".join(f"{name} in {100 * share[0]:.0f} %" for name, share in rows.it
 views.show(fig, f"The robot is found by {shown} of the drives; the intervals are wide.")
 
 # %% [markdown] slideshow={"slide_type": "fragment"} answers="11-few"
-# These are {= runs =} drives for each number of samples, with 95 % intervals, some ten steps after
+# These are {= runs =} drives for each number of samples, with 95 % intervals, some {= 36 - post_seen =} steps after
 # the post came into sight. With a few hundred samples the outcome is about that of a coin toss. Go
 # back to the slider of the first section and choose fewer samples: the cloud looks just as sure of
 # itself.
@@ -337,7 +347,7 @@ def on_a_line(drawn_mean, drawn_sigma):
     hills = {"wanted": normal(s, 0, 1), "drawn from": normal(s, drawn_mean, drawn_sigma)}
     fig, ax = views.curves(s, hills, "x [1]", "density, weight [1]", told, size=(8, 4.4))
     ax.vlines(x, 0, 0.8 * w / w.max(), color=views.COLOURS["sample"], label="samples, by weight")
-    ax.set(ylim=(0, 1.1))
+    ax.set(ylim=(0, 1.6))
     views.legend(ax, ncols=3, loc="upper center")
     return fig
 
@@ -347,7 +357,7 @@ views.explore(
     on_a_line,
     lambda drawn_mean, drawn_sigma: (
         f"Samples from a Gaussian of mean {drawn_mean:.1f} and sigma {drawn_sigma:.1f} as bars as high as their "
-        "weights; where the wanted Gaussian is the higher of the two, the bars are long."
+        "weights; the higher the wanted Gaussian is beside this one, the longer they are."
     ),
     drawn_mean=(-3.0, 3.0, 1.5),
     drawn_sigma=(0.3, 3.0, 1.5),
@@ -462,7 +472,7 @@ views.explore(
     worth,
     lambda range_sigma, samples: (
         f"{samples} samples round the robot, worth {weighed(range_sigma, samples)[0].effective_sample_size:.0f} after a "
-        f"sighting whose range is good to {100 * range_sigma:.0f} cm; the large ones lie on an arc round the landmark."
+        f"sighting whose range is good to {100 * range_sigma:.0f} cm; the better one fits it, the larger it is."
     ),
     range_sigma=(0.01, 0.5, 0.03),
     samples=(50, 3000, 500),
@@ -538,7 +548,7 @@ views.explore(
     rod,
     lambda shift_of_the_comb, seed_of_the_tickets: (
         f"A rod of eight weights; the comb's teeth stand evenly over it, shifted by {shift_of_the_comb:.2f} of their "
-        f"distance; the tickets of seed {seed_of_the_tickets} stand in heaps."
+        f"distance; the tickets of seed {seed_of_the_tickets} stand where chance has put them."
     ),
     shift_of_the_comb=(0.0, 0.99, 0.3),
     seed_of_the_tickets=(1, 40, 3),
@@ -742,8 +752,9 @@ def sets_after(readings):
     layers = {"true way": Poses("truth", lap.truth.poses[: readings + 1])}
     layers |= dict(zip(names, pictures[readings], strict=True))
     fig, ax = views.axes(f"After {readings} readings", size=(9, 6))
+    squares = {"frozen objects": {"marker": "s", "markersize": 7}}
     for label, layer in layers.items():
-        views.draw(ax, layer, label=label)
+        views.draw(ax, layer, label=label, **squares.get(label, {}))
     crosses = {"marker": "+", "markersize": 12, "mew": 1.5, "label": "true objects"}
     views.draw(ax, Points("truth", lap.landmarks), **crosses)
     ax.set(xlim=(-7.5, 7.5), ylim=(-2.5, 10.5), adjustable="box")
@@ -755,8 +766,8 @@ def sets_after(readings):
 views.explore(
     sets_after,
     lambda readings: (
-        f"After {readings} readings the robot has gone part of its loop; small clouds of samples stand near the "
-        f"crosses of the true objects; {len(pictures[readings][1].xy)} objects are frozen to points."
+        f"The true and the believed way after {readings} of {len(lap) - 1} readings; clouds of samples of the objects "
+        f"seen so far, beside the crosses of the true ones; frozen to points: {len(pictures[readings][1].xy)}."
     ),
     play="readings",
     readings=(0, len(lap) - 1, 52),

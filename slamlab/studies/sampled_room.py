@@ -14,7 +14,7 @@ from slamlab.simulation.differential_drive import arc
 
 LOW, HIGH = [-3, -2], [3, 2]  # of the room [m]
 CORNERS = np.array([[3, 2], [-3, 2], [-3, -2], [3, -2]], dtype=float)
-POST = np.array([[1.6, 0.7]])
+POST = np.array([[1.4, -0.2]])
 MAP = np.vstack([CORNERS, POST])
 WALLS = Segments("walls", np.hstack([CORNERS, np.roll(CORNERS, -1, axis=0)]))
 R = np.diag([0.3, np.radians(15)]) ** 2
