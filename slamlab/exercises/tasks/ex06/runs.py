@@ -110,26 +110,37 @@ def truth(inputs, kind=POINTS):
 
 
 def least_squares(inputs, kind=POINTS):
-    """(n, n) covariance at the end, of all that was measured, linearised at the truth.
+    """Least squares over whole runs: what all that was measured says of the end.
 
     Unknown are the start's error, those of all drives and the landmarks; a pose is a sum of them.
+    Everything is linearised at the truth.
+
+    Returns
+    -------
+    (r, n) estimates minus truth, (n, n) their covariance
     """
     before, drives, way, landmarks = truth(inputs, kind)
     steps, size = len(drives), 2 * len(landmarks)
     unknowns = 3 + 2 * steps + size
     sure = [np.linalg.inv(inputs["P"]), *[np.linalg.inv(inputs["C"])] * steps]
     information = block_diag(*sure, np.zeros((size, size)))
+    told = np.column_stack([inputs["x"] - before, *np.swapaxes(inputs["u"] - drives, 0, 1)])
+    vector = np.pad(told, ((0, 0), (0, size))) @ information
     weight, D = np.linalg.inv(inputs["R"]), np.eye(3, unknowns)
     first = {i: 3 + 2 * steps + 2 * k for k, i in enumerate(landmarks)}
     for k, (u, pose, seen) in enumerate(zip(drives, way, inputs["seen"].tolist(), strict=True)):
         D = jacobians.A_odometry(before, u) @ D
         D[:, 3 + 2 * k : 5 + 2 * k] += jacobians.W_odometry(before, u)
-        for i in seen:
+        for i, z in zip(seen, np.swapaxes(inputs["z"][:, k], 0, 1), strict=True):
             if i >= 0:
                 H_r, H_p = kind.H(pose, landmarks[i])
                 H = H_r @ D
                 H[:, first[i] : first[i] + 2] += H_p
+                v = z - kind.h(pose, landmarks[i])
+                v[:, 1] = wrap(v[:, 1])
                 information += H.T @ weight @ H
+                vector += v @ weight @ H
         before = pose
     G = np.vstack([D, np.eye(size, unknowns, 3 + 2 * steps)])
-    return G @ np.linalg.inv(information) @ G.T
+    covariance = np.linalg.inv(information)
+    return vector @ covariance @ G.T, G @ covariance @ G.T

@@ -97,8 +97,8 @@ SLAM = Task(
         Law(
             "sure",
             2,
-            "P is neither more nor less sure, of robot, map and what lies between them, than least "
-            "squares over the whole run",
+            "x is where least squares over the whole run put it, and P as sure, of robot, map and "
+            "what lies between them",
             ENDS.sure,
             why=lambda inputs, outputs: ENDS.ratios_told(inputs, outputs),
             asks="Is any sight used twice, or never?",
