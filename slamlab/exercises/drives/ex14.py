@@ -123,7 +123,8 @@ def tried(functions, inputs):
         if two[0].ndim != 1 or two[0].shape != two[1].shape:
             shapes = " and ".join(str(each.shape) for each in two)
             raise StudentError(
-                "malformed", f"values and counts of trials()[{k}] are of shape {shapes}, not both (n,)"
+                "malformed",
+                f"values and counts of trials()[{k}] are of shape {shapes}, not both (n,)",
             )
         values.append(two[0])
         counts.append(two[1])

@@ -1,8 +1,8 @@
 """Task 11-draw: a comb gives each sample its share, rounded up or down, and is fair.
 
-The band of fairness is seven standard deviations of the mean wide: a comb's where shares are rounded,
-else those of the answer. Who draws right on average is inside, by a comb or by n tickets, all but
-once in 10⁷ gradings (of 24 means the rarest are binomial, with 15 copies due over all seeds).
+The band of fairness is seven standard deviations of the mean wide: a comb's where shares are
+rounded, else those of the answer. Who draws right on average, by a comb or by n tickets, is inside
+all but once in 10⁷ gradings (of 24 means the rarest are binomial, with 15 copies due in all).
 """
 
 import numpy as np
@@ -114,8 +114,8 @@ def _why_share(i, o):
 def _why_fair(i, o):
     k, n = np.unravel_index(np.abs(_strays(i, o)).argmax(), i["weights"].shape)
     return (
-        f"Sample {n}, counted from 0, is due to have {_asked(i)[k, 0, n]:.2f} copies; over {i['seeds'].shape[1]} "
-        f"seeds it had {o['copies'][k, :, n].mean():.2f} on average."
+        f"Sample {n}, counted from 0, is due to have {_asked(i)[k, 0, n]:.2f} copies; over "
+        f"{i['seeds'].shape[1]} seeds it had {o['copies'][k, :, n].mean():.2f} on average."
     )
 
 

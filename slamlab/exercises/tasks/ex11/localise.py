@@ -88,11 +88,11 @@ def _objection(call, moved, want, rows, weights):
     if not parents.any(axis=1).all():
         return f"{begin} some rows are not where any of the samples has moved to."
     if np.ptp(weights) > 1e-9 / n:
-        same = np.abs(got - due).max() < SAME * n
-        return "" if same else f"{begin} samples do not have the weight that is their due."
+        kept = np.abs(got - due).max() < SAME * n
+        return "" if kept else f"{begin} samples do not have the weight that is their due."
     worth = 1 / np.sum(want**2)
-    # copies of one sample weigh the same, drawn anew or not, but for what the wheels err
-    if np.ptp(want) > SAME / n and worth > n / 2 * (1 + SAME):
+    # copies of one sample are the same cloud, drawn anew or not, but for what the wheels err
+    if np.ptp(want) > 1e-9 / n and not same.all() and worth > n / 2 * (1 + SAME):
         return f"{begin} you drew, though the weighed cloud was worth {worth:.1f} of {n} samples."
     # Poisson at most: seven deviations, and some for those that are hardly ever drawn
     if (np.abs(got - due) < 7 * np.sqrt(due) + 7).all():

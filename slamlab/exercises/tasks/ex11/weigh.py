@@ -80,7 +80,7 @@ def _same(i, o):
 
 
 def _why(i, o):
-    if (o["finite"] == 0).any():
+    if (o["finite"] <= 0).any():
         return "Some of them are infinite or no numbers."
     got, want = (_differences(a) for a in (o["logs"], _right(i)))
     k, n = np.unravel_index(np.argmax(np.abs(got - want)), got.shape)
