@@ -70,6 +70,8 @@ def next_rung(task, namespace) -> str:
     if rung == 0:
         more = _STEP if step else "the case that fails" if case.one else "what came out of it all"
         return f"{asks}\nCalled again, hint shows {more}."
+    if rung > 1:  # the case was shown: check shows it, too
+        return "\n".join(filter(None, [asks, step, _LAST]))
     return "\n".join(filter(None, ["" if step else asks, text, step, _LAST]))
 
 

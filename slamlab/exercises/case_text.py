@@ -8,6 +8,7 @@ import numpy as np
 from slamlab.exercises.cases import Case
 from slamlab.exercises.drives import StudentError
 from slamlab.exercises.drives.arguments import CHANGED, NAMES
+from slamlab.exercises.reading import READINGS, Reading
 
 WIDTH = 92  # of what is said, beside its margin [letters]
 MOST = 60  # numbers of an array that are shown
@@ -34,9 +35,12 @@ def format_case(task, case: Case) -> str | None:
         return None
     function = task.drive.functions[0]
     begin = f"For instance, with {case.probe}:" if case.probe else "For instance:"
-    shown = _named({n: a for n, a in case.inputs.items() if not n.startswith("_")}, True)
-    given = [f"{function} is given", shown] if shown else []  # what is the judge's own is not
-    if isinstance(case.outputs, StudentError):
+    failed = isinstance(case.outputs, StudentError)
+    reading = READINGS.get(task.id, Reading())
+    inputs, got = _read(reading, case.inputs, {} if failed else case.outputs, case.one)
+    shown = _named(inputs, True)
+    given = [reading.called or f"{function} is given", shown] if shown else []
+    if failed:
         why = re.split(r", at `| \(line", case.outputs.message)[0]  # the rest was told before
         fails = f"{'and' if given else function} fails: {why}"
         return _joined([begin, *given, fails])
@@ -46,30 +50,44 @@ def format_case(task, case: Case) -> str | None:
         copies = f"{changed[0]} = {changed[0]}.copy()"
         told = f"{function} changes {' and '.join(changed)}: work on a copy, such as {copies}"
         return _joined([told])
-    got = {name: array for name, array in case.outputs.items() if name != CHANGED}
     want = case.law.want(case.inputs) if case.law.want else {}
-    lines = _reason(case.law, case.inputs, got)
-    got, want = _as_returned(got), _as_returned(want)
+    lines = _reason(case.law, case.inputs, _returned(case.outputs))
     if not case.one:  # a whole set: too much to read
         taken = f"Taken together, with {case.probe}:" if case.probe else "Taken together:"
         return _joined([taken, *lines]) if lines else None
-    got = {name: got[name] for name in want or got}
-    told = [*given, "it returns", _named(got, True)]
+    try:
+        want = _read(reading, case.inputs, want, True)[1]
+    except KeyError:  # a law may want a part of it only
+        got = _returned(case.outputs)
+    got = {name: got[name] for name in want if name in got} or got
+    told = [*given, reading.returned, _named(got, True)]
     if want:
         told += ["and should return", _named(want, True), *_worst(got, want)]
     return _joined([begin, *told, *lines])
 
 
-def _as_returned(outputs):
-    """Outputs as a student knows them: a distance, which may be infinite, travels as two arrays."""
-    if outputs.keys() != {"met", "distance"}:
-        return outputs
-    return {"result": np.where(outputs["met"] > 0, outputs["distance"], np.inf)}
+def _returned(outputs):
+    return {name: array for name, array in outputs.items() if name != CHANGED}
+
+
+def _read(reading, inputs, outputs, one):
+    """Inputs and outputs as a student knows them, without what is the judge's own."""
+    inputs = {name: array for name, array in inputs.items() if not name.startswith("_")}
+    outputs = _returned(outputs)
+    if not one:
+        return inputs, outputs
+    rows = [
+        {name: a[0] if np.ndim(a) and len(a) else a for name, a in arrays.items()}
+        for arrays in (inputs, outputs)
+    ]
+    return [{n: np.asarray(a)[None] for n, a in shown.items()} for shown in reading.shown(*rows)]
 
 
 def _worst(got, want):
     """Where the first array differs most that is too large, or whose rounded numbers look alike."""
     for name, right in want.items():
+        if name not in got or got[name].shape != right.shape or right.dtype.kind == "U":
+            continue  # how they differ can be seen at a glance
         with np.errstate(invalid="ignore"):
             off = np.nan_to_num(np.abs(got[name] - right)[0])
         alike = format_numbers(name, got[name][0]) == format_numbers(name, right[0])
@@ -85,6 +103,8 @@ def _worst(got, want):
 def format_numbers(name, array) -> str:
     """Format a name and its numbers, short and rounded: "P = [[0.1, 0], [0, 0.2]]"."""
     array = np.asarray(array)
+    if array.dtype.kind == "U":  # no number came back
+        return str(array)
     if name in WRITTEN and array.ndim == 1:
         written = f"{name} = {WRITTEN[name](array.astype(int))}"
         return textwrap.fill(written, WIDTH, subsequent_indent=" " * len(f"{name} = "))

@@ -178,8 +178,7 @@ class Task:
         pairs = zip(self.all_laws, results, strict=True)
         if any(result.points for law, result in pairs if law.alone):
             return results
-        results = tuple(replace(result, points=0.0) for result in results)
-        return results if results[-1].failed else results[:-1]  # arguments left as they are
+        return tuple(replace(result, points=0.0) for result in results)
 
     def _result(self, law, sets, found, idle):
         failed = tried = 0

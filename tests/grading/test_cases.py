@@ -167,12 +167,12 @@ def test_pages_tell_of_each_law_what_the_notebook_tells(monkeypatch):
     task = dataclasses.replace(TURN, laws=(turned, later, alone))
     monkeypatch.setattr(fake, "EXERCISE", dataclasses.replace(fake.EXERCISE, tasks=(task,)))
     verdict = run_and_tell(task, {"turn": lambda v, angle: 2 * v + angle})
-    marks = [line.split()[0] for line in format_verdict(task, verdict).splitlines()[1:4]]
-    assert marks == ["✗", "–", "✓"]
+    marks = [line.split()[0] for line in format_verdict(task, verdict).splitlines()[1:5]]
+    assert marks == ["✗", "–", "✓", "✓"]
     one = mark(Record("a.ipynb", "a", "99", verdicts=(verdict,), titles={task.id: task.title}))
     text, page = feedback.feedback_text(one), feedback.feedback_page(one)
-    assert [line.split()[0] for line in text.splitlines()[4:7]] == marks
-    assert re.findall(r'<li class="(\w+)"', page) == ["broken", "waits", "kept"]
+    assert [line.split()[0] for line in text.splitlines()[4:8]] == marks
+    assert re.findall(r'<li class="(\w+)"', page) == ["broken", "waits", "kept", "kept"]
     for told in (text, page):
         assert "builds on a law that is broken" in told
         assert "it counts beside another law that holds" in told
@@ -261,7 +261,8 @@ def test_of_an_exception_the_row_is_found_among_many():
     assert "angle = 0.6" in case
 
 
-def test_a_distance_that_is_infinite_is_told_as_infinity():
+def test_a_distance_that_is_infinite_is_told_as_infinity(monkeypatch):
+    monkeypatch.setitem(case_text.READINGS, TURN.id, case_text.READINGS["02-echo"])
     task = dataclasses.replace(
         TURN,
         drive=dataclasses.replace(

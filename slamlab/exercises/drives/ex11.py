@@ -9,7 +9,7 @@ AGAIN = 20  # seeds drawn twice: one draw comes out the same by chance now and t
 
 
 def weighed(functions, inputs):
-    """Call log_likelihoods on every scan; what is not finite is flagged.
+    """Call log_likelihoods on every scan; what is not finite is flagged: NaN 0, −∞ −1, ∞ −2.
 
     Parameters
     ----------
@@ -18,7 +18,7 @@ def weighed(functions, inputs):
 
     Returns
     -------
-    {"logs": (k, n) 0 where not finite, "finite": (k, n)}
+    {"logs": (k, n) 0 where not finite, "finite": (k, n) 1 or the flag}
 
     Raises
     ------
@@ -26,9 +26,9 @@ def weighed(functions, inputs):
     """
     name, call = next(iter(functions.items()))
     logs = np.array([shaped(call(*row), f"{name}'s array", (len(row[0]),)) for row in rows(inputs)])
-    finite = np.isfinite(logs)
-    logs = np.where(finite, np.clip(logs, -MOST, MOST), 0.0)
-    return {"logs": logs, "finite": finite.astype(float)}
+    finite = np.select([np.isfinite(logs), logs == -np.inf, logs == np.inf], [1.0, -1.0, -2.0])
+    logs = np.where(finite > 0, np.clip(logs, -MOST, MOST), 0.0)
+    return {"logs": logs, "finite": finite}
 
 
 def drawn(functions, inputs):

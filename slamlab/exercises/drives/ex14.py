@@ -118,12 +118,13 @@ def tried(functions, inputs):
             "malformed", "trials returned no list of pairs (values, counts)"
         ) from None
     values, counts = [np.zeros(0)], [np.zeros(0)]
-    for k, pair in enumerate(pairs, 1):
+    for k, pair in enumerate(pairs):
         two = [numbers(each, "trials") for each in pair]
         if two[0].ndim != 1 or two[0].shape != two[1].shape:
             shapes = " and ".join(str(each.shape) for each in two)
             raise StudentError(
-                "malformed", f"values and counts of trial {k} are of shape {shapes}, not both (n,)"
+                "malformed",
+                f"values and counts of trials()[{k}] are of shape {shapes}, not both (n,)",
             )
         values.append(two[0])
         counts.append(two[1])

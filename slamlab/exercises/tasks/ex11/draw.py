@@ -1,6 +1,8 @@
 """Task 11-draw: a comb gives each sample its share, rounded up or down, and is fair.
 
-The band of fairness is seven standard deviations wide, so that chance fails nobody in 10⁶.
+The band of fairness is seven standard deviations of the mean wide: a comb's where shares are
+rounded, else those of the answer. Who draws right on average, by a comb or by n tickets, is inside
+all but once in 10⁷ gradings (of 24 means the rarest are binomial, with 15 copies due in all).
 """
 
 import numpy as np
@@ -76,8 +78,11 @@ def _strays(i, o):
 
 def _fair(i, o):
     rest = _asked(i)[:, 0] % 1
+    comb = rest * (1 - rest)  # the variance of a share that is rounded up or down
+    strayed = np.maximum(o["copies"].var(axis=1), comb)
+    variance = np.where(_rounded(i, o)[:, None], comb, strayed)
     # nearly whole shares are rare events: a normal band needs a few expected ones more
-    band = BAND * np.sqrt((rest * (1 - rest) + 0.01) / i["seeds"].shape[1])
+    band = BAND * np.sqrt((variance + 0.01) / i["seeds"].shape[1])
     return (np.abs(_strays(i, o)) < band).all(axis=1)
 
 
@@ -90,20 +95,27 @@ def _by_the_seed(i, o):
     return _same_again(o) & differ
 
 
+def _why_seed(i, o):
+    if not _same_again(o).all():
+        return "Called again with a generator of the same seed, it drew other samples."
+    return f"With {i['seeds'].shape[1]} seeds it drew the same samples each time."
+
+
 def _why_share(i, o):
     k, _, n = np.unravel_index(np.abs(o["copies"] - _asked(i)).argmax(), o["copies"].shape)
     copies = o["copies"][k, :, n]
     return (
-        f"Sample {n} of {len(i['weights'][k])} weighs {i['weights'][k, n]:.3f}: it is due to have "
-        f"{_asked(i)[k, 0, n]:.2f} copies, and had {copies.min():.0f} to {copies.max():.0f}."
+        f"Sample {n}, counted from 0, weighs {i['weights'][k, n]:.3f}: it is due to have "
+        f"{_asked(i)[k, 0, n]:.2f} copies, and had {copies.min():.0f} to {copies.max():.0f} over "
+        f"{len(copies)} seed{'' if len(copies) == 1 else 's'}."
     )
 
 
 def _why_fair(i, o):
     k, n = np.unravel_index(np.abs(_strays(i, o)).argmax(), i["weights"].shape)
     return (
-        f"Sample {n} is due to have {_asked(i)[k, 0, n]:.2f} copies; over {i['seeds'].shape[1]} "
-        f"seeds it had {o['copies'][k, :, n].mean():.2f} on average."
+        f"Sample {n}, counted from 0, is due to have {_asked(i)[k, 0, n]:.2f} copies; over "
+        f"{i['seeds'].shape[1]} seeds it had {o['copies'][k, :, n].mean():.2f} on average."
     )
 
 
@@ -156,6 +168,7 @@ DRAW = Task(
             1,
             "the same seed draws the same, other seeds others",
             _by_the_seed,
+            why=_why_seed,
             asks="Where does your random number come from, and how many of them do you take?",
             alone=False,
         ),

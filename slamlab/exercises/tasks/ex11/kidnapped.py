@@ -52,6 +52,12 @@ def before(i, o):
     return np.median([e[at].mean() for e, at in zip(error, since < 0, strict=True)])
 
 
+def at_hand(i, o):
+    """The share of the steps since the kidnapping in which any sample is near the robot."""
+    since = np.arange(i["us"].shape[1]) - room.truth(i)[1][:, None]
+    return (off(i, o)[0] < NEAR).any(axis=-1)[since >= 0].mean()
+
+
 def steady(i, o):
     return np.median(errors(i, o))
 
@@ -70,6 +76,10 @@ def _searching(i):
 
 def _again(i, o):
     return soon(i, o) >= SOON
+
+
+def _never(i, o):
+    return found(i, o) < 0.15 and steady(i, o) > 1
 
 
 def _why(*sentences):
@@ -140,9 +150,26 @@ KIDNAPPED = Task(
     diagnoses=(
         Diagnosis(
             "never-back",
-            "Once carried off, the robot is lost: no sample is near it, and none gets there. Some "
-            "samples have to be set where the robot may be now.",
-            lambda i, o: found(i, o) < 0.15 and steady(i, o) > 1,
+            "Once carried off, the robot is lost: in most steps no sample is near it. Some samples "
+            "have to be set where the robot may be now, and not too thinly: from which poses could "
+            "the sighting have been made?",
+            lambda i, o: _never(i, o) and before(i, o) < 1 and at_hand(i, o) < 0.5,
+        ),
+        Diagnosis(
+            "outweighed",
+            "In most steps some sample is near the robot, and yet most of the weight is elsewhere, "
+            "even before anyone has carried the robot off: samples that are set anew weigh too "
+            "much beside those that know the way so far. With which density are they drawn, and "
+            "how likely is a kidnapping?",
+            lambda i, o: before(i, o) >= 1 and at_hand(i, o) >= 0.5,
+        ),
+        Diagnosis(
+            "lost-before",
+            "Most of the weight is far from the robot even before anyone has carried it off, and "
+            "few samples are near it afterwards. Does the cloud follow the robot as long as no "
+            "sample is set anew? Those that are: are they too few or too far apart to hit, and "
+            "what do they weigh beside the others?",
+            lambda i, o: _never(i, o) and before(i, o) >= 1,
         ),
         Diagnosis(
             "too-rare",

@@ -1,9 +1,11 @@
 """Task 11-localise: one step of Monte Carlo localisation, over drives of some steps."""
 
+import itertools
+
 import numpy as np
 
 from slamlab.exercises.drives.ex11 import DRIVES
-from slamlab.exercises.law import Diagnosis, Law
+from slamlab.exercises.law import Diagnosis, Law, once
 from slamlab.exercises.task import Probe, Task
 from slamlab.exercises.tasks.ex11 import runs
 from slamlab.geometry import wrap
@@ -55,34 +57,47 @@ def _in_time(i, o):
     return (_worth(o) > o["weights"].shape[-1] / 2 - 1e-6).all(axis=1)
 
 
-def _drawn_right(i, o):
-    """(k,) where each sample can be recognised: whether it has the copies that it is due."""
+@once
+def _objections(i, o):
+    """What is wrong with each run where each sample can be recognised, a sentence; "" if nothing.
+
+    Of its calls the first one that is wrong is told.
+    """
     before, w = runs.begun(i, o)
     (d, turn), (x, y, theta) = np.moveaxis(i["us"][:, :, None], -1, 0), np.moveaxis(before, -1, 0)
     moved = np.stack([x + d * np.cos(theta), y + d * np.sin(theta), wrap(theta + turn)], axis=-1)
     want = np.log(w) + runs.log_likelihoods(i, moved)
     want = np.exp(want - want.max(axis=-1, keepdims=True))
     want = want / want.sum(axis=-1, keepdims=True)
-    return np.array(
-        [
-            all(_copies_right(*step) for step in zip(*run, strict=True))
-            for run in zip(moved, want, o["rows"], o["weights"], strict=True)
-        ]
-    )
+    clouds = zip(moved, want, o["rows"], o["weights"], strict=True)
+    return [next(filter(None, map(_objection, itertools.count(), *run)), "") for run in clouds]
 
 
-def _copies_right(moved, want, rows, weights):
-    n = len(rows)
+def _drawn_right(i, o):
+    return np.array([not objection for objection in _objections(i, o)])
+
+
+def _why_drawn(i, o):
+    return next(filter(None, _objections(i, o)))
+
+
+def _objection(call, moved, want, rows, weights):
+    n, begin = len(rows), f"In call {call}, counted from 0,"
     same, parents = _near(moved, moved), _near(rows, moved)
     due, got = n * same @ want, n * weights @ parents
     if not parents.any(axis=1).all():
-        return False
+        return f"{begin} some rows are not where any of the samples has moved to."
     if np.ptp(weights) > 1e-9 / n:
-        return bool(np.abs(got - due).max() < SAME * n)
-    if np.ptp(want) > 1e-9 / n and 1 / np.sum(want**2) > n / 2 * (1 + SAME):
-        return False  # drawn though the cloud was worth more than half its samples
+        kept = np.abs(got - due).max() < SAME * n
+        return "" if kept else f"{begin} samples do not have the weight that is their due."
+    worth = 1 / np.sum(want**2)
+    # copies of one sample are the same cloud, drawn anew or not, but for what the wheels err
+    if np.ptp(want) > 1e-9 / n and not same.all() and worth > n / 2 * (1 + SAME):
+        return f"{begin} you drew, though the weighed cloud was worth {worth:.1f} of {n} samples."
     # Poisson at most: seven deviations, and some for those that are hardly ever drawn
-    return bool((np.abs(got - due) < 7 * np.sqrt(due) + 7).all())
+    if (np.abs(got - due) < 7 * np.sqrt(due) + 7).all():
+        return ""
+    return f"{begin} samples have far more copies, or fewer, than their weights ask for."
 
 
 def _near(a, b):
@@ -165,6 +180,7 @@ LOCALISE = Task(
             "where wheels do not err, the samples are the moved ones, drawn by their weights, and "
             "only if the cloud is worth less than half",
             _drawn_right,
+            why=_why_drawn,
             asks="When do you draw, and by which weights? What if all likelihoods are smaller "
             "than the smallest float?",
             main=False,

@@ -80,21 +80,19 @@ def _same(i, o):
 
 
 def _why(i, o):
-    if (o["finite"] == 0).any():
+    if (o["finite"] <= 0).any():
         return "Some of them are infinite or no numbers."
     got, want = (_differences(a) for a in (o["logs"], _right(i)))
     k, n = np.unravel_index(np.argmax(np.abs(got - want)), got.shape)
     return (
-        f"Sample {n + 1}'s logarithm less the first one's is {got[k, n]:.5g} in your answer, and "
-        f"{want[k, n]:.5g} is right."
+        f"The logarithm of sample {n} less that of sample 0 (they are counted from 0) is "
+        f"{got[k, n]:.5g} in your answer, and {want[k, n]:.5g} is right."
     )
 
 
 def _step(i):
     v = i["z"][:, 0] - h(i["rows"][:, 0], i["p"][:, 0])
-    return {
-        "v of the first sample and the first landmark": np.column_stack([v[:, 0], wrap(v[:, 1])])
-    }
+    return {"v of sample 0 and landmark 0": np.column_stack([v[:, 0], wrap(v[:, 1])])}
 
 
 def _law(name, points, says, asks, **more):

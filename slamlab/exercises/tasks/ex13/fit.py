@@ -3,13 +3,14 @@
 import numpy as np
 
 from slamlab.exercises.drives.ex13 import DRIVES
-from slamlab.exercises.law import equals
+from slamlab.exercises.law import ROUNDING, TOLERANCE, Law, equals
 from slamlab.exercises.task import Probe, Task
 from slamlab.exercises.tasks.ex13 import motions
 from slamlab.exercises.tasks.ex13.motions import carried, either_sign, motion
 
 LINE = 1e-9  # share of |M|² that det M is of points on a line
-TURN, SHIFT, LAST = np.s_[:2, :2], np.s_[:2, 2], np.s_[2]
+TURN = np.s_[:2, :2]
+MIRROR = "mirror", "shift"  # laws that are judged where a mirror fits as well
 
 
 def paired(rng, rows=6, n=9, noise=0.05, turn=(0.5, 2.6), far=2.0):
@@ -58,6 +59,15 @@ def want(inputs):
     return {"result": motions.fit(inputs["source"], inputs["target"])}
 
 
+def _carries_the_centroid(inputs, outputs):
+    """(n,) whether T, with its own Rot, lays centroid on centroid and is a motion's matrix."""
+    T = outputs["result"]
+    a, b = (inputs[name].mean(axis=1) for name in ("source", "target"))
+    off = np.abs((T[:, :2, :2] @ a[..., None])[..., 0] + T[:, :2, 2] - b).max(axis=1)
+    allowed = ROUNDING + TOLERANCE * np.abs([a, b]).max(axis=(0, 2))
+    return (off <= allowed) & (np.abs(T[:, 2] - [0, 0, 1]).max(axis=1) <= TOLERANCE)
+
+
 def _on_the_way(inputs):
     a, b = inputs["source"], inputs["target"]
     p, q = (c - c.mean(axis=1, keepdims=True) for c in (a, b))
@@ -96,12 +106,13 @@ BEST_MOTION = Task(
             "product of the two turns by +90°?",
             step=_on_the_way,
         ),
-        equals(
+        Law(
             "shift",
             1,
             "t lays the turned source's centroid on the target's, and the last row is 0 0 1",
-            want,
-            parts={"result": [SHIFT, LAST]},
+            _carries_the_centroid,
+            want=want,
+            alone=False,
             asks="Where does T carry the centroid of the source, and where should it?",
             step=_on_the_way,
         ),
@@ -110,6 +121,7 @@ BEST_MOTION = Task(
             1,
             "Rot stays the best rotation where a mirror would fit better, or as well",
             want,
+            parts={"result": TURN},
             asks="What is det(V Uᵀ) here? There is one column that costs least to turn over: whose "
             "singular value is the least?",
             step=_on_the_way,
@@ -118,13 +130,13 @@ BEST_MOTION = Task(
         ),
     ),
     probes=(
-        Probe("a wall that would fit best inside out", _walls, ("mirror",)),
-        Probe("pairs that only a mirror lays over each other", _inside_out, ("mirror",)),
-        Probe("two pairs", lambda rng: paired(rng, 4, 2), ("mirror",)),
+        Probe("a wall that would fit best inside out", _walls, MIRROR),
+        Probe("pairs that only a mirror lays over each other", _inside_out, MIRROR),
+        Probe("two pairs", lambda rng: paired(rng, 4, 2), MIRROR),
         Probe("forty pairs", lambda rng: paired(rng, 1, 40)),
         Probe("pairs that lie on each other", lambda rng: paired(rng, 2, 5, 0, (0, 0), 0)),
         Probe("half a turn", lambda rng: paired(rng, 2, 5, 0, (np.pi, np.pi))),
-        Probe("points along a line", _on_a_line, ("mirror",)),
+        Probe("points along a line", _on_a_line, MIRROR),
         Probe("clouds a hundred metres away", lambda rng: paired(rng, 2, 8, far=100)),
         Probe("whole numbers", _whole),
     ),

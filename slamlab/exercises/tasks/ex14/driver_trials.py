@@ -60,18 +60,18 @@ def objection(o):
             f"Your trials are {len(ways)} ways with {readings} readings in all. At most {WAYS} "
             f"ways may be tried, with {READINGS} readings at most."
         )
-    for k, (values, counts) in enumerate(ways, 1):
+    for k, (values, counts) in enumerate(ways):
         whole = (values == np.rint(values)) & (values >= -128) & (values <= 127)
         if not whole.all():
             return "no byte", (
-                f"In way {k}, reading {1 + np.flatnonzero(~whole)[0]} is {values[~whole][0]:g}. A "
-                "signed byte is a whole number from −128 to 127."
+                f"In trials()[{k}], values[{np.flatnonzero(~whole)[0]}] is {values[~whole][0]:g}. "
+                "A signed byte is a whole number from −128 to 127."
             )
         steps = faulty_drivers.ring(np.diff(values))
         if (steps == -128).any():
             at = np.flatnonzero(steps == -128)[0]
             return "half a round", (
-                f"In way {k}, reading {at + 1} is {values[at]:g} and the next is "
+                f"In trials()[{k}], values[{at}] is {values[at]:g} and the next is "
                 f"{values[at + 1]:g}. That is half a round, ahead or back: right drivers differ "
                 "here."
             )
@@ -79,8 +79,8 @@ def objection(o):
         if not np.array_equal(counts, right):
             at = np.flatnonzero(counts != right)[0]
             return "wrong counts", (
-                f"In way {k}, at reading {at + 1}, your trials expect {counts[at]:g} counts, and a "
-                f"right driver returns {right[at]:g}. They would take it for a faulty one."
+                f"In trials()[{k}], counts[{at}] is {counts[at]:g}, and a right driver returns "
+                f"{right[at]:g}. They would take it for a faulty one."
             )
     return None
 
