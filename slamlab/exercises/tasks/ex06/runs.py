@@ -42,7 +42,7 @@ def runs(rng, behind=False):
     return measured(rng, start, drives, p, SCANS, (START, WHEELS, EYES))
 
 
-def measured(rng, start, drives, p, scans, sigmas, kind=POINTS):
+def measured(rng, start, drives, p, scans, sigmas, kind=POINTS, draw=None):
     """Many runs of one way among landmarks: what each was told of start, drives and sights.
 
     Parameters
@@ -52,22 +52,24 @@ def measured(rng, start, drives, p, scans, sigmas, kind=POINTS):
     scans : (STEPS, 2) int, rows of p that each scan holds, -1 for none
     sigmas : (3,), (2,), (2,) deviations of start, drives and sights
     kind : LandmarkModel
+    draw : (shape) -> errors with variance 1; None: normal ones
 
     Returns
     -------
     dict of arrays, the task's inputs
     """
+    draw = draw or rng.standard_normal
     of_start, of_wheels, of_eyes = sigmas
     way = driven(start, drives)
     names = rng.permutation(np.arange(30, 90))[: len(p)]
     names[:2].sort()  # which are met in the order 1, 0: sorted ids are never right
     z = np.array([kind.h(pose, p[scan]) for pose, scan in zip(way, scans, strict=True)])
-    z = z + of_eyes * _errors_of(rng, *z.shape)
+    z = z + of_eyes * _errors_of(draw, *z.shape)
     z[..., 1] = wrap(z[..., 1])
     return {
-        "x": start + of_start * _errors_of(rng, 3),
+        "x": start + of_start * _errors_of(draw, 3),
         "P": np.diag(of_start**2),
-        "u": drives + of_wheels * _errors_of(rng, *drives.shape),
+        "u": drives + of_wheels * _errors_of(draw, *drives.shape),
         "seen": np.where(scans < 0, -1, names[scans]),
         "z": z,
         "C": np.diag(of_wheels**2),
@@ -75,9 +77,9 @@ def measured(rng, start, drives, p, scans, sigmas, kind=POINTS):
     }
 
 
-def _errors_of(rng, *shape):
+def _errors_of(draw, *shape):
     """(RUNS, ...) errors with variance 1 whose mean over the runs is 0."""
-    errors = rng.standard_normal((RUNS, *shape))
+    errors = draw((RUNS, *shape))
     return (errors - errors.mean(axis=0)) * np.sqrt(RUNS / (RUNS - 1))
 
 
