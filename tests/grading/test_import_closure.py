@@ -18,6 +18,7 @@ JUDGE = (
     "slamlab.exercises.fingerprints",
     "slamlab.exercises.law",
     "slamlab.exercises.outputs",
+    "slamlab.exercises.reading",
     "slamlab.exercises.report",
     "slamlab.exercises.run_task",
     "slamlab.exercises.task",

@@ -88,8 +88,8 @@ def test_what_a_probe_finds_costs_the_laws_it_names():
         assert points(verdict) == {"sign": 1, "twice": 0, "unchanged": 0.5}
         assert verdict.laws[1].where == {"nought": None}
     for verdict in verdicts("return 2 * a if a < 1000 else -a"):
-        assert points(verdict) == {"sign": 0, "twice": 0}
-        assert [law.where for law in verdict.laws] == [{"large ones": None}] * 2
+        assert points(verdict) == {"sign": 0, "twice": 0, "unchanged": 0}
+        assert [law.where for law in verdict.laws[:2]] == [{"large ones": None}] * 2
 
 
 @pytest.mark.parametrize("fails", ["1 / 0", "[][1]", "None", "'x'", "np.nan", "[a, a]", "exit()"])
@@ -160,7 +160,7 @@ def test_a_set_that_does_not_come_back_is_lost():
     drop = "import slamlab.exercises.drives.input_sets as i\nold = i.joined\n"
     drop += "i.joined = lambda s: {k: v for k, v in old(s).items() if k[0] == '0'}"
     verdict = verdicts("return 2 * a", drop)[1]
-    assert points(verdict) == {"sign": 0, "twice": 0}
+    assert points(verdict) == {"sign": 0, "twice": 0, "unchanged": 0}
     drop = drop.replace("== '0'", "!= '0'")
     assert verdicts("return 2 * a", drop)[1].kind == "malformed"
 

@@ -103,7 +103,11 @@ def test_who_gains_and_who_loses_is_told_with_the_reason(attempts, monkeypatch):
         (-0.5, "wrong", "99-turn 2.5 → 2: “turned” is worth 1.5 instead of 2"),
         (0.0, "empty", found[2][1][5]),
         (0.0, "fails", found[3][1][5]),
-        (2.0, "lazy", "99-turn 0 → 2: “turned” holds now"),
+        (
+            2.0,
+            "lazy",
+            "99-turn 0 → 2: “turned” holds now, “unchanged” earns 0.5 beside the others",
+        ),
     ]
     by_hand = {("lazy.ipynb", "99-turn"): (1.0, "x")}
     ((by, row),) = rejudge_report.changes([again(attempts["lazy"])], by_hand)
