@@ -1,5 +1,6 @@
 """Prepare the pages of the site: a folder of notebooks and Markdown that Sphinx can set."""
 
+import importlib
 import os
 import re
 from concurrent.futures import ThreadPoolExecutor
@@ -165,7 +166,7 @@ def _modules():
     )
     files = {
         f"api/{room}.md": f"# slamlab.{room}\n\n```{{eval-rst}}\n.. automodule:: slamlab.{room}\n"
-        "   :members:\n```\n"
+        f"   :members:\n   :exclude-members: {', '.join(_of_others(room, rooms))}\n```\n"
         for room in rooms
     }
     listed = "\n".join(rooms)
@@ -174,6 +175,20 @@ def _modules():
         f"units and errors stand with each function.\n\n```{{toctree}}\n:maxdepth: 1\n\n{listed}\n```\n"
     )
     return files
+
+
+def _of_others(room, rooms):
+    """What a room offers that another room does, too: it is described there, once."""
+    module = importlib.import_module(f"slamlab.{room}")
+    defined = {
+        name: getattr(getattr(module, name), "__module__", None) or ""
+        for name in getattr(module, "__all__", ())
+    }
+    return sorted(
+        name
+        for name, place in defined.items()
+        if place.removeprefix("slamlab.") in set(rooms) - {room}
+    )
 
 
 def _synchronise(folder, files):

@@ -102,6 +102,7 @@ def test_a_check_is_kept_and_shown_at_the_head_of_the_notebook(visit, lab_folder
     head = visit.page.locator(".slamlab-progress li").first
     assert head.text_content().startswith("○ next-pose")
     run_cell(visit, visit.page.locator(".jp-CodeCell").first)
+    run_cell(visit, cell_of(visit, "def next_pose"))
     run_cell(visit, cell_of(visit, 'check("01-next-pose")'))
     visit.page.locator(".slamlab-progress li", has_text="◐ next-pose").wait_for()
     assert progress(lab_folder)["tasks"]["01-next-pose"]["points"] == 0
