@@ -1,11 +1,11 @@
 """Stub of :mod:`slamlab.checks` in a worker, where nothing is checked or shown."""
 
 
-def check(task_id):
+def check(task_id=None):
     """Do nothing: the judge does the checking."""
 
 
-def hint(task_id):
+def hint(task_id=None):
     """Do nothing: nothing is given away to a grader."""
 
 

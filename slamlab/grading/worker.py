@@ -64,7 +64,7 @@ def fresh_namespace():
     names = vars(notebook)
     names["__builtins__"] = builtins
     names["get_ipython"] = lambda: _Shell(names)
-    names["hint"] = lambda task_id: None  # to a student's kernel slamlab.checks offers it, too
+    names["hint"] = lambda task_id=None: None  # to a student's kernel slamlab.checks offers it, too
     return names
 
 

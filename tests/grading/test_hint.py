@@ -200,6 +200,12 @@ def test_a_hint_of_ones_own_is_left_alone():
     assert names["hint"] == 7
 
 
+def test_calls_without_an_id_stop_no_cell_in_a_worker():
+    """In a notebook they say so, and go on."""
+    cells = fake.SOLUTION, "hint()", "from slamlab.checks import check, hint\ncheck()\nhint()"
+    assert judged(*cells, exercise=fake.EXERCISE)["cells"] == {}
+
+
 def test_a_call_below_the_import_stops_no_cell_in_a_worker():
     """It needs no check before it there either: a notebook may be saved with it anywhere."""
     cells = fake.SOLUTION, "from slamlab.checks import ask, check", "hint('99-turn')\nx = y"

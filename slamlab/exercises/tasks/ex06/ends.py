@@ -76,13 +76,18 @@ class Ends:
         """Least and largest variance of the mean P, in units of least squares', of all
         directions."""
         P = self.of(inputs, outputs)[1]
-        root = np.linalg.inv(np.linalg.cholesky(least_squares(inputs, self.kind)[1]))
+        root = np.linalg.inv(np.linalg.cholesky(self.best(inputs)[1]))
         ratios = np.linalg.eigvalsh(root @ P.mean(axis=0) @ root.T)
         return ratios.min(), ratios.max()
 
+    @once
+    def best(self, inputs):
+        """Least squares over the whole runs: estimates minus truth, and their covariance."""
+        return least_squares(inputs, self.kind)
+
     def apart(self, inputs, outputs):
         """How far x lies from least squares', mean square in its standard deviations."""
-        best, P = least_squares(inputs, self.kind)
+        best, P = self.best(inputs)
         off = self.wrapped(self.errors(inputs, self.of(inputs, outputs)[0]) - best)
         return nees(off, P).mean() / off.shape[1]
 
@@ -98,8 +103,8 @@ class Ends:
         if not whole(inputs, outputs):
             return "the map does not hold each landmark once"
         least, largest = self.ratios(inputs, outputs)
-        if (apart := np.sqrt(self.apart(inputs, outputs))) > np.sqrt(APART):
-            return f"x lies {apart:.2g} standard deviations from where least squares put it"
+        if (apart := self.apart(inputs, outputs)) > APART:
+            return f"x lies {apart**0.5:.2g} standard deviations from where least squares put it"
         return (
             f"in some direction P's variance is {least:.2g} times that of least squares, in "
             f"another "

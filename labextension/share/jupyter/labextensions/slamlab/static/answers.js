@@ -24,16 +24,16 @@ export function openAnswers(panel) {
 // JupyterLab opens a cell that is run: an answer that was folded is folded again, until it is asked for.
 export function keepFolded(NotebookActions, tracker) {
   const look = () => tracker.forEach((panel) => {
-    for (const cell of panel.content.widgets) foldedTexts[cell.inputHidden ? "add" : "delete"](cell);
+    for (const cell of panel.content.widgets.filter(isText)) {
+      foldedTexts[cell.inputHidden ? "add" : "delete"](cell);
+    }
   });
   for (const event of ["keydown", "pointerdown"]) document.addEventListener(event, look, true);
   let before; // how the answers were when a run began; cells that run together are opened at once
   const begun = (_, { notebook }) => {
     if (before) return;
-    before = notebook.widgets.filter(answerOf).map((cell) => {
-      const wasFolded = isText(cell) && foldedTexts.has(cell); // by now it is open
-      return [cell, cell.outputHidden, cell.inputHidden || wasFolded];
-    });
+    before = notebook.widgets.filter(answerOf).map(
+      (cell) => [cell, cell.outputHidden, cell.inputHidden || foldedTexts.has(cell)]);
     queueMicrotask(() => {
       for (const [cell, output, input] of before) {
         if (output) cell.outputHidden = true;
