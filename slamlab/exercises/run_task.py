@@ -2,10 +2,10 @@
 
 from dataclasses import replace
 
-from slamlab.exercises import case_text, cases, fingerprints
+from slamlab.exercises import case_text, cases, clues, fingerprints
 from slamlab.exercises.drives import StudentError
 from slamlab.exercises.drives.input_sets import MAIN, run_sets
-from slamlab.exercises.task import IDLE, OPEN_SEED, Task
+from slamlab.exercises.task import IDLE, OPEN_SEED, UNCHANGED, Task
 from slamlab.exercises.verdict import Verdict
 
 
@@ -64,7 +64,7 @@ def run_and_tell(task: Task, namespace) -> Verdict:
 
 
 def recognised(task: Task, verdict: Verdict, answered) -> Verdict:
-    """A verdict with the mistake that its fingerprint tells.
+    """A verdict with the mistake that its fingerprint tells, or else a clue.
 
     Parameters
     ----------
@@ -77,13 +77,15 @@ def recognised(task: Task, verdict: Verdict, answered) -> Verdict:
     -------
     Verdict
     """
-    unknown = task.id not in fingerprints.tables(task.id[:2])
-    if unknown or verdict.problem or verdict.diagnosis == IDLE.name:
-        return verdict
+    broken = {law.name for law in verdict.laws if law.failed}
+    if verdict.problem or verdict.diagnosis == IDLE.name or broken == {UNCHANGED.name}:
+        return verdict  # all is said
     try:
-        mistake = fingerprints.recognise(task, *answered())
+        sets, answers = answered()
     except StudentError:
         return verdict
-    if not mistake or (verdict.diagnosis and mistake.family):  # a property says more
+    mistake = fingerprints.recognise(task, sets, answers)
+    if verdict.diagnosis and (not mistake or mistake.family):  # a property says more
         return verdict
-    return replace(verdict, diagnosis=mistake.name, hint=mistake.hint)
+    mistake = mistake or clues.clue(task, sets, answers)
+    return replace(verdict, diagnosis=mistake.name, hint=mistake.hint) if mistake else verdict

@@ -165,9 +165,12 @@ class Task:
         with np.errstate(all="ignore"), one_judging():
             idle = came_back.degenerate(sets[MAIN], found[MAIN])
             results = tuple(self._result(law, sets, found, idle) for law in self.all_laws)
-            matching = (d for d in self.diagnoses if _safely(d.matches, sets[d.on], found[d.on]))
-            wrong = any(result.failed for result in results)
-            mistake = next(matching, IDLE if idle else None) if wrong else None
+            wrong = {
+                on for result in results if result.name != UNCHANGED.name for on in result.where
+            }
+            told = (d for d in self.diagnoses if d.on in wrong)
+            matching = (d for d in told if _safely(d.matches, sets[d.on], found[d.on]))
+            mistake = next(matching, IDLE if idle else None)
         results = self._worth_something(results)
         earned = sum(result.points for result in results)
         named = (mistake.name, mistake.hint) if mistake else (None, None)

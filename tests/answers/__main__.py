@@ -1,8 +1,8 @@
 """Say of independent answers how the checks take them: named, led, silent or passed.
 
 *Passed*: full marks. *Unjudged*: told why nothing could be judged. *Named*: a slip's hint. *Led*:
-the hint of a family, *property*: of a property. *Shown*: no hint, but a case with what came back.
-*Silent*: nothing.
+the hint of a family, *property*: of a property, *clue*: where or how it is wrong. *Shown*: no hint,
+but a case with what came back. *Silent*: nothing.
 """
 
 import argparse
@@ -13,6 +13,7 @@ from collections import Counter
 from course.programs import namespace, programs
 from slamlab.exercises.families import FAMILIES
 from slamlab.exercises.run_task import run_and_tell
+from slamlab.exercises.task import IDLE
 from slamlab.exercises.time_limit import TimeLimitExceeded, capture_output, time_limit
 from tests.answers import IDS, answers
 
@@ -49,8 +50,11 @@ def kind(one, verdict) -> str:
     changed = [law.name for law in verdict.laws if law.failed] == ["unchanged"]
     if changed or verdict.diagnosis in {slip.name for slip in one.slips}:
         return "named"
+    if verdict.diagnosis in FAMILIES:
+        return "led"
     if verdict.diagnosis:
-        return "led" if verdict.diagnosis in FAMILIES else "property"
+        properties = {IDLE.name, *(found.name for found in one.task.diagnoses)}
+        return "property" if verdict.diagnosis in properties else "clue"
     return "shown" if verdict.case else "silent"
 
 

@@ -60,6 +60,7 @@ def ray_wall(p, phi, wall):
         "You meet the wall's line even where the wall has ended long before. Which of your numbers says "
         "where on the wall the crossing is, and between what must it lie?",
         hit("t >= 0"),
+        hit("t > 0"),
         hit("t >= 0 and -1 <= s <= 1"),
         hit("t >= 0 and abs(s) <= 2"),
     ),

@@ -112,7 +112,8 @@ SLIPS = (
     ),
     Slip(
         "begins-again",
-        "Each step begins with the start again. Go on with the belief of the step before.",
+        "Each step begins with the start again, or with its P alone. Go on with the x and the P of the "
+        "step before.",
         (
             STEP,
             "a, b = predict(x, P, F, Q)\n        a, b = update(a, b, z, H, R)"

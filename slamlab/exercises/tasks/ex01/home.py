@@ -3,7 +3,7 @@
 import numpy as np
 
 from slamlab.exercises.drives.ex01 import DRIVES
-from slamlab.exercises.law import Law, once
+from slamlab.exercises.law import Diagnosis, Law, once
 from slamlab.exercises.task import Probe, Task
 from slamlab.exercises.tasks.ex01 import laps
 
@@ -35,6 +35,48 @@ STEPS = (
     _step("right", 3, 0.165, "What do the gaps of all laps of one drive have in common?"),
 )
 
+
+def _from_dock(inputs, outputs):
+    """(d, laps) how far the tracks are from the dock where the robot is in it [m]."""
+    rows = np.take_along_axis(outputs["result"], inputs["docked"][..., None], axis=1)
+    return np.linalg.norm((rows - inputs["start"][:, None])[..., :2], axis=-1)
+
+
+def _jump(inputs, outputs):
+    """(d, laps) by how much the step into the dock is longer than the wheels tell [m]."""
+    ways = np.linalg.norm(np.diff(outputs["result"][..., :2], axis=1), axis=-1)
+    told = np.linalg.norm(inputs["steps"][..., :2], axis=-1)
+    return np.take_along_axis(ways - told, inputs["docked"] - 1, axis=1)
+
+
+def _only_beyond(inputs, outputs):
+    """Whether the tracks are good to the last dock, and bad from there on."""
+    off = np.linalg.norm((outputs["result"] - laps.route(inputs))[..., :2], axis=-1)
+    last = inputs["docked"][0, -1]
+    return np.median(off[:, :last]) < 0.2 < 0.5 < np.median(off[:, last + 10 :])
+
+
+MISTAKES = (
+    Diagnosis(
+        "not in the dock",
+        "Your tracks are not in the dock when the robot is: that is the one place of which you are "
+        "sure, at the end of every lap.",
+        lambda inputs, outputs: np.median(_from_dock(inputs, outputs)) > 0.2,
+    ),
+    Diagnosis(
+        "leaps home",
+        "Your tracks leap into the dock in one step, and the lap before it stays as bent as it "
+        "was. Its error was made on the way, a little in every step.",
+        lambda inputs, outputs: np.median(_jump(inputs, outputs)) > 0.5,
+    ),
+    Diagnosis(
+        "lost beyond",
+        "To the last dock your tracks are good, and from there on they are not. The laps told what "
+        "is wrong with the wheels: it is so on the way beyond as well.",
+        _only_beyond,
+    ),
+)
+
 HOME = Task(
     id="01-home",
     title="Make it better: home again",
@@ -42,6 +84,7 @@ HOME = Task(
     inputs=laps.drives,
     shapes=lambda inputs: {"result": (inputs["steps"].shape[1] + 1, 3)},
     laws=STEPS,
+    diagnoses=MISTAKES,
     probes=(
         Probe("one lap only", lambda rng: laps.drives(rng, 4, (1,), tail=False), ("better",)),
         Probe("five laps", lambda rng: laps.drives(rng, 4, (1, -1, 1, -1, 1)), ("better",)),

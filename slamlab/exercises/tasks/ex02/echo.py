@@ -145,8 +145,9 @@ def _beams(inputs, outputs):
 
 FAN = Diagnosis(
     "a-fan-of-beams",
-    "A fan of beams comes close, but the nearest place lies between two of them, and so may a "
-    "whole post. Which places of a wall can be the nearest at all?",
+    "Where a wall stands square to the cone you tell a little too far: its nearest place lies "
+    "between the beams, or the places, that you try. So may a whole post. Which places of a wall "
+    "can be the nearest at all?",
     _beams,
 )
 

@@ -108,6 +108,48 @@ def usual_nees(i, o):
     return nees[: len(nees) * 9 // 10].mean()
 
 
+@once
+def _moved(i, o):
+    """What the readings do: how far (r, k, 2) they move the state, their innovations, the ghosts.
+
+    Every filter predicts the same from its last belief, so what is left is the reading's doing.
+    """
+    before = np.concatenate([i["x"][:, None], o["xs"][:, :-1]], axis=1)
+    predicted = before @ i["F"][0].T + i["us"]
+    off = (i["zs"] - truth(i)[:, :1])[..., 0]
+    v = i["zs"][..., 0] - predicted[..., 0]
+    return o["xs"] - predicted, v, np.abs(off) > 5 * np.sqrt(i["R"][0, 0, 0])
+
+
+def _share(i, o):
+    """Which share of an innovation is taken in, in the middle: of measurements, of clear ghosts."""
+    moved, v, ghost = _moved(i, o)
+    share, clear = moved[..., 0] / v, np.abs(v) > 1
+    return np.median(share[~ghost]), np.median(share[ghost & clear])
+
+
+def _pushes_missing(i, o):
+    """Whether each step takes back what u did to the speed."""
+    moved, v, _ = _moved(i, o)
+    causes = np.stack([i["us"][..., 1].ravel(), v.ravel(), np.ones(v.size)], axis=1)
+    return np.linalg.lstsq(causes, moved[..., 1].ravel(), rcond=None)[0][0] < -0.5
+
+
+def _turned_round(i, o):
+    true, ghost = _share(i, o)
+    return ghost > 0.1 and ghost > 2 * max(true, 0)
+
+
+def _alike(i, o):
+    true, ghost = _share(i, o)
+    return ghost > 0.02 and abs(ghost - true) < 0.3 * ghost
+
+
+def _refuses(i, o):
+    moved, v, ghost = _moved(i, o)
+    return np.mean(np.abs(moved[..., 0] / v)[~ghost] < 1e-3) > 0.3
+
+
 def _better(i, o):
     return typical(i, o["xs"]) <= deceived(i) / GAIN
 
@@ -176,6 +218,30 @@ WARY = Task(
         ),
     ),
     diagnoses=(
+        Diagnosis(
+            "no-push",
+            "Your speed does not change when the cart is pushed, until a reading says so: u "
+            "belongs into the prediction of every step, whether its reading is a ghost or not.",
+            _pushes_missing,
+        ),
+        Diagnosis(
+            "turned-round",
+            "You take in more of what is far off than of what fits: what you refuse and what you "
+            "believe have changed places.",
+            _turned_round,
+        ),
+        Diagnosis(
+            "alike",
+            "A ghost moves your belief by the same share of its innovation as a measurement does. "
+            "It shows by how far off it is: the share must depend on that.",
+            _alike,
+        ),
+        Diagnosis(
+            "refuses",
+            "You refuse a third and more of the right readings. How far off may a right one be "
+            "while the belief is unsure, and how unsure is a belief that has heard nothing?",
+            _refuses,
+        ),
         Diagnosis(
             "shut-out",
             "Some drives are lost and do not know it: their errors are far larger than P says. A "

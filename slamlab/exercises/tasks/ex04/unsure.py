@@ -3,9 +3,10 @@
 import numpy as np
 
 from slamlab.exercises.drives.ex04 import DRIVES
-from slamlab.exercises.law import Diagnosis, Law, once
+from slamlab.exercises.law import Law
 from slamlab.exercises.task import Probe, Task
 from slamlab.exercises.tasks.ex04.generic import covariances, poses
+from slamlab.exercises.tasks.ex04.scatter import MISTAKES, SLIP, allowed, ends, lost
 from slamlab.geometry import wrap
 
 ROWS = 20
@@ -54,71 +55,10 @@ def _turned(rng):
     return inputs
 
 
-@once
-def ends(inputs):
-    """Mean and covariance of the pose after the drive, exact.
-
-    The cosine of a Gaussian angle has the expectation cos θ exp(−σ²/2), and a Gaussian a with a
-    covariance k to the angle adds k times the expectation of its derivative (Stein's lemma).
-
-    Parameters
-    ----------
-    inputs : x (n, 3), P (n, 3, 3), u (n, 2), C (n, 2, 2)
-
-    Returns
-    -------
-    mean (n, 3), covariance (n, 3, 3)
-    """
-    x, P, (d, turn), C = inputs["x"], inputs["P"], inputs["u"].T, inputs["C"]
-    variance, theta = P[:, 2, 2], x[:, 2]
-    once, twice = np.exp(-variance / 2), np.exp(-2 * variance)
-    along = once[:, None] * np.column_stack([np.cos(theta), np.sin(theta)])
-    across = along[:, ::-1] * [-1, 1]  # what a turn of the heading makes of it
-    mean = np.column_stack([x[:, :2] + d[:, None] * along, theta + turn])
-    c, s = twice * np.cos(2 * theta), twice * np.sin(2 * theta)
-    squares = np.array([[1 + c, s], [s, 1 - c]]).transpose(2, 0, 1) / 2
-    lean = d[:, None, None] * P[:, :2, 2, None] * across[:, None, :]
-    covariance = P.copy()
-    covariance[:, :2, :2] += lean + lean.swapaxes(1, 2) - _outer(d[:, None] * along)
-    covariance[:, :2, :2] += (d**2 + C[:, 0, 0])[:, None, None] * squares
-    cross = (d * variance)[:, None] * across + C[:, 0, 1, None] * along
-    covariance[:, :2, 2] += cross
-    covariance[:, 2, :2] += cross
-    covariance[:, 2, 2] += C[:, 1, 1]
-    return mean, covariance
-
-
-def _outer(v):
-    return v[:, :, None] * v[:, None, :]
-
-
-@once
-def lost(inputs, outputs):
-    """(n,) by how many nats an answer is more surprised by the ends than the best Gaussian is."""
-    mean, best = ends(inputs)
-    own = outputs["covariance"]
-    off = outputs["mean"] - mean
-    off[:, 2] = wrap(off[:, 2])
-    fit = _allowed(own)
-    own = np.where(fit[:, None, None], own, np.eye(3))
-    share = np.linalg.solve(own, best + _outer(off))
-    volumes = np.linalg.slogdet(own)[1] - np.linalg.slogdet(best)[1]
-    nats = (np.trace(share, axis1=1, axis2=2) - 3 + volumes) / 2
-    return np.where(fit, nats, np.inf)
-
-
-def _allowed(covariance):
-    """(n,) whether a matrix is a covariance: symmetric but for rounding, and positive definite."""
-    turned = covariance.swapaxes(1, 2)
-    size = np.abs(covariance).max(axis=(1, 2))
-    symmetric = np.abs(covariance - turned).max(axis=(1, 2)) <= 1e-9 * size
-    return symmetric & (np.linalg.eigvalsh((covariance + turned) / 2) > 0).all(axis=1)
-
-
 def _why(inputs, outputs):
     """Where the answer is off most: the direction in which the ends surprise it most."""
     own, (mean, best) = outputs["covariance"][:1], ends(inputs)
-    if not _allowed(own)[0]:
+    if not allowed(own)[0]:
         return "that is no covariance: it must be symmetric, with positive eigenvalues"
     off = outputs["mean"][0] - mean[0]
     off[2] = wrap(off[2])
@@ -151,48 +91,6 @@ def _half(name, limit, asks):
 
     says = f"in half of the drives at least, you lose no more than {limit:g} nat"
     return Law(name, 1, says, holds, why=_why, asks=asks, step=_step)
-
-
-def _straight_mean(inputs, outputs):
-    """Whether the mean is f(x, u): where a robot ends that has just the believed heading."""
-    x, (d, _) = inputs["x"], inputs["u"].T
-    straight = x[:, :2] + d[:, None] * np.column_stack([np.cos(x[:, 2]), np.sin(x[:, 2])])
-    return np.allclose(outputs["mean"][:, :2], straight, rtol=1e-6)
-
-
-def _sampled(inputs, outputs):
-    """Whether headings scatter, as only those of samples do, and all else is off as little."""
-    mean, best = ends(inputs)
-    off = wrap(outputs["mean"][:, 2] - mean[:, 2]) ** 2 / best[:, 2, 2]
-    share = (outputs["covariance"][:, 2, 2] / best[:, 2, 2] - 1) ** 2
-    small = np.median(lost(inputs, outputs)) < 40 * np.mean(off + share)  # on average 1.5 times
-    return bool(
-        (np.minimum(off, share) > 1e-12).all() and np.maximum(off, share).max() < 0.4 and small
-    )
-
-
-def _wrapped(inputs, outputs):
-    """Whether the heading's variance is right in some drives and far too large in others."""
-    share = outputs["covariance"][:, 2, 2] / ends(inputs)[1][:, 2, 2]
-    return bool((share > 2).any() and (np.abs(share - 1) < 0.5).any())
-
-
-def _about_zero(inputs, outputs):
-    """Whether the covariance is the second moment, from which no mean was subtracted."""
-    mean, best = ends(inputs)
-    excess = _outer(mean)
-    off, size = (
-        np.abs(S).max(axis=(1, 2)) for S in (outputs["covariance"] - best - excess, excess)
-    )
-    return bool(np.median(off / size) < 0.1)
-
-
-def _volume_off(factor):
-    def matches(inputs, outputs):
-        sizes = np.linalg.slogdet(outputs["covariance"])[1] - np.linalg.slogdet(ends(inputs)[1])[1]
-        return bool((np.median(sizes) * np.sign(factor)) > abs(factor))
-
-    return matches
 
 
 def _shapes(inputs):
@@ -250,47 +148,10 @@ TASK = Task(
             step=_step,
         ),
     ),
-    diagnoses=(
-        Diagnosis(
-            "too-few-samples",
-            "These are samples, and too few: what you lose falls with their number. How many does "
-            "a hundredth of a nat take in every drive? And over what need you draw at all?",
-            _sampled,
-        ),
-        Diagnosis(
-            "straight-mean",
-            "Your mean is f(x, u), the end of a robot that has just the believed heading. Those "
-            "that head elsewhere get less far in that direction: where is their average?",
-            _straight_mean,
-        ),
-        Diagnosis(
-            "about-zero",
-            "You took the average of the squares of the ends themselves. A covariance is about the "
-            "mean: subtract it first.",
-            _about_zero,
-        ),
-        Diagnosis(
-            "wrapped-ends",
-            "In some drives your heading is far too unsure: ends just beyond π count as −π, and an "
-            "average of wrapped angles means nothing. Where else can you cut the circle?",
-            _wrapped,
-        ),
-        Diagnosis(
-            "too-sure",
-            "In most drives your covariance is smaller than the robots' scatter. Which of the four "
-            "is missing: place, heading, distance, turn? Or are your samples too few to span it?",
-            _volume_off(-0.5),
-        ),
-        Diagnosis(
-            "too-unsure",
-            "In most drives your covariance is larger than the robots' scatter: is something "
-            "counted twice, or a mean not subtracted?",
-            _volume_off(0.5),
-        ),
-    ),
+    diagnoses=MISTAKES,
     probes=(
         Probe("a heading known to 0.06° and wheels that slip", _sure),
-        Probe("short drives with an unsure heading and wheels that slip", _slipping),
+        Probe(SLIP, _slipping),
         Probe("drives backwards", lambda rng: _times(rng, -1)),
         Probe("turns on the spot", lambda rng: _times(rng, 0)),
         Probe("headings near ±π", _turned),

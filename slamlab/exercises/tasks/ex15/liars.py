@@ -59,14 +59,35 @@ def _pose_0_moved(inputs, outputs):
     return np.abs((outputs["result"] - inputs["poses"])[:, 0]).max() > FREE
 
 
-def _nothing_fits(inputs, outputs):
-    """Whether true and false loops are bent alike: in most maps hardly any loop fits."""
+def _chi2(inputs, at):
+    """(d, loops) χ² of each loop in each map."""
     i, j = np.moveaxis(inputs["pairs"], -1, 0)
     drive = np.arange(len(i))[:, None]
-    at = outputs["result"]
     e = error(at[drive, i], at[drive, j], inputs["seen"])
-    chi2 = np.einsum("dma,dmab,dmb->dm", e, inputs["trust"], e)
-    return np.median(np.mean(chi2 < FITS, axis=1)) < 0.2
+    return np.einsum("dma,dmab,dmb->dm", e, inputs["trust"], e)
+
+
+def _fitting(inputs, outputs):
+    """(d,) the share of the loops that fit each map; of the loops of a set more than half fit."""
+    return np.mean(_chi2(inputs, outputs["result"]) < FITS, axis=1)
+
+
+def _pull(inputs, outputs):
+    """How far off the loops are in the middle, in units of how far they are for the wheels."""
+    return np.median(_chi2(inputs, outputs["result"])) / np.median(_chi2(inputs, inputs["poses"]))
+
+
+def _all_pull(inputs, outputs):
+    return _fitting(inputs, outputs).max() < 0.4 and _pull(inputs, outputs) < 0.5
+
+
+def _none_used(inputs, outputs):
+    return _fitting(inputs, outputs).max() < 0.4 and _pull(inputs, outputs) >= 0.5
+
+
+def _in_some(inputs, outputs):
+    fitting = _fitting(inputs, outputs)
+    return fitting.min() < 0.25 and np.median(fitting) < 0.45 and fitting.max() > 0.5
 
 
 MISTAKES = (
@@ -76,10 +97,23 @@ MISTAKES = (
         _pose_0_moved,
     ),
     Diagnosis(
-        "nothing-fits",
-        "Hardly any loop fits your maps, not even a true one: either all of them pull, the false "
-        "ones as well as the true ones, or none was used.",
-        _nothing_fits,
+        "all-pull",
+        "In none of your maps do half of the loops fit, and all of them pull: true ones and false "
+        "ones meet in the middle. Which of them contradict each other?",
+        _all_pull,
+    ),
+    Diagnosis(
+        "none-used",
+        "In none of your maps do half of the loops fit, and your maps are no nearer to them than "
+        "the wheels are: hardly a true loop is used.",
+        _none_used,
+    ),
+    Diagnosis(
+        "in-some",
+        "In some of your maps the true loops are used, and in others hardly any is. The wheels "
+        "drift, more in some drives than in others, and the more the longer the way: how far may "
+        "a true loop be from what they say?",
+        _in_some,
     ),
 )
 
