@@ -25,6 +25,8 @@ HALF_TURNED = "is off by half turns, π. Which function knows all four quadrants
 ZERO = "is 0. Which line should have filled it?"
 SCALED = "is {} times the right one: which factor, or which unit?"
 SHIFTED = "is off by the same amount: what is added, or left out, once?"
+MULTIPLE = "is off by a multiple of {}: what is counted once too often, or not at all?"
+LATER = "stands at entry {} or later, counted from 0: what is new there?"
 REORDERED = "stands elsewhere: look at the order of rows, columns and entries."
 NEAR_BY = (
     "is off by {} of the largest at most: something small is left out, or an approximation stands "
@@ -118,6 +120,7 @@ def _compared(pairs):
     if len(got) < FEW:
         return None
     ratio = np.vdot(want, got) / max(np.vdot(want, want), ROUNDING)
+    step, later = _step_of(got - want), min(map(_first_wrong, wrong))
     for name, so, says in (
         ("turned", turned.all(), TURNED),
         ("negative", _same(got, -want).all(), NEGATIVE),
@@ -125,7 +128,9 @@ def _compared(pairs):
         ("zero", not got.any(), ZERO),
         ("scaled", got.any() and _same(got, ratio * want).all(), SCALED.format(f"{ratio:.6g}")),
         ("shifted", _same(got - want, (got - want)[0]).all(), SHIFTED),
+        ("multiple", step >= FEW, MULTIPLE.format(step)),
         ("reordered", all(_reordered(*pair) for pair in pairs), REORDERED),
+        ("later", later > 0, LATER.format(later)),
     ):
         if so:
             return name, says
@@ -156,6 +161,18 @@ def _same(a, b):
 def _turned(got, want, by):
     times = np.rint((got - want) / by)
     return (times != 0) & (np.abs(got - want - times * by) <= SAME)
+
+
+def _step_of(off):
+    """The largest whole number of which all differences are multiples; 1 if they are not whole."""
+    whole = np.rint(off)
+    return int(np.gcd.reduce(whole.astype(int))) if _same(off, whole).all() else 1
+
+
+def _first_wrong(wrong):
+    """The first entry of an array where something is wrong; 0 of what is no row of entries."""
+    rows = wrong.reshape(len(wrong), -1).any(axis=1) if wrong.ndim else np.array([True])
+    return int(np.argmax(rows)) if rows.size > FEW else 0
 
 
 def _off(got, want):

@@ -39,6 +39,14 @@ TURN = dataclasses.replace(
 )
 
 
+LONG = dataclasses.replace(
+    TURN,
+    shapes={"result": (6,)},
+    laws=(equals("row", 2, "", lambda i: {"result": np.arange(6) * i["angle"][:, None] ** 2}),),
+    probes=(),
+)
+
+
 def right(v, angle):
     one = _turned({"v": v[None], "angle": np.array([angle])})
     return one["result"][0]
@@ -113,6 +121,26 @@ def test_where_all_is_wrong_that_one_output_is_near_is_not_told():
     assert clue(task, sets, answers({"x": close, "y": square})) is None
     said = clue(task, sets, answers({"x": close, "y": np.negative}))
     assert said.hint.startswith("Every number of y that is wrong is exactly the negative")
+
+
+@pytest.mark.parametrize(
+    "off, name, says",
+    [
+        (lambda k, a: 0 * k, None, None),
+        (lambda k, a: np.where(k > 3, a, 0), "later", "at entry 4 or later"),
+        (lambda k, a: 256 * (k % 3), "multiple", "a multiple of 256"),
+        (lambda k, a: (k + 1) % 3, None, None),
+    ],
+)
+def test_of_a_row_it_is_told_where_it_begins_to_be_wrong(off, name, says):
+    k, sets = np.arange(6), LONG.draw(OPEN_SEED)
+
+    def row(v, angle):
+        return k * angle**2 + off(k, angle)
+
+    found = clue(LONG, sets, run_sets(LONG.drive, {"turn": row}, sets))
+    assert (found and found.name) == name
+    assert name is None or says in found.hint
 
 
 def test_check_tells_a_clue_where_no_mistake_is_recognised():

@@ -3,7 +3,7 @@
 - ``robot``: H of range and bearing by the pose; ``place``: J_xr and J_z of a new landmark
 - ``landmark``: its covariance, and with the pose
 - ``camera``: the lesson's derivation for a camera beside the robot's centre
-- ``unsure``: a drive that no Jacobian foretells, better than linearised
+- ``unsure``: a drive that no Jacobian foretells, better than linearised; ``scatter``: how good
 - ``generic``: random poses and covariances, differences
 """
 
