@@ -4,6 +4,7 @@ Read in this order:
 
 - here: check, hint, ask, attempt, validate
 - ``borrowed``: what a student took from the package that grading does not hold
+- ``unread_cells``: a syntax error, behind which an older function is judged
 - ``ladder``: what hint says; ``questions``: what ask shows, ``stored_questions``: of lessons
 - ``notebook_file``: where this notebook stands, what of it is not saved
 - ``validation``: a whole notebook judged as grading judges it
@@ -140,14 +141,20 @@ def _task(task_id):
 
 def _offer_hint():
     """Put hint among a notebook's names: exercises tell of it before the first check."""
-    shell = sys.modules["IPython"].get_ipython() if "IPython" in sys.modules else None
+    shell = _shell()
     if shell is not None:
         shell.user_ns.setdefault("hint", hint)
+
+
+def _shell():
+    """IPython's shell, without importing it; None outside of a notebook."""
+    return sys.modules["IPython"].get_ipython() if "IPython" in sys.modules else None
 
 
 def _check(task_id, namespace):
     from slamlab.checks import ladder
     from slamlab.checks.borrowed import borrowed
+    from slamlab.checks.unread_cells import unread
     from slamlab.coursework import progress_records
     from slamlab.exercises import catalogue, report
 
@@ -166,6 +173,8 @@ def _check(task_id, namespace):
     if taken := borrowed(task.drive.functions, namespace, exercise.answers):
         problem = f"{taken}, which answers this exercise: at grading it is not there"
         verdict = task.failed("borrowed", problem)
+    if said := unread(task.drive.functions, _shell()):
+        print(f"{said}\n")
     if printed.get(task.id):
         print(f"your code printed:\n{printed[task.id]}\n")
     if warned.get(task.id):

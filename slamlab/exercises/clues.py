@@ -34,7 +34,7 @@ NEAR_BY = (
     "stops early)."
 )
 ONLY_THERE = (
-    "All random inputs come out right: something is wrong only with {}. What is special there, and "
+    "Everything else comes out right: something is wrong only with {}. What is special there, and "
     "which line does not allow for it?"
 )
 ONE_SIDE = (
