@@ -164,7 +164,9 @@ class Task:
             return self.failed(found[MAIN].kind, found[MAIN].message)
         with np.errstate(all="ignore"), one_judging():
             idle = came_back.degenerate(sets[MAIN], found[MAIN])
-            results = tuple(self._result(law, sets, found, idle) for law in self.all_laws)
+            results = tuple(self._result(law, sets, found) for law in self.all_laws)
+            if idle:
+                results = self._of_nothing(results)
             matching = (d for d in self.diagnoses if _safely(d.matches, sets[d.on], found[d.on]))
             wrong = any(result.failed for result in results)
             mistake = next(matching, IDLE if idle else None) if wrong else None
@@ -173,6 +175,19 @@ class Task:
         named = (mistake.name, mistake.hint) if mistake else (None, None)
         return Verdict(self.id, earned, self.points, results, *named)
 
+    def _of_nothing(self, results):
+        """Results of a degenerate answer: a law that it obeys by chance holds, and earns nothing;
+        where it obeys all of them, none was obeyed."""
+        own = [result for result in results if result.name != UNCHANGED.name]
+        obeyed = not any(result.failed for result in own)
+        found = (
+            replace(result, points=0.0, failed=result.tried, where={MAIN: None})
+            if obeyed and result in own
+            else replace(result, points=0.0)
+            for result in results
+        )
+        return tuple(found)
+
     def _worth_something(self, results):
         """Results of which those of laws that earn nothing alone earn beside others only."""
         pairs = zip(self.all_laws, results, strict=True)
@@ -180,25 +195,23 @@ class Task:
             return results
         return tuple(replace(result, points=0.0) for result in results)
 
-    def _result(self, law, sets, found, idle):
+    def _result(self, law, sets, found):
         failed = tried = 0
         where = {}
         for name, outputs in found.items():
             if not self.judges(law, name):
                 continue
-            lost = self.broken(law, sets[name], outputs, idle)
+            lost = self.broken(law, sets[name], outputs)
             tried, failed = tried + lost.size, failed + int(lost.sum())
             if lost.any():
                 where[name] = outputs.message if isinstance(outputs, StudentError) else None
         points = 0.0 if failed else law.points
         return LawResult(law.name, law.says, points, law.points, failed, tried, where)
 
-    def broken(self, law, inputs, outputs, idle=False):
+    def broken(self, law, inputs, outputs):
         """(n,) bool, which inputs of a set broke a law; one entry where it is judged as a whole."""
         if isinstance(outputs, StudentError):
             return np.array([law is not UNCHANGED])  # a call that fails has changed nothing by that
-        if idle and law is not UNCHANGED:
-            return np.array([True])
         holds = _safely(law.holds, inputs, outputs)
         return ~np.atleast_1d(np.asarray(holds, dtype=bool))
 
