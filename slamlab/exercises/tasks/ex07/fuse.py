@@ -107,7 +107,7 @@ FUSE = Task(
         equals(
             "honest",
             2,
-            "P is the covariance that the error of this x really has",
+            "P is the covariance of the error of the best x",
             lambda inputs: {"P": _best(inputs)["P"]},
             tolerance=EXACT,
             asks="What is left of the error of a when its share in b − a is taken away?",
