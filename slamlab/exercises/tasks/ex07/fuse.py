@@ -91,7 +91,7 @@ FUSE = Task(
         Probe("errors that share nearly everything", _nearly_one),
         Probe("b a worse copy of a", _worse_copy),
         Probe("errors that are opposed", _opposed),
-        Probe("numbers in mm", lambda rng: _drawn(rng, 3, unit=1e3)),
+        Probe("large numbers", lambda rng: _drawn(rng, 3, unit=1e3)),
     ),
     laws=(
         equals(
