@@ -67,7 +67,8 @@ class Task:
     inputs : rng -> name to array; generic ones, so that no two mistakes look alike
     shapes : output name to shape, None for any length; or inputs -> such a dict
     laws : what a right solution obeys
-    diagnoses : mistakes told by a property of the outputs, tried in order when a law failed
+    diagnoses : mistakes told by a property of the outputs, tried in order where a law failed on
+        the set that they look at
     needs : ids of earlier tasks of the exercise that must be solved first
     probes : edges of what is promised
     parts : (inputs, outputs) -> name to array: what can be wrong by itself, in a form all right
@@ -167,9 +168,11 @@ class Task:
             results = tuple(self._result(law, sets, found) for law in self.all_laws)
             if idle:
                 results = self._of_nothing(results)
-            matching = (d for d in self.diagnoses if _safely(d.matches, sets[d.on], found[d.on]))
-            wrong = any(result.failed for result in results)
-            mistake = next(matching, IDLE if idle else None) if wrong else None
+            own = results[: len(self.laws)]
+            wrong = {name for result in own for name in result.where}
+            suspected = (d for d in self.diagnoses if d.on in wrong)
+            matching = (d for d in suspected if _safely(d.matches, sets[d.on], found[d.on]))
+            mistake = next(matching, IDLE if idle else None)
         results = self._worth_something(results)
         earned = sum(result.points for result in results)
         named = (mistake.name, mistake.hint) if mistake else (None, None)
@@ -177,16 +180,11 @@ class Task:
 
     def _of_nothing(self, results):
         """Results of a degenerate answer: a law that it obeys by chance holds, and earns nothing;
-        where it obeys all of them, none was obeyed."""
-        own = [result for result in results if result.name != UNCHANGED.name]
-        obeyed = not any(result.failed for result in own)
-        found = (
-            replace(result, points=0.0, failed=result.tried, where={MAIN: None})
-            if obeyed and result in own
-            else replace(result, points=0.0)
-            for result in results
-        )
-        return tuple(found)
+        one that obeys all of them is refused."""
+        *own, unchanged = (replace(result, points=0.0) for result in results)
+        if not any(result.failed for result in own):
+            own = [replace(result, failed=result.tried, where={MAIN: None}) for result in own]
+        return (*own, unchanged)
 
     def _worth_something(self, results):
         """Results of which those of laws that earn nothing alone earn beside others only."""

@@ -315,6 +315,20 @@ def test_of_a_P_that_is_none_it_is_said_that_it_is_none(id, by):
     assert verdict.diagnosis not in {"shut-out", "boasts"}
 
 
+def test_of_an_answer_that_only_changes_its_arguments_nothing_else_is_said():
+    drawn = """
+def unsure_drive(x, P, u, C):
+    rng, n = np.random.default_rng(1), 200_000
+    P[0, 0] += 1e-12
+    x, u = rng.multivariate_normal(x, P, n).T, rng.multivariate_normal(u, C, n).T
+    ends = np.array([x[0] + u[0] * np.cos(x[2]), x[1] + u[0] * np.sin(x[2]), x[2] + u[1]])
+    return ends.mean(axis=1), np.cov(ends)
+"""
+    verdict = OF["04-unsure-drive"].verdict(drawn, OPEN_SEED)
+    assert broken(verdict) == {"unchanged"}
+    assert verdict.diagnosis is None
+
+
 @pytest.mark.parametrize("by", ["{k: (p, 2 * P)}", "{k: (p + 1e-3, P)}"])
 def test_a_case_does_not_point_to_an_array_that_is_right(by):
     by = f"out = {by[:-1]} for k, (p, P) in out.items()}}"
