@@ -333,8 +333,8 @@ attempt(lambda: show_drive(linearised, "linearised, 95 %"))
 # nats: by much if the end is many standard deviations off (the first term is half the NEES), and also if
 # the ellipse was drawn large to be on the safe side (the second term). On average over all ends, the
 # Gaussian with their true mean and covariance is surprised least. The check knows these exactly, and
-# counts how many nats you lose against them in twenty drives and in some special ones. There are four
-# steps:
+# counts how many nats you lose against them in twenty drives, and in special ones of five kinds. Half
+# of the drives means half of each kind. There are four steps:
 #
 # | step | what you lose | for comparison |
 # |---|---|---|

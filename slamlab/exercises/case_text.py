@@ -84,20 +84,29 @@ def _read(reading, inputs, outputs, one):
 
 
 def _worst(got, want):
-    """Where the first array differs most that is too large, or whose rounded numbers look alike."""
-    for name, right in want.items():
-        if name not in got or got[name].shape != right.shape or right.dtype.kind == "U":
-            continue  # how they differ can be seen at a glance
-        with np.errstate(invalid="ignore"):
-            off = np.nan_to_num(np.abs(got[name] - right)[0])
-        alike = format_numbers(name, got[name][0]) == format_numbers(name, right[0])
-        if off.size and off.max() > 0 and (alike or off.size > MOST):
-            at = np.unravel_index(np.argmax(off), off.shape)
-            index = f"[{', '.join(map(str, at))}]" if at else ""
-            digits = 12 if alike else 4
-            pair = f"{got[name][0][at]:.{digits}g} instead of {right[0][at]:.{digits}g}"
-            yield f"most of all {name}{index}: {pair}"
-            return
+    """Where the array that is off most differs, if it is too large or its numbers look alike."""
+    shares = {
+        name: _share_off(got[name], right)
+        for name, right in want.items()
+        if name in got and got[name].shape == right.shape and right.dtype.kind != "U"
+    }
+    name = max(shares, key=lambda name: shares[name].max(initial=0), default=None)
+    if name is None or not shares[name].max(initial=0) > 0:
+        return
+    mine, right = got[name][0], want[name][0]
+    alike = format_numbers(name, mine) == format_numbers(name, right)
+    if alike or right.size > MOST:  # else it can be seen at a glance
+        at = np.unravel_index(np.argmax(shares[name]), right.shape)
+        index = f"[{', '.join(map(str, at))}]" if at else ""
+        digits = 12 if alike else 4
+        yield f"most of all {name}{index}: {mine[at]:.{digits}g} instead of {right[at]:.{digits}g}"
+
+
+def _share_off(got, right):
+    """How far the first row of an array is off, as a share of the largest number wanted there."""
+    with np.errstate(invalid="ignore", divide="ignore"):
+        off = np.nan_to_num(np.abs(got - right)[0])
+        return np.nan_to_num(off / np.abs(right[0]).max(initial=0))
 
 
 def format_numbers(name, array) -> str:

@@ -67,7 +67,8 @@ class Task:
     inputs : rng -> name to array; generic ones, so that no two mistakes look alike
     shapes : output name to shape, None for any length; or inputs -> such a dict
     laws : what a right solution obeys
-    diagnoses : mistakes told by a property of the outputs, tried in order when a law failed
+    diagnoses : mistakes told by a property of the outputs, tried in order where a law failed on
+        the set that they look at
     needs : ids of earlier tasks of the exercise that must be solved first
     probes : edges of what is promised
     parts : (inputs, outputs) -> name to array: what can be wrong by itself, in a form all right
@@ -164,17 +165,26 @@ class Task:
             return self.failed(found[MAIN].kind, found[MAIN].message)
         with np.errstate(all="ignore"), one_judging():
             idle = came_back.degenerate(sets[MAIN], found[MAIN])
-            results = tuple(self._result(law, sets, found, idle) for law in self.all_laws)
-            wrong = {
-                on for result in results if result.name != UNCHANGED.name for on in result.where
-            }
-            told = (d for d in self.diagnoses if d.on in wrong)
-            matching = (d for d in told if _safely(d.matches, sets[d.on], found[d.on]))
+            results = tuple(self._result(law, sets, found) for law in self.all_laws)
+            if idle:
+                results = self._of_nothing(results)
+            own = results[: len(self.laws)]
+            wrong = {name for result in own for name in result.where}
+            suspected = (d for d in self.diagnoses if d.on in wrong)
+            matching = (d for d in suspected if _safely(d.matches, sets[d.on], found[d.on]))
             mistake = next(matching, IDLE if idle else None)
         results = self._worth_something(results)
         earned = sum(result.points for result in results)
         named = (mistake.name, mistake.hint) if mistake else (None, None)
         return Verdict(self.id, earned, self.points, results, *named)
+
+    def _of_nothing(self, results):
+        """Results of a degenerate answer: a law that it obeys by chance holds, and earns nothing;
+        one that obeys all of them is refused."""
+        *own, unchanged = (replace(result, points=0.0) for result in results)
+        if not any(result.failed for result in own):
+            own = [replace(result, failed=result.tried, where={MAIN: None}) for result in own]
+        return (*own, unchanged)
 
     def _worth_something(self, results):
         """Results of which those of laws that earn nothing alone earn beside others only."""
@@ -183,25 +193,23 @@ class Task:
             return results
         return tuple(replace(result, points=0.0) for result in results)
 
-    def _result(self, law, sets, found, idle):
+    def _result(self, law, sets, found):
         failed = tried = 0
         where = {}
         for name, outputs in found.items():
             if not self.judges(law, name):
                 continue
-            lost = self.broken(law, sets[name], outputs, idle)
+            lost = self.broken(law, sets[name], outputs)
             tried, failed = tried + lost.size, failed + int(lost.sum())
             if lost.any():
                 where[name] = outputs.message if isinstance(outputs, StudentError) else None
         points = 0.0 if failed else law.points
         return LawResult(law.name, law.says, points, law.points, failed, tried, where)
 
-    def broken(self, law, inputs, outputs, idle=False):
+    def broken(self, law, inputs, outputs):
         """(n,) bool, which inputs of a set broke a law; one entry where it is judged as a whole."""
         if isinstance(outputs, StudentError):
             return np.array([law is not UNCHANGED])  # a call that fails has changed nothing by that
-        if idle and law is not UNCHANGED:
-            return np.array([True])
         holds = _safely(law.holds, inputs, outputs)
         return ~np.atleast_1d(np.asarray(holds, dtype=bool))
 

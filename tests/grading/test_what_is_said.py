@@ -9,13 +9,15 @@ from scipy.stats import binom
 from course.programs import SOLUTION, namespace, programs
 from slamlab.checks import ladder
 from slamlab.exercises import catalogue
+from slamlab.exercises.drives.input_sets import MAIN
 from slamlab.exercises.reading import READINGS
-from slamlab.exercises.report import format_verdict
+from slamlab.exercises.report import BROKEN, format_verdict, marked_laws
 from slamlab.exercises.run_task import run_and_tell
 from slamlab.exercises.task import OPEN_SEED
 from slamlab.exercises.tasks.ex11 import draw, kidnapped
 
-OF = {one.task.id: one for id in ("11", "13", "14") for one in programs(id)}
+FIRST = ("01", "02", "03", "04", "05", "06", "07")
+OF = {one.task.id: one for id in (*FIRST, "11", "13", "14") for one in programs(id)}
 TICKETS = "def draw(weights, rng):\n    return rng.choice(len(weights), len(weights), p=weights)\n"
 
 
@@ -33,6 +35,13 @@ def edited(id, *pairs, way=SOLUTION):
         assert source.count(find) == 1
         source = source.replace(find, replace)
     return source
+
+
+def changed(id, by):
+    """The solution, whose results are changed by some lines before they are returned."""
+    name = OF[id].task.drive.functions[0]
+    source = OF[id].ways[SOLUTION].replace(f"def {name}(", "def _right(")
+    return f"{source}\n\ndef {name}(*given):\n    out = _right(*given)\n    {by}\n    return out\n"
 
 
 def test_who_draws_right_on_average_is_not_said_to_draw_wrong_on_average():
@@ -201,3 +210,143 @@ def test_the_last_hint_is_repeated_without_the_case(monkeypatch):
     assert third.startswith("A question: ")
     assert "copies asked for" in third
     assert third.endswith("That was the last hint on this law.")
+
+
+@pytest.mark.parametrize("id", [id for id in OF if id[:2] in FIRST])
+def test_a_law_knows_what_is_right_or_why_an_answer_is_not(id):
+    assert [law.name for law in OF[id].task.laws if not (law.want or law.why)] == []
+
+
+def noisy(errors="error * ranges * rng.standard_normal(len(ranges))", lost="dropouts", first=""):
+    """A noisy of which one thing is another."""
+    return f"""
+def noisy(ranges, error, dropouts, rng):
+    {first}
+    measured = ranges + {errors}
+    measured[rng.random(len(ranges)) < {lost}] = np.nan
+    return measured
+"""
+
+
+ONE_THING_WRONG = {
+    "a heading that is wrong is not said to lie beyond π": (
+        "01-next-pose",
+        changed("01-next-pose", "out[2] = 0.5 * out[2]"),
+        {"heading"},
+    ),
+    "who meets no wall meets none behind, beside or along": (
+        "02-ray-wall",
+        "def ray_wall(p, phi, wall):\n    return np.inf",
+        {"reached"},
+    ),
+    "no point is misplaced of which nobody knows whose it is": (
+        "02-to-points",
+        edited("02-to-points", ("back = millimetres > 0", "back = millimetres > 3000")),
+        {"nothing left out"},
+    ),
+    "errors that are too large average out": (
+        "02-noise",
+        noisy("10 * error * ranges * rng.standard_normal(len(ranges))"),
+        {"spread"},
+    ),
+    "errors that do not grow average out": (
+        "02-noise",
+        noisy("error * rng.standard_normal(len(ranges))"),
+        {"spread"},
+    ),
+    "beams that are lost twice as often are lost one by one": (
+        "02-noise",
+        noisy(lost="2 * dropouts"),
+        {"dropouts"},
+    ),
+    "who always draws the same errs as much as is asked": (
+        "02-noise",
+        noisy(first="rng = np.random.default_rng(1)"),
+        {"dropouts", "seed"},
+    ),
+    "nobody asks how honest a filter is that is far off": (
+        "03-ghosts",
+        changed("03-ghosts", "out = out[0] + [0.5, 0], out[1]"),
+        {"better", "close"},
+    ),
+    "nobody asks how a map errs that is none": (
+        "06-slam",
+        changed("06-slam", "out = *out[:2], out[2][:2]"),
+        {"ids"},
+    ),
+}
+
+
+@pytest.mark.parametrize("what", ONE_THING_WRONG)
+def test_one_thing_wrong_breaks_no_law_that_speaks_of_another(what):
+    id, source, laws = ONE_THING_WRONG[what]
+    for seed in (OPEN_SEED, b"said 1", b"said 2"):
+        verdict = OF[id].verdict(source, seed)
+        marked = marked_laws(verdict, OF[id].task)
+        assert {law.name for law, mark in marked if mark == BROKEN} == laws
+
+
+def test_how_near_a_robot_is_hangs_on_no_P():
+    one = OF["06-false-sights"]
+    sets = one.task.draw(OPEN_SEED)
+    answers = one.answers(one.ways[SOLUTION], sets)
+    for factor, laws in ((100, {"careful", "honest"}), (0.01, {"careful", "honest"})):
+        told_so = {MAIN: answers[MAIN] | {"P": factor * answers[MAIN]["P"]}}
+        assert broken(one.task.judge(sets, told_so)) == laws
+
+
+@pytest.mark.parametrize(
+    ("id", "by"),
+    [
+        ("03-ghosts", "out = out[0], 0 * np.array(out[1])"),
+        ("04-unsure-drive", "out = out[0], 0 * out[1]"),
+        ("05-lost", "out = out[0], 0 * out[1]"),
+        ("06-slam", "out = out[0], 0 * out[1], out[2]"),
+        ("06-false-sights", "out = out[0], 0 * out[1], out[2]"),
+        ("07-mornings", "out = out[0], 0 * out[1]"),
+    ],
+)
+def test_of_a_P_that_is_none_it_is_said_that_it_is_none(id, by):
+    verdict = told(id, changed(id, by))
+    if id != "05-lost":  # there it is counted how many robots know how far off they are
+        assert "covariance" in verdict.case
+    assert verdict.case
+    assert not re.search(r"\b(nan|inf)\b", verdict.case)
+    assert verdict.diagnosis not in {"shut-out", "boasts"}
+
+
+def test_of_an_answer_that_only_changes_its_arguments_nothing_else_is_said():
+    drawn = """
+def unsure_drive(x, P, u, C):
+    rng, n = np.random.default_rng(1), 200_000
+    P[0, 0] += 1e-12
+    x, u = rng.multivariate_normal(x, P, n).T, rng.multivariate_normal(u, C, n).T
+    ends = np.array([x[0] + u[0] * np.cos(x[2]), x[1] + u[0] * np.sin(x[2]), x[2] + u[1]])
+    return ends.mean(axis=1), np.cov(ends)
+"""
+    verdict = OF["04-unsure-drive"].verdict(drawn, OPEN_SEED)
+    assert broken(verdict) == {"unchanged"}
+    assert verdict.diagnosis is None
+
+
+@pytest.mark.parametrize("by", ["{k: (p, 2 * P)}", "{k: (p + 1e-3, P)}"])
+def test_a_case_does_not_point_to_an_array_that_is_right(by):
+    by = f"out = {by[:-1]} for k, (p, P) in out.items()}}"
+    case = told("05-map", changed("05-map", by)).case
+    assert "should return" in case
+    assert "most of all" not in case  # what is wrong can be seen, and the rest is rounding
+
+
+@pytest.mark.parametrize(
+    ("id", "source", "not_so"),
+    [
+        ("02-echo", changed("02-echo", "out = 1.01 * out"), "a-fan-of-beams"),
+        ("02-noise", noisy(lost="2 * dropouts"), "all-or-none"),
+        ("02-noise", noisy("0"), "one-number-for-all"),
+    ],
+)
+def test_a_property_is_not_told_of_who_does_not_have_it(id, source, not_so):
+    for seed in (OPEN_SEED, b"said 1", b"said 2"):
+        verdict = OF[id].verdict(source, seed)
+        assert not verdict.full
+        assert verdict.diagnosis != not_so

@@ -55,7 +55,8 @@ PROGRAMS = {
     ),
     "always-the-same": ((SUM, "rng = np.random.default_rng(0)\n    " + SUM),),
     "zero-for-lost": ((LOSE, LOSE.replace("np.nan", "0.0")),),
-    "one-number-for-all": ((DRAW, "rng.standard_normal()"), (SIGMA, "0 * ranges * ")),
+    "no-error": ((SIGMA, "0 * ranges * "),),
+    "one-number-for-all": ((DRAW, "rng.standard_normal()"),),
     "one-sided": (
         (DRAW, "abs(rng.standard_normal(len(ranges)))"),
         (DRAW, "rng.random(len(ranges))"),

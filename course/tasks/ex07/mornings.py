@@ -146,8 +146,8 @@ SLIPS = (
     ),
     Slip(
         "cross-terms-dropped",
-        "P holds variances only. Doors passed on one morning err together: without cross terms the "
-        "ways between them seem far less sure than they are.",
+        "P holds variances only. Doors passed on one morning err together, and P has to say so: the way "
+        "between two of them is surer than both are by themselves.",
         (_OUT, "return state[:m], np.diag(np.diag(C)[:m])"),
     ),
     Slip(

@@ -84,7 +84,7 @@ def thrice(functions, inputs):
 
     Returns
     -------
-    {"state": (3, n, k) of NOTHING, FINITE, INFINITE, "ranges": (3, n, k), 0 where not finite}
+    {"state": (n, 3, k) of NOTHING, FINITE, INFINITE, "ranges": (n, 3, k), 0 where not finite}
 
     Raises
     ------
@@ -97,7 +97,7 @@ def thrice(functions, inputs):
             for ranges, error, dropouts, seed in rows(inputs)
         ]
         calls.append(_flagged([_row(result, "noisy", beams) for result in found]))
-    return {name: np.array([flags[name] for flags in calls]) for name in ("state", "ranges")}
+    return {name: np.stack([c[name] for c in calls], axis=1) for name in ("state", "ranges")}
 
 
 def fitted(functions, inputs):

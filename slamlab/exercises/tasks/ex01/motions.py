@@ -62,7 +62,10 @@ def laws_of_a_pose(want, places, heading, asks, step=None):
         return turn.holds(inputs, outputs) & small
 
     says = "and it is an angle between −π and π"
-    return place, turn, replace(turn, name="wrapped", says=says, holds=within, asks=asks[2])
+    wrapped = replace(
+        turn, name="wrapped", says=says, holds=within, asks=asks[2], after=(turn.name,)
+    )
+    return place, turn, wrapped
 
 
 def parts_of_a_pose(inputs, outputs):

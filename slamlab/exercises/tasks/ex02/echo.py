@@ -139,8 +139,10 @@ def _beams(inputs, outputs):
     """Whether walls that are met square on are told a little too far, as no beam meets the foot."""
     right, kind = heard(inputs)
     foot = (kind == "foot") & (outputs["met"] == 1)
-    share = outputs["distance"][foot] / right[foot] - 1
-    return foot.any() and (share > -1e-12).all() and (share < 0.05).all() and (share > 1e-9).any()
+    off = outputs["distance"][foot] - right[foot]
+    share = off / right[foot]
+    uneven = foot.any() and min(np.ptp(off), np.ptp(share)) > 1e-6  # no factor, nor a summand
+    return uneven and (share > -1e-12).all() and (share < 0.05).all()
 
 
 FAN = Diagnosis(

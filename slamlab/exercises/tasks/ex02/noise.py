@@ -28,23 +28,44 @@ def _bounded(inputs, outputs, off):
     )
 
 
+def _rms(z):
+    return np.sqrt(np.mean(z**2))
+
+
 def _right_on_average(inputs, outputs):
-    return _bounded(inputs, outputs, lambda z, error: abs(z.mean()) * np.sqrt(len(z)))
-
-
-def _spread_right(inputs, outputs):
+    # errors that spread too far have a mean that does: so it is judged by what they do spread
     def off(z, error):
-        return abs(np.sqrt(np.mean(z**2)) - error) * np.sqrt(2 * len(z))
+        return abs(z.mean()) * np.sqrt(len(z)) * min(1, error / max(_rms(z), ROUNDING))
 
     return _bounded(inputs, outputs, off)
 
 
-def _why_spread(inputs, outputs):
+def _spread_right(inputs, outputs):
+    def off(z, error):
+        return abs(_rms(z) - error) * np.sqrt(2 * len(z))
+
+    return _bounded(inputs, outputs, off)
+
+
+def _told(inputs, outputs, off):
+    """What errors of the sensor are that are off most, near or far."""
     told = [(z, error) for _, z, error, _ in each(inputs, outputs) if len(z)]
-    z, error = max(told, key=lambda two: abs(np.log(np.sqrt(np.mean(two[0] ** 2)) / two[1])))
+    if not told:
+        return "no reading came back"
+    z, error = max(told, key=lambda two: off(*two))
     return (
-        f"{len(z)} readings of one sensor are {100 * z.mean():.3g} % too long on average, and "
-        f"{100 * np.sqrt(np.mean(z**2)):.3g} % off (rms); error is {100 * error:.3g} %"
+        f"{len(z)} reading{'' if len(z) == 1 else 's'} of one sensor: {100 * z.mean():.3g} % too "
+        f"long on average, and {100 * _rms(z):.3g} % off (rms); error is {100 * error:.3g} %"
+    )
+
+
+def _why_average(inputs, outputs):
+    return _told(inputs, outputs, lambda z, _: abs(z.mean()) * np.sqrt(len(z)) / _rms(z))
+
+
+def _why_spread(inputs, outputs):
+    return _told(
+        inputs, outputs, lambda z, error: abs(_rms(z) / error - 1) if error else _rms(z) > 0
     )
 
 
@@ -83,12 +104,28 @@ def _why_one_by_one(inputs, outputs):
     )
 
 
-def _nothing_stays(inputs, outputs):
-    return bool((outputs["state"][0] == NOTHING)[~np.isfinite(inputs["ranges"])].all())
+def _filled(inputs, outputs):
+    """(nan,) whether something came back, for each range that is NaN."""
+    return (outputs["state"][:, 0] != NOTHING)[np.isnan(inputs["ranges"])]
+
+
+def _why_filled(inputs, outputs):
+    filled = _filled(inputs, outputs)
+    return f"of {filled.size} ranges that are NaN {filled.sum()} came back as something else"
 
 
 def _seeded(inputs, outputs):
     return same(outputs, 0, 1) and not same(outputs, 0, 2)
+
+
+def _why_seeded(inputs, outputs):
+    if not same(outputs, 0, 1):
+        return "called once more with the same seed, it returns another scan"
+    return "called with another seed, it returns the same scan"
+
+
+def _thrice(ranges):
+    return len(ranges), CALLS, ranges.shape[1]
 
 
 EXACT = ("average", "spread", "dropouts", "nothing")
@@ -98,14 +135,14 @@ NOISE = Task(
     title="Noise",
     drive=DRIVES["02-noise"],
     inputs=sensors,
-    shapes=lambda inputs: dict.fromkeys(("state", "ranges"), (CALLS, *inputs["ranges"].shape)),
+    shapes=lambda inputs: dict.fromkeys(("state", "ranges"), _thrice(inputs["ranges"])),
     laws=(
         Law(
             "average",
             1,
             "over thousands of readings the errors average out",
             _right_on_average,
-            why=_why_spread,
+            why=_why_average,
             asks="Which random number has the mean 0 and is as often negative as positive?",
         ),
         Law(
@@ -131,6 +168,7 @@ NOISE = Task(
             "each beam is lost whatever the others do, so their number varies",
             _one_by_one,
             why=_why_one_by_one,
+            after=("dropouts",),
             asks="Ten beams, dropouts = 0.2: in how many scans of a hundred are just two lost?",
             main=False,
         ),
@@ -138,7 +176,8 @@ NOISE = Task(
             "nothing",
             1,
             "what was NaN already stays NaN",
-            _nothing_stays,
+            lambda inputs, outputs: not _filled(inputs, outputs).any(),
+            why=_why_filled,
             asks="What is NaN plus a number, and does any line of yours replace NaN?",
             alone=False,
         ),
@@ -147,6 +186,7 @@ NOISE = Task(
             0.5,
             "the same seed gives the same scan, another seed another one",
             _seeded,
+            why=_why_seeded,
             asks="Whose random numbers do you use?",
         ),
     ),

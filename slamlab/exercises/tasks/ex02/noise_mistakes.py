@@ -23,8 +23,8 @@ def _scaled(name, hint, sigma):
         for true, error, state, got in zip(
             inputs["ranges"],
             inputs["error"],
-            outputs["state"][0],
-            outputs["ranges"][0],
+            outputs["state"][:, 0],
+            outputs["ranges"][:, 0],
             strict=True,
         ):
             for part in (true > 3, true <= 3):
@@ -40,6 +40,13 @@ def _scaled(name, hint, sigma):
 def _share(inputs, outputs, wrong):
     """Whether each sensor loses a wrong share of its readings, of p."""
     return all(abs(lost[0].mean() - wrong(p)) < 0.05 for lost, p in lost_beams(inputs, outputs))
+
+
+def _as_many(inputs, outputs):
+    """Whether over all scans nearly as many are lost as should be: all or none, five times less."""
+    lost = [(lost[0].sum(), p * lost.shape[1]) for lost, p in lost_beams(inputs, outputs)]
+    found, due = np.sum(lost, axis=0)
+    return abs(found / due - 1) < 0.5
 
 
 MISTAKES = (
@@ -60,8 +67,13 @@ MISTAKES = (
         "Lost readings are 0: whoever averages takes them for a wall at the sensor. NaN says that "
         "nothing came back.",
         lambda inputs, outputs: bool(
-            ((outputs["ranges"][0] == 0) & (outputs["state"][0] == FINITE)).any()
+            ((outputs["ranges"][:, 0] == 0) & (outputs["state"][:, 0] == FINITE)).any()
         ),
+    ),
+    Diagnosis(
+        "no-error",
+        "No reading errs at all: where does error come in?",
+        lambda inputs, outputs: _all(inputs, outputs, lambda z: np.abs(z).max() < 1e-6),
     ),
     Diagnosis(
         "one-number-for-all",
@@ -125,7 +137,7 @@ MISTAKES = (
         "all-or-none",
         "One number decides about all beams of a scan, or about a whole run of them. Each is lost "
         "by itself.",
-        lambda inputs, outputs: surprise(inputs, outputs)[0] > 3,
+        lambda inputs, outputs: surprise(inputs, outputs)[0] > 3 and _as_many(inputs, outputs),
         on=SHORT,
     ),
 )

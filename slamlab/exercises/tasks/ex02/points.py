@@ -7,6 +7,8 @@ from slamlab.exercises.law import Law
 from slamlab.exercises.task import Probe, Task
 
 TOLERANCE = 1e-6  # [m]
+COUNTED = "nothing left out"
+"""Name of the law without which nobody knows which point is which reading's."""
 
 
 def turns(rng, scans=6, readings=20, empty=4, metres=(0.3, 6), offset=1.0, turn=(0.3, 2.8)):
@@ -133,7 +135,7 @@ TO_POINTS = Task(
     },
     laws=(
         _law(
-            "nothing left out",
+            COUNTED,
             1,
             "there is a point for each reading that came back, and none for the others",
             lambda inputs, outputs: outputs["count"] == _polar(inputs)[2].sum(axis=1),
@@ -143,9 +145,10 @@ TO_POINTS = Task(
         _law(
             "rigid",
             1,
-            "the points are as far from each other as the readings say",
+            "the points, in the readings' order, are as far from each other as the readings say",
             _rigid,
             "In which units are ranges and angles, and which do cosine and sine take?",
+            after=(COUNTED,),
         ),
         _law(
             "range",
@@ -154,6 +157,7 @@ TO_POINTS = Task(
             _range,
             "Where in the world does the sensor stand, when the robot stands at its pose?",
             step=_on_the_way,
+            after=(COUNTED,),
         ),
         _law(
             "bearing",
@@ -163,6 +167,7 @@ TO_POINTS = Task(
             "In which direction of the world does the sensor look at 0°, and to which side of it "
             "does it look at 10°?",
             step=_on_the_way,
+            after=(COUNTED,),
         ),
     ),
     probes=(

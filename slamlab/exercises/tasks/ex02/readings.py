@@ -34,17 +34,17 @@ def each(inputs, outputs):
     came back, as shares of the range, and what they should spread by; and dropouts."""
     names = ("ranges", "error", "dropouts")
     for k, (true, error, p) in enumerate(zip(*(inputs[name] for name in names), strict=True)):
-        back = outputs["state"][0, k] == FINITE
+        back = outputs["state"][k, 0] == FINITE
         for far in (False, True):
             there = (true > 3) == far if far else true <= 3
             kept = there & back
-            yield there.sum(), outputs["ranges"][0, k][kept] / true[kept] - 1, error, p
+            yield there.sum(), outputs["ranges"][k, 0][kept] / true[kept] - 1, error, p
 
 
 def lost_beams(inputs, outputs):
     """For each sensor (CALLS, beams) whether a reading was lost that could have come; and p."""
     for k, p in enumerate(inputs["dropouts"]):
-        yield (outputs["state"][:, k] == NOTHING)[:, np.isfinite(inputs["ranges"][k])], p
+        yield (outputs["state"][k] == NOTHING)[:, np.isfinite(inputs["ranges"][k])], p
 
 
 def surprise(inputs, outputs):
@@ -57,4 +57,6 @@ def surprise(inputs, outputs):
 
 
 def same(outputs, a, b):
-    return all(np.array_equal(array[a], array[b]) for array in outputs.values() if array.ndim == 3)
+    """Whether two calls had the same result for every sensor."""
+    calls = [array for array in outputs.values() if array.ndim == 3]
+    return all(np.array_equal(array[:, a], array[:, b]) for array in calls)

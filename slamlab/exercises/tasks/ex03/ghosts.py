@@ -94,11 +94,17 @@ def told_all(i):
     return typical(i, ordinary(i, np.abs(off) < 5 * np.sqrt(i["R"][0, 0, 0])))
 
 
+def _definite(o):
+    """Whether each P that counts is a covariance that can be inverted."""
+    P = o["Ps"][:, SETTLED:]
+    return bool(np.linalg.eigvalsh((P + np.swapaxes(P, 2, 3)) / 2).min() > 0)
+
+
 def nees_of(i, o):
-    """(drives,) the mean NEES of each drive; infinite where a P is none."""
+    """(drives,) the mean NEES of each drive; NaN where a P is none."""
     off, P = (o["xs"] - truth(i))[:, SETTLED:], o["Ps"][:, SETTLED:]
-    if np.linalg.eigvalsh((P + np.swapaxes(P, 2, 3)) / 2).min() <= 0:
-        return np.full(len(P), np.inf)
+    if not _definite(o):
+        return np.full(len(P), np.nan)
     return np.einsum("rki,rkij,rkj->rk", off, np.linalg.inv(P), off).mean(axis=1)
 
 
@@ -175,6 +181,8 @@ def _than(reference, factor, whose):
 def _why_dishonest(i, o):
     if not _better(i, o):
         return "that is asked only of a filter whose errors are small enough for the first law"
+    if not _definite(o):
+        return "not every P is a covariance: some have eigenvalues of 0 or below"
     return f"its mean NEES is {usual_nees(i, o):.2f}; it may be {HONEST[0]} to {HONEST[1]}"
 
 
@@ -212,6 +220,7 @@ WARY = Task(
             "and its P is honest: NEES is about 2 (the worst tenth of the drives is left out)",
             _honest,
             why=_why_dishonest,
+            after=("better",),
             asks="An innovation of three σ may be a ghost or a measurement, and you cannot know "
             "which. How sure may you be of your position after it, when you take it in, and when "
             "you do not?",

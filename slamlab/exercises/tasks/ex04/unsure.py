@@ -89,7 +89,7 @@ def _half(name, limit, asks):
         nats = lost(inputs, outputs)
         return (nats <= limit) | (np.median(nats) <= limit)
 
-    says = f"in half of the drives at least, you lose no more than {limit:g} nat"
+    says = f"of each kind of drive, you lose no more than {limit:g} nat in half at least"
     return Law(name, 1, says, holds, why=_why, asks=asks, step=_step)
 
 

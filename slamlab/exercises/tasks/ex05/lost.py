@@ -77,10 +77,12 @@ def offs(inputs, outputs):
 def honest(inputs, outputs):
     """(k,) whether a robot knows how far it is off, and that is not far."""
     off, P = _late(inputs, outputs)
+    definite = (np.linalg.eigvalsh(P) > 0).all(axis=(1, 2))
+    P = np.where(definite[:, None, None, None], P, np.eye(3))
     fits = nees(off.reshape(-1, 3), P.reshape(-1, 3, 3)).reshape(off.shape[:2]).mean(axis=1)
     sigma = np.sqrt((P[..., 0, 0] + P[..., 1, 1]).mean(axis=1))
     # 3 is right; ten steps in a row share their errors
-    return (fits > 0) & (fits < 15) & (sigma < 0.3)
+    return definite & (fits < 15) & (sigma < 0.3)
 
 
 def _believing(inputs, outputs):
@@ -103,8 +105,8 @@ def _why(inputs, outputs):
     off = offs(inputs, outputs)
     return (
         f"At the end, {np.sum(off < 0.4)} of {len(off)} robots are off by less than 0.4 m, and "
-        f"{np.sum(honest(inputs, outputs))} know how far; their errors are "
-        f"{np.median(off):.2f} m in the median and {off.max():.2f} m at the worst."
+        f"{np.sum((off < 0.4) & honest(inputs, outputs))} of these know how far. The errors of all "
+        f"are {np.median(off):.2f} m in the median and {off.max():.2f} m at the worst."
     )
 
 
@@ -155,22 +157,22 @@ LOST = Task(
     diagnoses=(
         Diagnosis(
             "heading-of-the-start",
-            "Most robots are metres off: they still head where they did when they were switched "
-            "on, or where a false sight sent them. Several headings may be tried.",
+            "Most robots are metres off, as those are that still head where they did when they "
+            "were switched on, or where a false sight sent them. Several headings may be tried.",
             lambda inputs, outputs: np.median(offs(inputs, outputs)) > 1.5,
         ),
         Diagnosis(
             "every-sight-believed",
-            "The heading may be right, but hardly a robot finds its place: every sight is "
+            "The heading may be right, but hardly a robot finds its place, as where every sight is "
             "believed, the false ones too. Does a sight agree with what the filter expects, as far "
             "as the filter knows?",
             _believing,
         ),
         Diagnosis(
             "heading-by-few-sights",
-            "Some robots are found, and the others are metres off: they set out with a heading "
-            "that false sights told, and true ones look false from there. Let more sights speak "
-            "for each heading before you choose.",
+            "Some robots are found, and the others are metres off, as those are that set out with "
+            "a heading that false sights told: true ones look false from there. Let more sights "
+            "speak for each heading before you choose.",
             _some_led_astray,
         ),
         Diagnosis(

@@ -8,6 +8,7 @@ from slamlab.exercises.tasks.ex06.runs import least_squares, truth
 from slamlab.geometry import wrap
 
 MAP = slice(3, None)
+NO_COVARIANCE = "a P at the end is no covariance: it has an eigenvalue of 0 or below"
 HONEST = 1 - 5e-7  # a right filter lies inside a band in this share of gradings
 APART = 0.2  # of x from least squares, mean square [σ²]: 0.06 at most for right filters, 3500 seeds
 SLACK = 1.15  # the Jacobians are taken at estimates: bands are this much wider

@@ -12,7 +12,7 @@ from slamlab.exercises.drives.ex06 import DRIVES
 from slamlab.exercises.law import Diagnosis, Law, once
 from slamlab.exercises.task import Task
 from slamlab.exercises.tasks.ex06.beliefs import either_sign
-from slamlab.exercises.tasks.ex06.ends import Ends, whole
+from slamlab.exercises.tasks.ex06.ends import NO_COVARIANCE, Ends, whole
 from slamlab.exercises.tasks.ex06.runs import EYES, RUNS, START, driven, measured, truth
 from slamlab.filters.data_association import squared_distances
 from slamlab.filters.landmark_models import POINTS
@@ -36,6 +36,8 @@ FAR = 40  # d² beyond which nobody's gate takes a sight for true
 MOST = np.sqrt(3)
 """In σ: what is measured errs by no more, evenly spread. With normal errors a right gate refuses a
 true sight at the wrong moment, and loses a robot, with one seed in a thousand."""
+LEAST = 0.5
+"""Mean NEES of the pose below which a P is no claim."""
 AS_TOLD = 0.55
 """So far from a filter that is told all may the best step be, as a share of that one's error."""
 
@@ -145,20 +147,21 @@ def _told(inputs, run, sights, true):
                 use(seen[rows].tolist(), sights[step, rows], inputs["R"])
 
 
-def _step(name, points, says, far, doubt_below=np.inf):
-    """One step of the ladder."""
+def _step(name, points, says, far, doubt_below=None):
+    """One step of the ladder; where no doubt is named, P may be anything."""
 
     def holds(inputs, outputs):
         if not whole(inputs, outputs) or share(inputs, outputs) > far:
             return False
-        return 0.5 < doubt(inputs, outputs) < doubt_below
+        return doubt_below is None or LEAST < doubt(inputs, outputs) < doubt_below
 
     def why(inputs, outputs):
         if not whole(inputs, outputs):
             return "the map does not hold each landmark once"
-        found = share(inputs, outputs), doubt(inputs, outputs)
-        said = "it is {:.2f} of that error away, and the mean NEES of its pose is {:.3g}"
-        return said.format(*found)
+        away = f"it is {share(inputs, outputs):.2f} of that error away"
+        if np.linalg.eigvalsh(ENDS.of(inputs, outputs)[1][:, :3, :3]).min() <= 0:
+            return f"{away}, and {NO_COVARIANCE}"
+        return f"{away}, and the mean NEES of its pose is {doubt(inputs, outputs):.3g}"
 
     return Law(name, points, says, holds, why=why, asks=ASKS)
 
@@ -193,11 +196,18 @@ FALSE_SIGHTS = Task(
             0.95,
         ),
         _step("good", 1, "no farther than 0.7 of that error", 0.7),
-        _step("careful", 1, "as near, and with a mean NEES of its pose below 15", 0.7, 15),
+        _step(
+            "careful",
+            1,
+            f"as near, and with a mean NEES of its pose between {LEAST} and 15",
+            0.7,
+            15,
+        ),
         _step(
             "honest",
             1,
-            f"no farther than {AS_TOLD} of that error, with a mean NEES below 10, where 3 is right",
+            f"no farther than {AS_TOLD} of that error, with a mean NEES between {LEAST} and 10, "
+            "where 3 is right",
             AS_TOLD,
             10,
         ),

@@ -5,7 +5,7 @@ import numpy as np
 from slamlab.exercises.drives.ex06 import DRIVES
 from slamlab.exercises.law import Law
 from slamlab.exercises.task import Diagnosis, Probe, Task
-from slamlab.exercises.tasks.ex06.ends import MAP, Ends, whole
+from slamlab.exercises.tasks.ex06.ends import MAP, NO_COVARIANCE, Ends, whole
 from slamlab.exercises.tasks.ex06.runs import RUNS, runs
 from slamlab.filters.landmark_models import POINTS
 
@@ -50,6 +50,8 @@ def _spread(part):
             return _counted(inputs, outputs)
         x, P = ENDS.of(inputs, outputs)
         error = ENDS.errors(inputs, x)[:, part]
+        if np.linalg.eigvalsh(P[:, part, part]).min() <= 0:
+            return NO_COVARIANCE
         share = np.einsum("ri,rij,rj->r", error, np.linalg.inv(P[:, part, part]), error).mean()
         return (
             f"over {len(x)} runs the mean of eᵀ P⁻¹ e is {share:.3g} at the end; for "
@@ -84,6 +86,7 @@ SLAM = Task(
             "over all runs, the pose errs as much as P says (NEES within its band)",
             ENDS.honest(np.s_[:3]),
             why=_spread(np.s_[:3]),
+            after=("ids",),
             asks="Was z measured before or after the drive? How often was the drive driven?",
         ),
         Law(
@@ -92,6 +95,7 @@ SLAM = Task(
             "over all runs, the landmarks err as much as P says (NEES within its band)",
             ENDS.honest(MAP),
             why=_spread(MAP),
+            after=("ids",),
             asks="Which landmark of x does the k-th row of z belong to?",
         ),
         Law(
@@ -101,6 +105,7 @@ SLAM = Task(
             "what lies between them",
             ENDS.sure,
             why=lambda inputs, outputs: ENDS.ratios_told(inputs, outputs),
+            after=("ids",),
             asks="Is any sight used twice, or never?",
         ),
     ),

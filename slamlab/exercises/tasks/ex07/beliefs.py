@@ -49,5 +49,7 @@ def expected_nees(x, P, best, P_best):
     """
     off = x - best
     spread = P_best + off[:, :, None] * off[:, None, :]
+    definite = np.linalg.eigvalsh((P + T(P)) / 2).min(axis=1) > 0
+    P = np.where(definite[:, None, None], P, np.eye(P.shape[1]))
     nees = np.trace(np.linalg.solve(P, spread), axis1=1, axis2=2)
-    return np.where(np.linalg.eigvalsh((P + T(P)) / 2).min(axis=1) > 0, nees, np.inf)
+    return np.where(definite, nees, np.inf)

@@ -91,7 +91,7 @@ FUSE = Task(
         Probe("errors that share nearly everything", _nearly_one),
         Probe("b a worse copy of a", _worse_copy),
         Probe("errors that are opposed", _opposed),
-        Probe("numbers in mm", lambda rng: _drawn(rng, 3, unit=1e3)),
+        Probe("large numbers", lambda rng: _drawn(rng, 3, unit=1e3)),
     ),
     laws=(
         equals(
@@ -107,7 +107,7 @@ FUSE = Task(
         equals(
             "honest",
             2,
-            "P is the covariance that the error of this x really has",
+            "P is the covariance of the error of the best x",
             lambda inputs: {"P": _best(inputs)["P"]},
             tolerance=EXACT,
             asks="What is left of the error of a when its share in b − a is taken away?",

@@ -92,7 +92,7 @@ def _nees_each(inputs, outputs):
     p, P = best(inputs)
     spread = (outputs["p"] - p) ** 2 + np.diagonal(P, axis1=1, axis2=2)
     claims = np.diagonal(outputs["P"], axis1=1, axis2=2)
-    return np.mean(spread / np.where(claims > 0, claims, 0))
+    return np.mean(np.where(claims > 0, spread / claims, np.inf))
 
 
 def _nees_ways(inputs, outputs):
@@ -120,7 +120,10 @@ def _honest_why(nees, of):
     def why(inputs, outputs):
         if not _error(inputs, outputs) <= FAIR:
             return f"the map comes first: {_error_why(inputs, outputs)}"
-        return f"NEES of {of} is {nees(inputs, outputs):.3g} on average, an honest claim's is 1"
+        found = nees(inputs, outputs)
+        if np.isinf(found):
+            return f"some P is no covariance of {of}: it has an eigenvalue of 0 or below"
+        return f"NEES of {of} is {found:.3g} on average, an honest claim's is 1"
 
     return why
 
@@ -203,8 +206,8 @@ MORNINGS = Task(
     diagnoses=(
         Diagnosis(
             "cross-terms-dropped",
-            "P holds variances only. Doors passed on one morning err together: without cross terms "
-            "the ways between them seem far less sure than they are.",
+            "P holds variances only. Doors passed on one morning err together, and P has to say "
+            "so: the way between two of them is surer than both are by themselves.",
             _alone,
         ),
         Diagnosis(
