@@ -83,12 +83,24 @@ def _why_one_by_one(inputs, outputs):
     )
 
 
-def _nothing_stays(inputs, outputs):
-    return bool((outputs["state"][0] == NOTHING)[~np.isfinite(inputs["ranges"])].all())
+def _stayed(inputs, outputs):
+    """Of each reading that was NaN, whether it still is."""
+    return (outputs["state"][0] == NOTHING)[~np.isfinite(inputs["ranges"])]
+
+
+def _why_nothing(inputs, outputs):
+    stayed = _stayed(inputs, outputs)
+    return f"of {stayed.size} readings that were NaN {np.sum(~stayed)} are NaN no more"
 
 
 def _seeded(inputs, outputs):
     return same(outputs, 0, 1) and not same(outputs, 0, 2)
+
+
+def _why_seeded(inputs, outputs):
+    if same(outputs, 0, 1):
+        return "with another seed the scan is the same"
+    return "called again with the same seed it gives another scan"
 
 
 EXACT = ("average", "spread", "dropouts", "nothing")
@@ -138,7 +150,8 @@ NOISE = Task(
             "nothing",
             1,
             "what was NaN already stays NaN",
-            _nothing_stays,
+            lambda inputs, outputs: bool(_stayed(inputs, outputs).all()),
+            why=_why_nothing,
             asks="What is NaN plus a number, and does any line of yours replace NaN?",
             alone=False,
         ),
@@ -147,6 +160,7 @@ NOISE = Task(
             0.5,
             "the same seed gives the same scan, another seed another one",
             _seeded,
+            why=_why_seeded,
             asks="Whose random numbers do you use?",
         ),
     ),
