@@ -28,11 +28,10 @@ def _why(inputs, outputs):
     way, turn = offs(inputs, outputs["result"])
     n, solved, sharp = len(way), *(within(inputs, outputs, of).sum() for of in (SOLVED, SHARP))
     odd = np.sum(~rigid(outputs["result"]))
+    none = f" {odd} of the matrices are no motions: Rot no rotation, or the last row not 0 0 1."
     return (
         f"{solved} of {n} are home, {sharp} of these sharply. The typical match is "
-        f"{100 * np.median(way):.1f} cm and {np.median(turn):.1f}° off."
-        + f" {odd} of the matrices are no motions: Rot no rotation, or the last row not 0 0 1."
-        * (odd > 0)
+        f"{100 * np.median(way):.1f} cm and {np.median(turn):.1f}° off.{none if odd else ''}"
     )
 
 
