@@ -138,6 +138,7 @@ END_POINT = Task(
             tolerance=DIFFERENCES,
             asks="Of which six numbers is p a function? How does it move when one of them does?",
             step=_on_the_way,
+            after=("place",),
         ),
         equals(
             "X",
@@ -147,6 +148,7 @@ END_POINT = Task(
             tolerance=DIFFERENCES,
             asks="Walls that are not met stand in X as well. What ties p to them?",
             step=_on_the_way,
+            after=("place",),
         ),
     ),
     rounds=_promised,

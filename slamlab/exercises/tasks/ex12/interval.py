@@ -63,7 +63,7 @@ def _inside(i, o):
 
 def _why_inside(i, o):
     k, n, (low, high) = i["k"][0], i["n"][0], o["result"][0]
-    return f"The interval is {low:.3g} to {high:.3g}, and {k} of {n} are {k / n:.3g}."
+    return f"The interval is {low:.6g} to {high:.6g}, and {k} of {n} are {k / n:.6g}."
 
 
 def _doubtful(i, o):
