@@ -61,9 +61,8 @@ def associated(functions, inputs):
 def _number(entry, walls):
     number = numbers(entry, "associate's entry")
     if number.shape != () or number != np.floor(number) or not 0 <= number < walls:
-        raise StudentError(
-            "malformed", f"associate: each entry is a wall's number, 0 to {walls - 1}, or None"
-        )
+        which = f"a wall's number, 0 to {walls - 1}, or None" if walls else "None: no wall is known"
+        raise StudentError("malformed", f"associate: each entry is {which}")
     return float(number)
 
 

@@ -106,6 +106,7 @@ CORNER = Task(
             "n₂·dp? "
             "Which dp obeys both?",
             step=_on_the_way,
+            after=("place",),
         ),
     ),
     probes=(

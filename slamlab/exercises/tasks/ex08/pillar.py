@@ -146,28 +146,29 @@ def _found(inputs):
     return {"found": inside.any(axis=1).astype(float), "inside": inside}
 
 
+def _refits(inputs, outputs):
+    """For each cloud the circle of the points that are said to be inside, whichever these are."""
+    for points, inside in zip(inputs["points"], outputs["inside"].astype(bool), strict=True):
+        yield circles(points[None, inside])[0] if inside.sum() >= 3 else np.full(3, np.inf)
+
+
 def _refitted(inputs, outputs):
-    """The circle is that of the points that are said to be inside, whichever these are."""
-    good = []
-    for points, circle, inside in zip(
-        inputs["points"], outputs["pillar"], outputs["inside"].astype(bool), strict=True
-    ):
-        enough = inside.sum() >= 3
-        good.append(enough and np.abs(circles(points[None, inside])[0] - circle).max() < 1e-6)
-    return np.where(most(inputs).any(axis=1), good, outputs["found"] == 0)
+    """What is found has the circle of its own points; nothing is, only where there is nothing."""
+    pairs = zip(_refits(inputs, outputs), outputs["pillar"], strict=True)
+    good = np.array([np.abs(best - circle).max() < 1e-6 for best, circle in pairs])
+    return np.where(outputs["found"] > 0, good, ~most(inputs).any(axis=1))
 
 
 def _why_not(inputs, outputs):
-    for points, circle, inside in zip(
-        inputs["points"], outputs["pillar"], outputs["inside"].astype(bool), strict=True
-    ):
-        if inside.sum() >= 3:
-            best = circles(points[None, inside])[0]
-            if np.abs(best - circle).max() >= 1e-6:
-                return (
-                    f"centre and radius are {circle.round(3)}, of its own readings {best.round(3)}"
-                )
-    return "there is no circle where there is one, or one where there is none"
+    k = np.flatnonzero(~_refitted(inputs, outputs))[0]
+    circle, best = outputs["pillar"][k], [*_refits(inputs, outputs)][k]
+    if not outputs["found"][k]:
+        return "There is a pillar, and None has no centre and no radius."
+    if not np.isfinite(best).all():
+        count = outputs["inside"][k].sum()
+        return f"Inside are {count:.0f} readings, and a circle takes three or more."
+    own, fitted = (f"({x:.3f}, {y:.3f}) m and {r:.3f} m" for x, y, r in (circle, best))
+    return f"Centre and radius are {own}; of the points that it says are inside they are {fitted}."
 
 
 PILLAR = Task(
@@ -197,6 +198,7 @@ PILLAR = Task(
             "inside are the readings of the pillar, all of them and no others",
             _found,
             asks="Which circles must not stand for election at all? And of the others, who wins?",
+            after=("circle",),
         ),
         Law(
             "refitted",
@@ -205,6 +207,7 @@ PILLAR = Task(
             _refitted,
             why=_why_not,
             asks="Three readings made the guess. How many know now where the pillar is?",
+            after=("circle", "inside"),
         ),
     ),
     probes=(

@@ -9,6 +9,10 @@ from slamlab.exercises.tasks.ex06.beliefs import T, either_sign
 from slamlab.exercises.tasks.ex09.update import beliefs
 from slamlab.geometry import wrap
 
+DIFFERENCES = 1e-4
+"""Share of a matrix's largest entry: one-sided differences of 1e-6 pass at a slant of 75°, where
+the slopes are steep; no wrong form does."""
+
 
 def ends(rng, rows=8, walls=3, slant=(0.3, 1.1)):
     """Beliefs, and beams that meet one of their walls.
@@ -131,16 +135,20 @@ END_POINT = Task(
             3,
             "C is the covariance of p when state and beam err as P and sigma say",
             _only("C"),
+            tolerance=DIFFERENCES,
             asks="Of which six numbers is p a function? How does it move when one of them does?",
             step=_on_the_way,
+            after=("place",),
         ),
         equals(
             "X",
             1.5,
             "X is what p shares with all of the state",
             _only("X"),
+            tolerance=DIFFERENCES,
             asks="Walls that are not met stand in X as well. What ties p to them?",
             step=_on_the_way,
+            after=("place",),
         ),
     ),
     rounds=_promised,

@@ -35,15 +35,6 @@ def _pairs(drawn, way, walls):
     return count
 
 
-def _why(inputs, outputs):
-    ghosts, lacking = wrong(inputs, outputs).T
-    clean = np.sum(ghosts + lacking == 0)
-    return (
-        f"{clean} of {len(ghosts)} maps are right; on the average a map has {ghosts.mean():.1f} "
-        f"walls too many and lacks {lacking.mean():.1f}."
-    )
-
-
 def _step(name, points, asks, *limits):
     """The law that so many of twelve maps have so many walls too many or too few at most."""
 
@@ -51,8 +42,17 @@ def _step(name, points, asks, *limits):
         faults = wrong(inputs, outputs).sum(axis=1)
         return all(np.sum(faults <= most) * 12 >= maps * len(faults) for maps, most in limits)
 
+    def why(inputs, outputs):
+        ghosts, lacking = wrong(inputs, outputs).T
+        count = {most: np.sum(ghosts + lacking <= most) for _, most in limits}
+        of = " and ".join(f"{maps} have {_faults(most)}" for most, maps in count.items())
+        return (
+            f"Of {len(ghosts)} maps {of}; on the average a map has {ghosts.mean():.1f} walls too "
+            f"many and lacks {lacking.mean():.1f}."
+        )
+
     says = " and ".join(f"{maps} of 12 maps have {_faults(most)}" for maps, most in limits)
-    return Law(name, points, says, holds, why=_why, asks=asks)
+    return Law(name, points, says, holds, why=why, asks=asks)
 
 
 def _faults(most):

@@ -62,11 +62,21 @@ def truth(inputs):
     return found
 
 
-def _counts(name, says, asks):
-    def holds(inputs, outputs):
+def _counts(name, says, asks, holds=None, **more):
+    def same(inputs, outputs):
         return (outputs[name] == truth(inputs)[name]).all(axis=(1, 2))
 
-    return Law(name, 1, says, holds, want=lambda inputs: {name: truth(inputs)[name]}, asks=asks)
+    def want(inputs):
+        return {name: truth(inputs)[name]}
+
+    return Law(name, 1, says, holds or same, want=want, asks=asks, **more)
+
+
+def _lives(inputs, outputs):
+    """Whether lives are right; of walls that are not in the book, or should not be, none are."""
+    right = truth(inputs)
+    same = (outputs["left"] == right["left"]) | (outputs["inside"] != right["inside"])
+    return same.all(axis=(1, 2))
 
 
 def _shapes(inputs):
@@ -100,16 +110,20 @@ LIFE = Task(
             "left",
             "it has as many lives as are left since it was last seen",
             "What does a sighting restore, and what does a scan without the wall cost?",
+            _lives,
+            alone=False,
         ),
         _counts(
             "sightings",
             "its sightings are the scans that held it since it came into the book",
             "How many looks at a wall is one scan, however often its id stands there?",
+            after=("inside",),
         ),
         _counts(
             "used",
             "used are the walls of this scan that have N sightings, each once",
             "Is this scan's own sighting among the N? And which walls can be used at all?",
+            after=("inside", "sightings"),
         ),
     ),
 )

@@ -117,6 +117,7 @@ PLACE = Task(
             asks="When θ alone errs, about which point does the wall turn, and what does that do "
             "to ρ?",
             step=_on_the_way,
+            after=("line",),
         ),
         equals(
             "X",
@@ -126,6 +127,7 @@ PLACE = Task(
             asks="If the pose errs by δ, the line errs by J_x δ and more. What is the mean of "
             "(J_x δ) δᵀ?",
             step=_on_the_way,
+            after=("line",),
         ),
     ),
 )

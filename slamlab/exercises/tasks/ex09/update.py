@@ -141,7 +141,8 @@ UPDATE = Task(
         equals(
             "mean",
             2,
-            "x fits belief and sight best: no other state has a smaller sum of squares",
+            "x fits belief and sight best: no other state has a smaller sum of squares, with h "
+            "taken as straight near the old x",
             _mean,
             asks="Turn a wall a little about the world's origin: does its distance from the robot "
             "change? Which entry of H says so?",

@@ -64,12 +64,12 @@ def _within(reference, most):
         each, average = _ratios(widths(out), reference(given))
         if not sound.all() or average.mean() <= most:
             return sound
-        return sound & (each <= most).all(axis=1)
+        return sound & ~(each > most).any(axis=1)  # NaN where the smallest is not known
 
     return holds
 
 
-def _why(reference, most, name):
+def _why(most, *references):
     def why(given, out):
         by = poses.outside_each(given, out)
         if by.max() > SOUND:
@@ -79,22 +79,25 @@ def _why(reference, most, name):
                 f"The pose ({x:.3f} m, {y:.3f} m, {theta:.3f} rad) agrees with every sighting and "
                 f"with all that was known before, and lies {by.max():.2g} outside."
             )
-        each, _ = _ratios(widths(out), reference(given))
+        ratios = ((_ratios(widths(out), of(given))[0], name) for of, name in references)
+        each, name = next((each, name) for each, name in ratios if (each > most).any())
         told = ", ".join(f"{w} {ratio:.2f}" for w, ratio in zip(NAMES, each[0], strict=True))
         return f"This is {told} times as wide as {name}; {most:g} on average is allowed."
 
     return why
 
 
+def _known(given):
+    return widths(given) + SOUND
+
+
+def _look(given):
+    return widths(one_round(given)) + SOUND
+
+
 def _lesson(given):
     """What a round of look leaves; of a few robots, whose average says little, what was known."""
-    left = given if len(given["robot"]) < FEW else one_round(given)
-    return widths(left) + SOUND
-
-
-def _law(name, points, says, reference, most, asks, of):
-    holds, why = _within(reference, most), _why(reference, most, of)
-    return Law(name, points, says, holds, why=why, asks=asks)
+    return (_known if len(given["robot"]) < FEW else _look)(given)
 
 
 def _step(name, asks):
@@ -102,7 +105,9 @@ def _step(name, asks):
     says = (
         f"the same, and on average all is at most {most:g} times as wide as the smallest there is"
     )
-    return _law(name, points, says, poses.tightest, most, asks, "the smallest there is")
+    why = _why(most, (poses.tightest, "the smallest there is"))
+    holds = _within(poses.tightest, most)
+    return Law(name, points, says, holds, why=why, asks=asks, after=("sound",))
 
 
 def _wide(rng):
@@ -121,14 +126,16 @@ NARROW = Task(
     inputs=poses.inputs,
     shapes=lambda given: {"robot": (len(given["robot"]), 4), "heading": (len(given["robot"]), 2)},
     laws=(
-        _law(
+        Law(
             "sound",
             0.5,
             "no pose that agrees with all is outside, and no more is left than by a round of look",
-            _lesson,
-            1.0,
-            "Which poses does each line give up? Has each of them been shown to be impossible?",
-            "what one round of look leaves",
+            _within(_lesson, 1.0),
+            why=_why(
+                1.0, (_known, "what was known before"), (_look, "what a round of look leaves")
+            ),
+            asks="Which poses does each line give up? Has each of them been shown to be "
+            "impossible?",
         ),
         _step(
             "less", "Which of the three, x, y or θ, makes d_abs wide? What if you knew it better?"

@@ -70,8 +70,9 @@ def share(given, poses):
 def extremes(given):
     """(n, 6, 3) poses that agree with all: the farthest found along x, y, θ, −x, −y, −θ.
 
-    Tries are made round the best so far, first until one agrees, then farther and farther out. The
-    rows of a robot for which none is found are NaN.
+    Tries are made round the best so far, first until one agrees, then farther and farther out; the
+    same for all robots, so that what is found of one does not hang on the others. The rows of a
+    robot for which none is found are NaN.
     """
     return _extremes(
         tuple((name, a.shape, np.asarray(a, float).tobytes()) for name, a in given.items())
@@ -81,32 +82,32 @@ def extremes(given):
 @functools.lru_cache(maxsize=16)
 def _extremes(key):
     given = {name: np.frombuffer(data).reshape(shape) for name, shape, data in key}
-    rng, (middle, half) = np.random.default_rng(0), _known(given)
-
-    start = _agreeing(given, rng, middle[:, None], half[:, None])
-    found = _farthest(
-        given, rng, np.repeat(start, 6, axis=1), np.repeat(half[:, None] / 2, 6, axis=1)
-    )
+    middle, half = _known(given)
+    start = _agreeing(given, middle[:, None], half[:, None])
+    found = _farthest(given, np.repeat(start, 6, axis=1), np.repeat(half[:, None] / 2, 6, axis=1))
     found[(share(given, found) > 1).any(axis=1)] = np.nan
     return found
 
 
-def _agreeing(given, rng, best, scale):
+def _agreeing(given, best, scale):
     """(n, 1, 3) poses that agree, by tries round the best so far, wide and narrow in turn."""
+    rng = np.random.default_rng(0)
     for k in range(SEEK):
-        if (share(given, best) <= AGREE).all():
+        agrees = (share(given, best) <= AGREE)[:, 0]
+        if agrees.all():
             break
-        spread = scale * 0.75 ** (k % 20) * rng.standard_normal((len(best), TRIES, 3))
+        spread = scale * 0.75 ** (k % 20) * rng.standard_normal((TRIES, 3))
         tries = np.concatenate([best, best + spread], axis=1)
-        first = share(given, tries).argmin(axis=1)
+        first = np.where(agrees, 0, share(given, tries).argmin(axis=1))
         best = np.take_along_axis(tries, first[:, None, None], axis=1)
     return best
 
 
-def _farthest(given, rng, best, scale):
+def _farthest(given, best, scale):
     """(n, 6, 3) poses that agree with all, each the farthest out of tries round the one before."""
+    rng = np.random.default_rng(1)
     for _ in range(CLIMB):
-        spread = scale[:, :, None] * rng.standard_normal((*best.shape[:2], TRIES, 3))
+        spread = scale[:, :, None] * rng.standard_normal((len(DIRECTIONS), TRIES, 3))
         tries = np.concatenate([best[:, :, None], best[:, :, None] + spread], axis=2)
         agrees = share(given, tries.reshape(len(best), -1, 3)).reshape(tries.shape[:-1]) <= AGREE
         out = np.where(agrees, (tries * DIRECTIONS[:, None]).sum(axis=-1), -np.inf)

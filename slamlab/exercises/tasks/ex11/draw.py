@@ -1,8 +1,9 @@
 """Task 11-draw: a comb gives each sample its share, rounded up or down, and is fair.
 
 The band of fairness is seven standard deviations of the mean wide: a comb's where shares are
-rounded, else those of the answer. Who draws right on average, by a comb or by n tickets, is inside
-all but once in 10⁷ gradings (of 24 means the rarest are binomial, with 15 copies due in all).
+rounded, else those of the answer, which also tells whether copies come in heaps. Who draws right on
+average, by a comb or by n tickets, is inside all but once in 10⁷ gradings (of 24 means the rarest
+are binomial, with 15 copies due in all).
 """
 
 import numpy as np
@@ -79,7 +80,11 @@ def _strays(i, o):
 def _fair(i, o):
     rest = _asked(i)[:, 0] % 1
     comb = rest * (1 - rest)  # the variance of a share that is rounded up or down
-    strayed = np.maximum(o["copies"].var(axis=1), comb)
+    tickets = _asked(i)[:, 0] * (1 - i["weights"])
+    strayed = o["copies"].var(axis=1)
+    # a sample that was never drawn strays by nothing: what the others say of heaps holds for it
+    heaps = strayed.sum(axis=1) / tickets.sum(axis=1)
+    strayed = np.maximum(strayed, np.maximum(comb, heaps[:, None] * tickets))
     variance = np.where(_rounded(i, o)[:, None], comb, strayed)
     # nearly whole shares are rare events: a normal band needs a few expected ones more
     band = BAND * np.sqrt((variance + 0.01) / i["seeds"].shape[1])

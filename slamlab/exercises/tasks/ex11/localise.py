@@ -26,12 +26,15 @@ def strays(i, o):
     return np.sqrt((white**2).mean()), share[:, 1:].mean()
 
 
-def _sum_to_one(i, o):
-    return (np.abs(o["weights"].sum(axis=-1) - 1) < 1e-9).all()
+def _sums_off(o):
+    """(k, t) by how much the weights' sums are off."""
+    return np.abs(o["weights"].sum(axis=-1) - 1)
 
 
-def _weighed(i, o, likelihoods=runs.log_likelihoods):
-    """(k,) whether weights grew by the likelihood wherever a step has not drawn anew."""
+def _grown(i, o, likelihoods=runs.log_likelihoods):
+    """(k, t, n) the logarithms of weights less that of the sample that should weigh most, as they
+    are and as they should be, and whether they are so; (k, t, 1) where a step has drawn anew.
+    """
     w, before = o["weights"], runs.begun(i, o)[1]
     drawn = np.ptp(w, axis=-1, keepdims=True) < 1e-9 / w.shape[-1]
     want = np.log(before) + likelihoods(i, o["rows"])
@@ -40,11 +43,29 @@ def _weighed(i, o, likelihoods=runs.log_likelihoods):
     got = np.log(w) - np.log(np.take_along_axis(w, best, -1))
     same = np.abs(got - want) < SAME * (1 + np.abs(want))
     nothing = (w < 1e-250) & (want < -550)  # a float's last ones have few digits
-    return (same | nothing | drawn).all(axis=(1, 2)), drawn.all()
+    return got, want, same | nothing | drawn, drawn
 
 
 def _weights_right(i, o):
-    return _weighed(i, o)[0] & _sum_to_one(i, o)
+    *_, right, _ = _grown(i, o)
+    return right.all(axis=(1, 2)) & (_sums_off(o) < 1e-9).all(axis=1)
+
+
+def _why_weights(i, o):
+    off = np.argwhere(_sums_off(o) >= 1e-9)
+    if len(off):
+        k, t = off[0]
+        total = o["weights"][k, t].sum()
+        return f"The weights that call {t}, counted from 0, returned sum to {total:.6g}."
+    got, want, right, _ = _grown(i, o)
+    k, t, _ = np.argwhere(~right)[0]
+    n = np.where(right, 0, np.nan_to_num(np.abs(got - want), nan=np.inf))[k, t].argmax()
+    most = want[k, t].argmax()
+    return (
+        f"In call {t}, counted from 0, sample {most} should weigh most, by what it weighed before "
+        f"and its likelihood. The logarithm of the weight of sample {n} should be less than that "
+        f"of sample {most} by {-want[k, t, n]:.4g}, and is by {-got[k, t, n]:.4g}."
+    )
 
 
 def _worth(o):
@@ -126,8 +147,8 @@ def _why_worth(i, o):
 def _before_moving(i, o):
     """Whether the weights are those of the samples where they stood before the drive."""
     before = runs.begun(i, o)[0]
-    right, all_drawn = _weighed(i, o, lambda i, rows: runs.log_likelihoods(i, before))
-    return right.all() and not all_drawn
+    *_, right, drawn = _grown(i, o, lambda i, rows: runs.log_likelihoods(i, before))
+    return right.all() and not drawn.all()
 
 
 EXACT = ("weights", "worth", "drawn")
@@ -163,6 +184,7 @@ LOCALISE = Task(
             1,
             "a weight grows by the likelihood of the scan; all sum to one",
             _weights_right,
+            why=_why_weights,
             asks="What did the samples weigh before this step, and is that still in your weights?",
         ),
         Law(
@@ -190,7 +212,7 @@ LOCALISE = Task(
         Diagnosis(
             "not-normalised",
             "The weights do not sum to one: normalise them.",
-            lambda i, o: not _sum_to_one(i, o),
+            lambda i, o: _sums_off(o).max() >= 1e-9,
         ),
         Diagnosis(
             "weighed-before-moving",

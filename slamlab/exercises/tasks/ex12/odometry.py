@@ -108,7 +108,7 @@ ODOMETRY = Task(
             np.s_[:],
             "What is sin(Δθ/2) / (Δθ/2) when Δθ is tiny, and what does the computer say of 0 / 0?",
             main=False,
-            after=("curves",),
+            after=("curves", "turn"),
         ),
     ),
     probes=PROBES,

@@ -107,7 +107,7 @@ def _both_at_once(rng):
 
 def _whole(rng):
     return {
-        "errors_a": np.array([[[3, 1], [1, 2], [5, 0], [4, 4], [2, 7], [6, 5], [9, 1]]]),
+        "errors_a": np.array([[[3, 1], [1, 2], [5, 0], [4, 4], [2, 7], [6, 5], [7, 1]]]),
         "errors_b": np.array([[[1, 2], [1, 1], [0, 2], [3, 9], [3, 3], [2, 2], [1, 1]]]),
         "limit": np.array([8.0]),
     }

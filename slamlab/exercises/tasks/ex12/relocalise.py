@@ -10,11 +10,14 @@ from slamlab.exercises.drives.ex12 import DRIVES
 from slamlab.exercises.law import Diagnosis, Law, once
 from slamlab.exercises.task import Task
 from slamlab.exercises.tasks.ex12 import hall
+from slamlab.geometry import between
 
 LIMIT = 0.3  # beyond it a filter strays [m]
 CERTAIN = 3  # sights of posts that no other bay has
 NEAR = 0.2  # of a post: its sight [m]
 MOST = 0.08  # share of stray readings that loses no point
+JUMP = 0.5  # [m]; no step is as long, nor off by as much
+SOME = 0.03  # share of steps: fewer are no jumps of a filter that notices
 KEPT = 0.02  # the solution: mostly 0, 0.006 at most
 
 
@@ -53,6 +56,29 @@ def kept(i, o):
     return far[before].mean() <= KEPT
 
 
+def jumps(i, o):
+    """(d, STEPS) bool: where the filter goes elsewhere than the wheels tell."""
+    before = np.concatenate([i["start"][:, None], o["poses"][:, :-1]], axis=1)
+    off = between(before, o["poses"]) - i["motions"]
+    return np.hypot(off[..., 0], off[..., 1]) > JUMP
+
+
+def _jumps_before(i, o):
+    return jumps(i, o)[strayed(i, o)[1]].mean() > SOME
+
+
+def _alike(i, o):
+    """The share of the stray readings that count that are in a place which looks like the right
+    one: in another bay, or turned by half a turn in one.
+    """
+    poses, _ = hall.truth(i)
+    got, want = o["poses"][..., :2], poses[..., :2]
+    off = np.stack([got - want, got + want - [0, hall.BAY]])
+    off[..., 0] -= hall.BAY * np.round(off[..., 0] / hall.BAY)
+    near = (np.hypot(off[..., 0], off[..., 1]) < LIMIT).any(axis=0)
+    return near[strayed(i, o)[0] & certain(i)].mean()
+
+
 def _why_kept(i, o):
     far, before = strayed(i, o)
     return (
@@ -76,6 +102,7 @@ def _step(name, points, most, asks):
         lambda i, o: kept(i, o) and lost(i, o) <= most,
         why=_why,
         asks=asks,
+        after=("keeps",),
     )
 
 
@@ -130,18 +157,25 @@ RELOCALISE = Task(
             "never-notices",
             "After the lift the filter goes on as if nothing had happened: nearly all it sees is "
             "near no post, and it does not mind.",
-            lambda i, o: kept(i, o) and lost(i, o) > 0.9,
+            lambda i, o: kept(i, o) and lost(i, o) > 0.9 and jumps(i, o).mean() < SOME,
         ),
         Diagnosis(
             "jumps",
             "It loses its place although nobody lifts the robot: a scan with some phantoms is "
             "enough to make it jump. How much better must another place be, and for how long?",
-            lambda i, o: not kept(i, o) and lost(i, o) < 0.9,
+            lambda i, o: not kept(i, o) and lost(i, o) < 0.9 and _jumps_before(i, o),
         ),
         Diagnosis(
             "wrong-bay",
             "In some drives it settles in the wrong bay, which looks like the right one, and stays "
             "there. One scan cannot decide this: what do you know of the other places that fitted?",
+            lambda i, o: kept(i, o) and lost(i, o) > MOST and _alike(i, o) > 0.5,
+        ),
+        Diagnosis(
+            "nowhere",
+            "Where it is off after the lift it is mostly in no place that looks like the right "
+            "one: what it sees does not fit there. How well does each pose that you tell fit its "
+            "own scan?",
             lambda i, o: kept(i, o) and lost(i, o) > MOST,
         ),
     ),

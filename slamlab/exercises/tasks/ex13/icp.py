@@ -42,7 +42,8 @@ ONE = judged_at(
     equals(
         "round",
         2,
-        "one round puts the best motion of the nearest pairs on top of T",
+        "one round puts the best motion of the nearest pairs on top of T, no round leaves T as "
+        "it is",
         matched,
         asks="In whose frame is the step found, and what has been done to the source by then? "
         "Which of the two motions acts first?",

@@ -11,22 +11,27 @@ SOLVED, SHARP = (0.2, 5.0), (0.015, 0.5)  # [m], [°]
 RIGID = 1e-6  # what a motion's matrix may be off its own
 
 
+def rigid(T):
+    """(n,) bool, whether matrices are those of motions."""
+    Rot = T[:, :2, :2]
+    turns = (np.abs(Rot @ Rot.mT - np.eye(2)).max(axis=(1, 2)) < RIGID) & (np.linalg.det(Rot) > 0)
+    return turns & (np.abs(T[:, 2] - [0, 0, 1]).max(axis=1) < RIGID)
+
+
 def within(inputs, outputs, limits):
     """(n,) bool, whether each answer is a motion and near the true one."""
-    T = outputs["result"]
-    Rot = T[:, :2, :2]
-    rigid = (np.abs(Rot @ Rot.mT - np.eye(2)).max(axis=(1, 2)) < RIGID) & (np.linalg.det(Rot) > 0)
-    rigid &= np.abs(T[:, 2] - [0, 0, 1]).max(axis=1) < RIGID
-    way, turn = offs(inputs, T)
-    return rigid & (way < limits[0]) & (turn < limits[1])
+    way, turn = offs(inputs, outputs["result"])
+    return rigid(outputs["result"]) & (way < limits[0]) & (turn < limits[1])
 
 
 def _why(inputs, outputs):
     way, turn = offs(inputs, outputs["result"])
     n, solved, sharp = len(way), *(within(inputs, outputs, of).sum() for of in (SOLVED, SHARP))
+    odd = np.sum(~rigid(outputs["result"]))
+    none = f" {odd} of the matrices are no motions: Rot no rotation, or the last row not 0 0 1."
     return (
         f"{solved} of {n} are home, {sharp} of these sharply. The typical match is "
-        f"{100 * np.median(way):.1f} cm and {np.median(turn):.1f}° off."
+        f"{100 * np.median(way):.1f} cm and {np.median(turn):.1f}° off.{none if odd else ''}"
     )
 
 
@@ -93,6 +98,13 @@ def _turned(inputs, outputs):
     return lost.mean() > 3 / 16 and np.median(offs(inputs, outputs["result"])[1][lost]) > 15
 
 
+def _shifted(inputs, outputs):
+    """Whether most answers that are not home are shifted wrongly."""
+    lost = ~within(inputs, outputs, SOLVED)
+    way, _ = offs(inputs, outputs["result"])
+    return lost.mean() > 3 / 16 and np.median(way[lost]) > SOLVED[0]
+
+
 def _home(inputs, outputs, limits=SOLVED):
     return within(inputs, outputs, limits).mean()
 
@@ -114,13 +126,13 @@ MISTAKES = (
         "shift-not-found",
         "Most matches that are not home are turned nearly right, and shifted wrongly. With the "
         "turn right, which shift do most pairs of points ask for?",
-        lambda i, o: _home(i, o) < 13 / 16,
+        _shifted,
     ),
     Diagnosis(
         "not-finished",
         "The matches are home, but not sharp: points of the two scans lie at different spots of a "
         "wall, and along it their distance means nothing. Finish across the walls.",
-        lambda i, o: _home(i, o, SHARP) < 9 / 16,
+        lambda i, o: _home(i, o) >= 13 / 16 and _home(i, o, SHARP) < 9 / 16,
     ),
 )
 

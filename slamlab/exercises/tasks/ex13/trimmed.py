@@ -52,7 +52,8 @@ ONE = _either(
     equals(
         "round",
         2,
-        "one round is the best motion of the shortest share of the pairs, put on top of T",
+        "one round puts the best motion of the shortest share of the pairs on top of T, no round "
+        "leaves T as it is",
         want,
         asks="Which rows of the source, and which of the target, belong to the shortest pairs?",
         step=lambda inputs: {

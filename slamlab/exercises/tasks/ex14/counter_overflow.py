@@ -107,7 +107,7 @@ UNWRAP = Task(
         Law(
             "shorter way",
             2,
-            "no step is longer than half a round",
+            "each step is shorter than half a round",
             lambda i, o: (np.abs(np.diff(o["result"], axis=1)) < ROUND / 2).all(axis=1),
             _wanted,
             asks="From one byte to the next there are two ways round the ring. Which of them can "

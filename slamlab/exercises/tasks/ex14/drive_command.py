@@ -115,6 +115,7 @@ COMMAND = Task(
             _wanted,
             asks="Which byte stands for −1, which for −100, and which for 300?",
             step=_bytes,
+            after=("form",),
         ),
         Law(
             "checksum",
@@ -125,6 +126,7 @@ COMMAND = Task(
             asks="What has to be added to the first three bytes to reach the next multiple of "
             "256, and what if they are at one already?",
             step=_bytes,
+            after=("form",),
         ),
     ),
     probes=(

@@ -211,8 +211,8 @@ TRIALS = Task(
         ),
         _lacking(
             "one way",
-            "You try one way only. What a driver keeps from the way before shows in a second one "
-            "that is handed to the same driver.",
+            "At most one of your ways has more than two readings. What a driver keeps from the way "
+            "before shows in a second one that is handed to the same driver.",
             lambda ways, raw, steps: sum(len(v) > 2 for v in ways) < 2,
         ),
         _lacking(

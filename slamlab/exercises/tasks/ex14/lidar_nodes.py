@@ -170,6 +170,7 @@ NODES = Task(
             asks="Write byte 0 in binary, bit 0 on the right: which bits are S, which the quality, "
             "and what moves these down to where they count as a number?",
             step=_words,
+            after=("whole nodes",),
         ),
         Law(
             "angle",
@@ -180,6 +181,7 @@ NODES = Task(
             asks="Of bytes 1 and 2, which one counts 256 times as much? And what stands in the "
             "lowest bit of the word, before the angle begins?",
             step=_words,
+            after=("whole nodes",),
         ),
         Law(
             "distance",
@@ -189,6 +191,7 @@ NODES = Task(
             _wanted,
             asks="How many millimetres is the largest number that 16 bits can hold, in quarters?",
             step=_words,
+            after=("whole nodes",),
         ),
     ),
     probes=(

@@ -219,6 +219,7 @@ SWEEP = Task(
             asks="How many points does byte 1 promise, and how does a point say that it did not "
             "come back?",
             step=_steps,
+            after=("damage refused",),
         ),
         Law(
             "range",
@@ -229,6 +230,7 @@ SWEEP = Task(
             asks="At which bytes does the third point begin, and how many millimetres are in a "
             "metre?",
             step=_steps,
+            after=("damage refused", "nothing left out"),
         ),
         Law(
             "angle",
@@ -240,6 +242,7 @@ SWEEP = Task(
             "gaps are between them, how wide is one, and which point is the third if the second "
             "did not come back?",
             step=_steps,
+            after=("damage refused", "nothing left out"),
         ),
     ),
     probes=(

@@ -33,7 +33,7 @@ _LEADS = equals(
 _TURN = equals(
     "wrapped",
     1,
-    "the turn of e is what θ_j − θ_i leaves of z's, between −π and π",
+    "the turn of e is θ_j − θ_i less that of z, between −π and π",
     _wanted,
     parts={"result": np.s_[2]},
     angles={"result": 2},

@@ -143,6 +143,7 @@ RADIO = Task(
                 asks="In which direction does a radio go when its robot turns on the spot, and how "
                 "much of that is along the line between the radios?",
                 step=_way,
+                after=("e",),
             )
             for name, pose in (("A", "i"), ("B", "j"))
         ),

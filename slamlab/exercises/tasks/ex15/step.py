@@ -35,11 +35,12 @@ _ANCHORED = equals(
 _LEAST = equals(
     "least",
     4,
-    "no other step lowers the sum of eᵀΛe more, e taken as straight near the poses",
+    "no other step lowers the sum of eᵀΛe more, e taken as straight near the poses, pose 0 held",
     _wanted,
     angles={"result": 2},
     asks="Take a graph of two poses and one edge: to where must pose 1 go, whatever Λ is?",
     step=_best_step,
+    after=("anchored",),
 )
 _WRAPPED = equals(
     "wrapped",
