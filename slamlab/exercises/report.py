@@ -82,7 +82,7 @@ def reason(law, mark):
     if mark == WAITS:
         return "builds on a law that is broken"
     if mark == KEPT and law.points < law.max_points:
-        return "it counts beside another law that holds"
+        return "by itself it earns nothing"
     return ""
 
 

@@ -175,7 +175,7 @@ def test_pages_tell_of_each_law_what_the_notebook_tells(monkeypatch):
     assert re.findall(r'<li class="(\w+)"', page) == ["broken", "waits", "kept", "kept"]
     for told in (text, page):
         assert "builds on a law that is broken" in told
-        assert "it counts beside another law that holds" in told
+        assert "by itself it earns nothing" in told
     told = SimpleNamespace(counts=[0, 0, 1], mistakes=[])
     view = submission_view._task(SimpleNamespace(mistakes={task.id: told}), one, task)
     assert [law["mark"] for law in view["laws"]] == marks
@@ -185,7 +185,7 @@ def test_a_tick_without_points_says_why():
     tick = Law("sized", 1, "has a size", lambda i, o: True, alone=False)
     task = dataclasses.replace(TURN, laws=(*TURN.laws, tick))
     said = format_verdict(task, run_and_tell(task, {"turn": lambda v, angle: np.cos(v)}))
-    assert "✓ has a size (0 of 1 point: it counts beside another law that holds)" in said
+    assert "✓ has a size (0 of 1 point: by itself it earns nothing)" in said
 
 
 def test_where_no_law_knows_the_answer_it_says_why_this_one_cannot_be():
