@@ -6,8 +6,9 @@ from slamlab.exercises import case_text, cases
 from slamlab.exercises.drives import StudentError
 from slamlab.exercises.drives.input_sets import run_sets
 from slamlab.exercises.task import OPEN_SEED
+from slamlab.exercises.time_limit import time_limit
 
-_climbed = {}  # (task's id, law's name) to how often a hint was asked for, in this kernel
+_climbed = {}  # (task's id, law's name) to how often a hint was asked for here, and of what last
 
 _STEP = "a step on the way"
 _LATER = "Hints go on once there is an answer to judge."
@@ -27,7 +28,7 @@ def offered(task, verdict) -> str:
     law = next((law for law in task.all_laws if law.name in broken), None)
     if law is None:
         return ""
-    climbed = _climbed.get((task.id, law.name), 0)
+    climbed, _ = _climbed.get((task.id, law.name), (0, None))
     if climbed == 0:
         return "asks a question that leads on"
     return f"shows {_STEP}" if climbed == 1 and law.step else ""
@@ -44,10 +45,15 @@ def next_rung(task, namespace) -> str:
     Returns
     -------
     str
+
+    Raises
+    ------
+    TimeLimitExceeded : where the functions take longer than a check lets them
     """
     sets = task.draw(OPEN_SEED)
     try:
-        answers = run_sets(task.drive, namespace, sets)
+        with time_limit(task.drive.seconds):
+            answers = run_sets(task.drive, namespace, sets)
     except StudentError as error:
         first = task.laws[0]
         begin = (
@@ -55,13 +61,15 @@ def next_rung(task, namespace) -> str:
         )
         return case_text.wrapped(f"{error.message}\n{begin}\n{_LATER}")
     try:
-        case = cases.smallest(task, sets, answers, lambda inputs: task.drive(namespace, inputs))
+        with time_limit(2 * task.drive.seconds):
+            case = cases.smallest(task, sets, answers, lambda inputs: task.drive(namespace, inputs))
     except KeyboardInterrupt:  # the time limit, perhaps: a case that is not shrunk will do
         case = cases.smallest(task, sets, answers)
     if case is None:
         return f"{task.id} breaks no law: there is nothing to hint at"
-    rung = _climbed.get((task.id, case.law.name), 0)
-    _climbed[task.id, case.law.name] = rung + 1
+    rung, answer = _climbed.get((task.id, case.law.name), (0, None)), _trace(answers)
+    rung = 0 if rung[0] > 1 and rung[1] != answer else rung[0]  # another answer: from the beginning
+    _climbed[task.id, case.law.name] = rung + 1, answer
     asks = case.law.asks or f"Where does your answer leave this law: {case.law.says}?"
     asks = case_text.wrapped(f"A question: {asks}")
     text, step = case_text.format_case(task, case), _step(case)
@@ -73,6 +81,16 @@ def next_rung(task, namespace) -> str:
     if rung > 1:  # the case was shown: check shows it, too
         return "\n".join(filter(None, [asks, step, _LAST]))
     return "\n".join(filter(None, ["" if step else asks, text, step, _LAST]))
+
+
+def _trace(answers):
+    """What tells one answer from another: all that came back."""
+    return hash(
+        tuple(
+            str(of) if isinstance(of, StudentError) else b"".join(a.tobytes() for a in of.values())
+            for of in answers.values()
+        )
+    )
 
 
 def _step(case):

@@ -68,7 +68,7 @@ def task(task_id) -> Task:
     """
     if not re.match(r"\d\d-", str(task_id)):
         raise KeyError(
-            f"no task {task_id!r}: its id is a text such as '04-h-robot', see its heading"
+            f"no task {task_id!r}: its id is a text such as '04-h-robot', see the check below it"
         )
     of = exercise(str(task_id)[:2])
     try:

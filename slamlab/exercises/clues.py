@@ -11,6 +11,7 @@ from slamlab.exercises.drives.input_sets import MAIN
 from slamlab.exercises.law import ROUNDING, TOLERANCE, Mistake, one_judging
 from slamlab.exercises.outputs import measured
 from slamlab.exercises.reading import READINGS
+from slamlab.exercises.report import and_others
 
 FEW = 3  # fewer numbers may look alike by chance
 NEAR = 0.03  # share of the largest number wanted that is near
@@ -22,11 +23,14 @@ NEGATIVE = (
     "line does it, and for which inputs?"
 )
 HALF_TURNED = "is off by half turns, π. Which function knows all four quadrants?"
-ZERO = "is 0. Which line should have filled it?"
+ZERO = (
+    "is 0. Which line should have filled it? Or did an array of whole numbers cut off its "
+    "fractions?"
+)
 SCALED = "is {} times the right one: which factor, or which unit?"
 SHIFTED = "is off by the same amount: what is added, or left out, once?"
 MULTIPLE = "is off by a multiple of {}: what is counted once too often, or not at all?"
-LATER = "stands at entry {} or later, counted from 0: what is new there?"
+LATER = "stands at entry {} or later, counted from 0, and all before it are right. What differs?"
 REORDERED = "stands elsewhere: look at the order of rows, columns and entries."
 NEAR_BY = (
     "is off by {} of the largest at most: something small is left out, or an approximation stands "
@@ -80,8 +84,7 @@ def _only_there(laws):
     names = list(dict.fromkeys(name for broken in laws.values() for name in broken))
     if not names or MAIN in names:
         return None
-    more = f" and {len(names) - 1} more" if len(names) > 1 else ""
-    return "only there", ONLY_THERE.format(names[0] + more)
+    return "only there", ONLY_THERE.format(and_others(names))
 
 
 def _how(laws, sets, found):

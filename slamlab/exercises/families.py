@@ -8,9 +8,8 @@ FAMILIES = {
     "right solution gives exactly your numbers.",
     "square": "A square or a root is missing or too many: variances are σ², and C, R and P hold "
     "variances.",
-    "transpose": "One matrix is transposed, or lacks its transpose: A P Aᵀ and Aᵀ P A have the "
-    "same "
-    "shape only where A is square.",
+    "transpose": "One matrix is transposed, or lacks its transpose. Where it is square no shape "
+    "tells.",
     "order": "Two things stand in the wrong order: two factors of a product, the two sides of a "
     "difference, or the arguments of a function.",
     "trigonometry": "A sine stands for a cosine, or a function for its inverse.",

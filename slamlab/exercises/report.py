@@ -46,13 +46,20 @@ def format_verdict(task: Task, verdict: Verdict) -> str:
     problems = dict.fromkeys(p for law in verdict.laws for p in law.where.values() if p)
     lines += [f"  {problem}" for problem in problems]
     # JupyterLab breaks longer lines in the middle of a word
-    lines = [textwrap.fill(line, WIDTH, subsequent_indent="    ") for line in lines]
+    lines = [_filled(line) for line in lines]
     if verdict.case:
         lines.append(verdict.case)
     if verdict.hint:
         hint = textwrap.fill(verdict.hint, WIDTH - 10)
         lines.append(textwrap.indent(hint, " " * 10).replace(" " * 10, "    Hint: ", 1))
     return "\n".join(lines)
+
+
+def _filled(line):
+    """A line wrapped, but not between a number and its points."""
+    kept = line.replace(" point", "\N{NO-BREAK SPACE}point")
+    filled = textwrap.fill(kept, WIDTH, subsequent_indent="    ")
+    return filled.replace("\N{NO-BREAK SPACE}", " ")
 
 
 def marked_laws(verdict: Verdict, task: Task | None):
@@ -130,9 +137,14 @@ def broken_by(law, task) -> str:
     if MAIN in law.where:
         as_a_whole = law.tried <= (task.sets_judged(law.name) if task else 1)
         return "" if as_a_whole else f"broken by {law.failed} of {law.tried} inputs"
-    probes = list(law.where)
-    also = f" and {len(probes) - 1} more" if len(probes) > 1 else ""
-    return f"broken with {probes[0]}{also}" if probes else ""
+    return f"broken with {and_others(list(law.where))}" if law.where else ""
+
+
+def and_others(probes) -> str:
+    """Name the first of some probes, and how many others there are: "an empty map and 1 other"."""
+    count = len(probes) - 1
+    kinds = "1 other kind of input" if count == 1 else f"{count} other kinds of input"
+    return f"{probes[0]} and {kinds}" if count else probes[0]
 
 
 def _in_notebook():

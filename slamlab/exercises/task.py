@@ -12,7 +12,7 @@ import numpy as np
 
 from slamlab.exercises import outputs as came_back
 from slamlab.exercises.drives import Arrays, Drive, StudentError
-from slamlab.exercises.drives.arguments import CHANGED
+from slamlab.exercises.drives.arguments import CHANGED, NAMES
 from slamlab.exercises.drives.input_sets import MAIN
 from slamlab.exercises.law import Diagnosis, Law, Mistake, one_judging
 from slamlab.exercises.verdict import LawResult, Verdict
@@ -204,7 +204,16 @@ class Task:
             if lost.any():
                 where[name] = outputs.message if isinstance(outputs, StudentError) else None
         points = 0.0 if failed else law.points
-        return LawResult(law.name, law.says, points, law.points, failed, tried, where)
+        says = law.says
+        if law is UNCHANGED and failed:
+            says += f", but {' and '.join(self._changed(sets, found))} changed"
+        return LawResult(law.name, says, points, law.points, failed, tried, where)
+
+    def _changed(self, sets, found):
+        """The names of the arguments that were changed in some call."""
+        names = NAMES.get(self.id) or list(sets[MAIN])
+        which = {int(k) for of in found.values() if isinstance(of, dict) for k in of[CHANGED]}
+        return [names[k] for k in sorted(which)]
 
     def broken(self, law, inputs, outputs):
         """(n,) bool, which inputs of a set broke a law; one entry where it is judged as a whole."""

@@ -99,7 +99,9 @@ def test_a_clue_says_which_probe_alone_is_wrong_and_how():
         name, hint = told(function)
         assert (name, "only with no angle." in hint) == ("only there", True)
         assert said in hint and "large" not in hint
-    assert "no angle and 1 more" in told(lambda v, a: right(v, a) + (a in (0, 1)) * v[0] ** 2)[1]
+    assert (
+        "no angle and 1 other kind" in told(lambda v, a: right(v, a) + (a in (0, 1)) * v[0] ** 2)[1]
+    )
 
 
 def test_where_all_is_wrong_that_one_output_is_near_is_not_told():

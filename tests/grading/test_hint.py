@@ -129,7 +129,7 @@ def test_a_function_that_hangs_ends(said):
         while True:
             pass
 
-    assert said(hangs).startswith("still running after 0.6 s")
+    assert said(hangs).startswith("still running after 0.2 s")
 
 
 def test_a_case_that_takes_long_to_shrink_is_shown_as_it_is(said):
@@ -212,3 +212,12 @@ def test_a_call_below_the_import_stops_no_cell_in_a_worker():
     assert judged(*cells, exercise=fake.EXERCISE)["cells"] == {
         3: "NameError: name 'y' is not defined (line 2 of the cell)"
     }
+
+
+def test_another_answer_climbs_from_the_beginning_once_the_ladder_was_at_its_end(said):
+    first, second, third = (said(right_turn) for _ in range(3))
+    assert third.startswith("A question:") and "That was the last hint" in third
+    assert said(lambda v, angle: 2 * turn(v, angle)) == first
+    assert "On the way" in said(right_turn)  # not at its end: the next rung, whoever asks
+    assert said(right_turn) == third
+    assert said(lambda v, angle: 3 * turn(v, angle)) == first != second

@@ -15,6 +15,7 @@ JUDGE = (
     "slamlab.exercises.catalogue",
     "slamlab.exercises.exercise",
     "slamlab.exercises.families",
+    "slamlab.exercises.clues",
     "slamlab.exercises.fingerprints",
     "slamlab.exercises.law",
     "slamlab.exercises.outputs",

@@ -122,6 +122,18 @@ def test_of_several_functions_the_one_not_attempted_is_named():
     assert raised.value.kind == "raised"
 
 
+def test_a_function_that_is_called_and_not_attempted_is_named():
+    names = {}
+    exec(compile("def inner(a):\n    raise NotImplementedError", "<cell 3>", "exec"), names)
+    exec(compile("def outer(a):\n    return inner(a)", "<cell 4>", "exec"), names)
+    drive = Drive(("outer",), lambda functions, inputs: {"result": functions["outer"](1)})
+    with pytest.raises(StudentError, match=r"^inner is not attempted yet$"):
+        drive(names, {})
+    alone = Drive(("inner",), lambda functions, inputs: {"result": functions["inner"](1)})
+    with pytest.raises(StudentError, match=r"^not attempted yet$"):
+        alone(names, {})
+
+
 def test_an_output_of_any_length_may_not_be_of_every_length():
     task = dataclasses.replace(TURN, shapes={"points": (None, 2)})
     verdict = task.judge(SETS, {MAIN: {"points": np.zeros((2001, 2))}})

@@ -204,6 +204,11 @@ SLIPS = (
         Edit("short", (("np.eye(len(P)) - K", "np.eye(len(P)) + K"),)),
     ),
     Slip(
+        "one-for-identity",
+        "The 1 in (1 − K H) P is the identity matrix, np.eye: the number 1 is taken from every entry.",
+        Edit("short", (("(np.eye(len(P)) - K", "(1 - K"),)),
+    ),
+    Slip(
         "P-factor-lost",
         "I − K H is only what is left of P, as a factor. It has to be multiplied by P.",
         Edit("short", (("(np.eye(len(P)) - K @ H) @ P", "np.eye(len(P)) - K @ H"),)),

@@ -72,6 +72,11 @@ RETURN = "return x, P - K @ S @ K.T"
 
 SLIPS = (
     Slip(
+        "one-for-identity",
+        "The 1 in (1 − K H) P is the identity matrix, np.eye: the number 1 is taken from every entry.",
+        (RETURN, "return x, (1 - K @ H) @ P"),
+    ),
+    Slip(
         "printed-15",
         "x is K · innovation alone: the old x is lost. The innovation corrects what was believed.",
         (X, "x = K @ v"),

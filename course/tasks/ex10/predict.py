@@ -143,7 +143,8 @@ SLIPS = (
     ),
     Slip(
         "longest-way-only",
-        "Only the longest way is driven. With a shorter one, or backwards, the robot ends elsewhere.",
+        "Only one end of the way is driven, the larger number. With another length, or backwards, the "
+        "robot ends elsewhere.",
         (PRODUCTS, "dx, dy = way[1] * np.array(cosines), way[1] * np.array(sines)"),
         (PRODUCTS, "dx, dy = np.max(way) * np.array([cosines, sines])"),
         (

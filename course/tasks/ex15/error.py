@@ -189,6 +189,11 @@ def error(x_i, x_j, z):
         "wrapped-to-a-turn",
         "The turn comes back between 0 and 2π: −10° has become 350°. It has to lie between −π and π.",
         _in((TURN, "(x_j[2] - x_i[2] - z[2]) % (2 * np.pi)")),
+    ),
+    Slip(
+        "turn-without-sign",
+        "The turn has lost its sign: −10° has become 10°. To which side a pose is turned wrongly "
+        "matters as much as how far.",
         _in((TURN, "abs(wrap(float(x_j[2] - x_i[2] - z[2])))")),
     ),
     Slip(

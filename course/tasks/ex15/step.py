@@ -44,6 +44,19 @@ TRANSPOSED = (
     "*first* J of each is transposed."
 )
 
+
+def _several(count):
+    return f"""
+def step(poses, edges):
+    for _ in range({count}):
+        poses = one_step(poses, edges)
+    return poses
+
+
+def one_step(poses, edges):
+{BLOCKS.split(chr(10), 2)[2]}"""
+
+
 SLIPS = (
     Slip(
         "sign-of-b",
@@ -232,16 +245,7 @@ SLIPS = (
     Slip(
         "several-steps",
         "This is more than one step. Whoever calls step goes on as long as needed.",
-        """
-def step(poses, edges):
-    for _ in range(3):
-        poses = one_step(poses, edges)
-    return poses
-
-
-def one_step(poses, edges):
-"""
-        + BLOCKS.split("\n", 2)[2],
+        *(_several(count) for count in (2, 3, 4, 5, 10, 20)),
     ),
     Slip(
         "gradient",

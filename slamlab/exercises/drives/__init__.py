@@ -217,10 +217,11 @@ class Drive:
         return outputs | {CHANGED: np.array(sorted(changed), dtype=float)}
 
     def _unsolved(self, error):
-        """That something is not attempted yet; of several functions, which."""
-        passed = [frame.f_code.co_name for frame, _ in walk_tb(error.__traceback__)]
-        which = [name for name in passed if name in self.functions]
-        named = f"{which[-1]} is " if which and len(self.functions) > 1 else ""
+        """That something is not attempted yet: which, unless it is the only function there is."""
+        codes = [frame.f_code for frame, _ in walk_tb(error.__traceback__)]
+        theirs = [code for code in codes if _CELL.search(code.co_filename)]
+        which = [code.co_name for code in codes if code in theirs or code.co_name in self.functions]
+        named = f"{which[-1]} is " if which and which[-1:] != [*self.functions] else ""
         return f"{named}not attempted yet"
 
 
@@ -261,5 +262,6 @@ def _line(frame, number):
     line = linecache.getline(frame.f_code.co_filename, number).strip()
     arrays = {w: frame.f_locals.get(w) for w in dict.fromkeys(re.findall(r"[^\W\d]\w*", line))}
     shapes = [f"{w} is {a.shape}" for w, a in arrays.items() if type(a) is np.ndarray]
-    said = "; ".join([f"`{line[:100]}`"] * bool(line) + [", ".join(shapes[:6])] * bool(shapes))
+    cut = f"{line[:99]}…" if len(line) > 100 else line
+    said = "; ".join([f"`{cut}`"] * bool(line) + [", ".join(shapes[:6])] * bool(shapes))
     return f", at {said}" if said else ""

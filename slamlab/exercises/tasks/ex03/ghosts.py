@@ -146,6 +146,14 @@ def _turned_round(i, o):
     return ghost > 0.1 and ghost > 2 * max(true, 0)
 
 
+def _one_sided(i, o):
+    """Whether ghosts on one side of what is expected are taken in, and on the other not."""
+    moved, v, ghost = _moved(i, o)
+    share = moved[..., 0] / v
+    sides = [np.median(share[ghost & (side * v > 1)]) for side in (-1, 1)]
+    return max(sides) > 0.1 and min(sides) < 0.01
+
+
 def _alike(i, o):
     true, ghost = _share(i, o)
     return ghost > 0.02 and abs(ghost - true) < 0.3 * ghost
@@ -238,6 +246,12 @@ WARY = Task(
             "You take in more of what is far off than of what fits: what you refuse and what you "
             "believe have changed places.",
             _turned_round,
+        ),
+        Diagnosis(
+            "one-sided",
+            "Ghosts behind the expected place are refused, and those before it are believed, or "
+            "the other way round: an innovation may be too large on either side.",
+            _one_sided,
         ),
         Diagnosis(
             "alike",

@@ -159,5 +159,5 @@ def sharpened(given):
     between = seen.mean(axis=1) - heading.mean(axis=1)
     seen = seen + (off(between) - between)[:, None]  # on the same turn
     right, left = np.maximum(heading[:, 0], seen[:, 0]), np.minimum(heading[:, 1], seen[:, 1])
-    same = overlap(given)[:, None]
-    return {"result": np.where(same, heading, np.column_stack([right, left]))}
+    found = np.column_stack([right, left]) + (off(right) - right)[:, None]  # right up to π
+    return {"result": np.where(overlap(given)[:, None], heading, found)}

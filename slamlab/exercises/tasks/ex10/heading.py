@@ -48,8 +48,8 @@ def _on_the_way(given):
     return {"what the sighting alone says, [right, left]": told(given)}
 
 
-def _law(name, points, says, holds, asks):
-    return Law(name, points, says, holds, want=sharpened, asks=asks, step=_on_the_way)
+def _law(name, points, says, holds, asks, step=_on_the_way):
+    return Law(name, points, says, holds, want=sharpened, asks=asks, step=step)
 
 
 def _promised(given):
@@ -89,6 +89,7 @@ HEADING = Task(
             "where the boxes overlap the heading stays as it is",
             _overlap,
             "In which directions may the object stand if both may be at the same place?",
+            step=None,  # there is nothing on the way: the sighting alone says nothing
         ),
     ),
     probes=(

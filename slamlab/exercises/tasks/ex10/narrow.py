@@ -159,6 +159,6 @@ NARROW = Task(
             ("sound",),
         ),
     ),
-    parts=lambda given, out: {"robot": out["robot"], "heading": turned(out["heading"])},
+    parts=lambda given, out: {"all": np.column_stack([out["robot"], turned(out["heading"])])},
     rounds=False,
 )
