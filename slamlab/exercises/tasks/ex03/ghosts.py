@@ -22,7 +22,7 @@ SHUT = 20  # NEES of a drive that was lost and does not know it: 2 is to be expe
 def drives(rng):
     """One way to and fro before a wall, driven many times with its own errors each time."""
     seconds = T * np.arange(STEPS + 1)
-    swing, start, period = rng.uniform(1.5, 3), rng.uniform(0, 2 * np.pi), rng.uniform(12, 20)
+    swing, start, period = rng.uniform(2, 3.5), rng.uniform(0, 2 * np.pi), rng.uniform(10, 14)
     place = REACH / 2 + swing * np.sin(2 * np.pi * seconds / period + start)
     way = np.stack([place, np.gradient(place, T)], axis=1)
     F, H = np.array([[1, T], [0, 1]]), np.array([[1.0, 0.0]])
