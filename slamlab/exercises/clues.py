@@ -95,14 +95,14 @@ def _how(laws, sets, found):
             if isinstance(found[name], StudentError):
                 return None
             for output, want in law.want(sets[name]).items():
-                got, want = found[name][output], np.asarray(want)
+                got, want = np.atleast_1d(found[name][output]), np.atleast_1d(want)
                 if want.dtype.kind not in "fiu" or got.shape != want.shape:
                     return None
                 each = rows if rows.size == len(want) else slice(None)
                 pairs = zip(got[each].astype(float), want[each].astype(float), strict=True)
                 wrong.setdefault(output, []).extend(pairs)
     for output, pairs in wrong.items():
-        plain = _compared(pairs)
+        plain = pairs and _compared(pairs)
         if plain:
             which = "" if output == "result" else f" of {output}"
             return plain[0], f"Every number{which} that is wrong {plain[1]}"

@@ -205,15 +205,15 @@ class Task:
                 where[name] = outputs.message if isinstance(outputs, StudentError) else None
         points = 0.0 if failed else law.points
         says = law.says
-        if law is UNCHANGED and failed:
-            says += f", but {' and '.join(self._changed(sets, found))} changed"
+        if law is UNCHANGED and (changed := self._changed(sets, found)):
+            says += f", but {' and '.join(changed)} changed"
         return LawResult(law.name, says, points, law.points, failed, tried, where)
 
     def _changed(self, sets, found):
         """The names of the arguments that were changed in some call."""
         names = NAMES.get(self.id) or list(sets[MAIN])
-        which = {int(k) for of in found.values() if isinstance(of, dict) for k in of[CHANGED]}
-        return [names[k] for k in sorted(which)]
+        told = [of[CHANGED] for of in found.values() if not isinstance(of, StudentError)]
+        return [name for k, name in enumerate(names) if any(np.any(which == k) for which in told)]
 
     def broken(self, law, inputs, outputs):
         """(n,) bool, which inputs of a set broke a law; one entry where it is judged as a whole."""

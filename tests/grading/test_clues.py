@@ -149,3 +149,23 @@ def test_check_tells_a_clue_where_no_mistake_is_recognised():
     verdict = run_and_tell(TURN, {"turn": lambda v, angle: -right(v, angle)})
     assert verdict.diagnosis == "negative" and verdict.case
     assert run_and_tell(TURN, {"turn": right}).hint is None
+
+
+@pytest.mark.parametrize("told", [[99.0], [np.nan, -1], [np.inf], ["v"], [[0.0, 1e300]]])
+def test_a_worker_that_tells_nonsense_of_arguments_stops_no_judge(told):
+    sets = LONG.draw(OPEN_SEED)
+    answers = run_sets(LONG.drive, {"turn": lambda v, angle: np.arange(6) * angle**2}, sets)
+    verdict = LONG.judge(sets, {"": answers[""] | {"arguments changed": np.array(told)}})
+    assert [law.name for law in verdict.laws if law.failed] == ["unchanged"]
+
+
+def test_of_what_is_empty_nothing_is_said_but_where_it_is():
+    def no_rows(rng):
+        return {"v": np.empty((0, 2)), "angle": np.empty(0)}
+
+    all_of = dataclasses.replace(LAW, holds=lambda i, o: len(i["v"]) > 0 and LAW.holds(i, o).all())
+    task = dataclasses.replace(TURN, laws=(all_of,), probes=(Probe("no vectors", no_rows),))
+    sets = task.draw(OPEN_SEED)
+    answers = {name: {"result": _turned(of)["result"]} for name, of in sets.items()}
+    assert clue(task, sets, answers).hint.startswith("Everything else comes out right")
+    assert "no vectors" in clue(task, sets, answers).hint
