@@ -229,6 +229,7 @@ LOCALISE = Task(
     ),
     needs=("11-weigh", "11-draw"),
     probes=(
+        Probe("wheels whose errors go together", runs.related_wheels, ("mean", "spread")),
         Probe("wheels that hardly err", runs.sure_wheels, EXACT),
         Probe("one landmark", lambda r: runs.sure_wheels(r, marks=1), EXACT),
         Probe("a cloud that is metres off", lambda r: runs.sure_wheels(r, (0.3,), off=4.0), EXACT),

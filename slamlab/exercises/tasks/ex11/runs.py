@@ -38,7 +38,12 @@ def sure_wheels(rng, blunt=(0.5, 6.0), samples=100, marks=3, **more):
     return runs(rng, blunt, samples=samples, marks=marks, wide=4.0, sure=True, **more)
 
 
-def _run(rng, blunt, samples=SAMPLES, marks=4, wide=1.0, sure=False, off=0.0):
+def related_wheels(rng):
+    """Drives whose wheels' errors are nearly one error, and most of what is not known."""
+    return runs(rng, (3.0, 3.0), wide=0.4, together=(0.93, 0.96))
+
+
+def _run(rng, blunt, samples=SAMPLES, marks=4, wide=1.0, sure=False, off=0.0, together=(0.3, 0.5)):
     x = np.array([*rng.uniform(-3, 3, 2), rng.choice([-1, 1]) * rng.uniform(2.9, 3.1)])
     sigma = wide * np.array([0.08, 0.08, 0.04])
     white = rng.standard_normal((samples, 3))
@@ -47,7 +52,7 @@ def _run(rng, blunt, samples=SAMPLES, marks=4, wide=1.0, sure=False, off=0.0):
     weights, rows = np.exp(white @ tilt), x + white * sigma
     rows[:, 2] = wrap(rows[:, 2])
     x = x + tilt * sigma
-    C = _covariance(rng, rng.uniform(0.08, 0.09), rng.uniform(0.04, 0.045))
+    C = _covariance(rng, rng.uniform(0.08, 0.09), rng.uniform(0.04, 0.045), together=together)
     R = _covariance(rng, blunt * rng.uniform(0.2, 0.25), blunt * rng.uniform(0.1, 0.12))
     r = rng.uniform(3, 6, marks)
     bearing = wrap(np.arange(marks) * np.pi / 2 + rng.uniform(0.2, 1.2))
@@ -66,9 +71,9 @@ def _run(rng, blunt, samples=SAMPLES, marks=4, wide=1.0, sure=False, off=0.0):
     return dict(rows=rows, weights=weights / weights.sum(), **known)
 
 
-def _covariance(rng, *sigma):
-    together = rng.choice([-1, 1]) * rng.uniform(0.3, 0.5)
-    return np.array([[1, together], [together, 1]]) * np.outer(sigma, sigma)
+def _covariance(rng, *sigma, together=(0.3, 0.5)):
+    share = rng.choice([-1, 1]) * rng.uniform(*together)
+    return np.array([[1, share], [share, 1]]) * np.outer(sigma, sigma)
 
 
 def log_likelihoods(i, rows):
