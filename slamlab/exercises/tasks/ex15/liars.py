@@ -123,7 +123,8 @@ def _honest(rng):
 
 
 def _once(rng):
-    return laps.laps(rng, drives=4, poses=14, good=1, gang=0, stray=0)
+    # one map in thirty is bad: of four of them three are with one seed in some thousands
+    return laps.laps(rng, drives=12, poses=14, good=1, gang=0, stray=0)
 
 
 LIARS = Task(
