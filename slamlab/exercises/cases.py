@@ -9,7 +9,7 @@ from slamlab.exercises.drives import StudentError
 from slamlab.exercises.drives.arguments import CHANGED
 from slamlab.exercises.drives.input_sets import MAIN
 from slamlab.exercises.law import Law
-from slamlab.exercises.outputs import degenerate, measured
+from slamlab.exercises.outputs import all_measured, degenerate, measured
 
 DIGITS = (1, 2, 3)
 KEPT = 0.2  # share of a covariance's eigenvalues, at least, when it is rounded
@@ -50,7 +50,7 @@ def smallest(task, sets, answers, run=None) -> Case | None:
     -------
     Case, or None where no law is broken by a single input that can be shown
     """
-    found = {name: measured(task, sets[name], answers.get(name)) for name in sets}
+    found = all_measured(task, sets, answers)
     with np.errstate(all="ignore"):
         for law in task.all_laws:
             cases = [c for name in sets for c in _cases(task, law, name, sets[name], found[name])]

@@ -9,7 +9,7 @@ import numpy as np
 from slamlab.exercises.drives import StudentError
 from slamlab.exercises.drives.input_sets import MAIN
 from slamlab.exercises.law import ROUNDING, TOLERANCE, Mistake, one_judging
-from slamlab.exercises.outputs import measured
+from slamlab.exercises.outputs import all_measured
 from slamlab.exercises.reading import READINGS
 from slamlab.exercises.report import and_others
 
@@ -60,7 +60,7 @@ def clue(task, sets, answers) -> Mistake | None:
     -------
     Mistake or None
     """
-    found = {name: measured(task, sets[name], answers.get(name)) for name in sets}
+    found = all_measured(task, sets, answers)
     if isinstance(found[MAIN], StudentError):
         return None
     with np.errstate(all="ignore"), one_judging():

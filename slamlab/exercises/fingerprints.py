@@ -16,7 +16,7 @@ from slamlab.exercises.drives import StudentError
 from slamlab.exercises.drives.arguments import CHANGED
 from slamlab.exercises.families import FAMILIES
 from slamlab.exercises.law import Mistake
-from slamlab.exercises.outputs import measured
+from slamlab.exercises.outputs import all_measured
 
 SIZE = 4  # numbers of a fingerprint
 CLOSE = 1e-6  # of 1 + |number|: rounding moves one by less, another mistake by more
@@ -93,16 +93,19 @@ def of_answers(task, sets, answers):
     -------
     part's name to (SIZE,); empty where the random inputs could not be run
     """
+    return _of_measured(task, sets, all_measured(task, sets, answers))
+
+
+def _of_measured(task, sets, found):
     parts = {}
-    for name, inputs in sets.items():
-        outputs = measured(task, inputs, answers.get(name))
-        if isinstance(outputs, StudentError):
-            if not parts:
-                return {}
-            found = dict.fromkeys(parts, _failure(outputs))
+    for name, outputs in found.items():
+        if not isinstance(outputs, StudentError):
+            arrays = parts_of(task, sets[name], outputs)
+        elif parts:
+            arrays = dict.fromkeys(parts, _failure(outputs))
         else:
-            found = parts_of(task, inputs, outputs)
-        for part, array in found.items():
+            return {}
+        for part, array in arrays.items():
             parts.setdefault(part, []).append(np.asarray(array, dtype=float))
     return {part: fingerprint(arrays) for part, arrays in parts.items()}
 
@@ -139,13 +142,13 @@ def recognise(task, sets, answers) -> Recognised | None:
     table = tables(task.id[:2]).get(task.id)
     if table is None:
         return None
+    found = all_measured(task, sets, answers)
     with np.errstate(all="ignore"):
-        same = table.same(of_answers(task, sets, answers))
+        same = table.same(_of_measured(task, sets, found))
     wrong = ~same[table.labels == 0].any(axis=0)
     if not wrong.any():
         return None
     explaining, parts = [same.all(axis=1)], []
-    found = {name: measured(task, sets[name], answers.get(name)) for name in sets}
     if not any(isinstance(outputs, StudentError) for outputs in found.values()):
         explaining.append(same[:, wrong].all(axis=1))
         parts = list(same[:, wrong].T)

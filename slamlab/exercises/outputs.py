@@ -40,6 +40,22 @@ def measured(task, inputs, outputs):
     return found | {CHANGED: np.asarray(outputs.get(CHANGED, ()))}
 
 
+def all_measured(task, sets, answers):
+    """The outputs of all sets, each as :func:`measured` gives it, by the sets' names.
+
+    Parameters
+    ----------
+    task : Task
+    sets : what ``task.draw`` made
+    answers : set's name to outputs, not to be trusted, or StudentError
+
+    Returns
+    -------
+    set's name to name to float array, or to StudentError
+    """
+    return {name: measured(task, sets[name], answers.get(name)) for name in sets}
+
+
 def shapes_of(task, inputs):
     """Output name to the shape it must have on these inputs, None for any length."""
     return task.shapes(inputs) if callable(task.shapes) else task.shapes

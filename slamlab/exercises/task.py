@@ -160,7 +160,7 @@ class Task:
         -------
         Verdict
         """
-        found = {name: came_back.measured(self, sets[name], answers.get(name)) for name in sets}
+        found = came_back.all_measured(self, sets, answers)
         if isinstance(found[MAIN], StudentError):
             return self.failed(found[MAIN].kind, found[MAIN].message)
         with np.errstate(all="ignore"), one_judging():

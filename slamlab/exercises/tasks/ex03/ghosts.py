@@ -28,12 +28,12 @@ def drives(rng):
     F, H = np.array([[1, T], [0, 1]]), np.array([[1.0, 0.0]])
     P, Q, R = np.diag([0.3, 0.2]) ** 2, np.diag([0.03, 0.08]) ** 2, rng.uniform(0.09, 0.11) ** 2
     zs = way[1:, :1] + np.sqrt(R) * _errors(rng, STEPS, 1)
-    ghosts = rng.random(zs.shape) < GHOSTS
+    replaced = rng.random(zs.shape) < GHOSTS
     told = {
         "x": way[0] + _errors(rng, 2) @ np.sqrt(P),
         "P": P,
         "us": way[1:] - way[:-1] @ F.T + _errors(rng, STEPS, 2) @ np.sqrt(Q),
-        "zs": np.where(ghosts, rng.uniform(0, REACH, zs.shape), zs),
+        "zs": np.where(replaced, rng.uniform(0, REACH, zs.shape), zs),
         "F": F,
         "Q": Q,
         "H": H,
@@ -82,6 +82,12 @@ def typical(i, xs):
     return np.median(np.sqrt(np.mean(off**2, axis=1)))
 
 
+def ghosts(i):
+    """(drives, steps) bool, which readings are none of the wall, by the truth."""
+    off = (i["zs"] - truth(i)[:, :1])[..., 0]
+    return np.abs(off) > 5 * np.sqrt(i["R"][0, 0, 0])
+
+
 @once
 def deceived(i):
     """What the ordinary filter makes of all readings: its typical error [m]."""
@@ -90,8 +96,7 @@ def deceived(i):
 
 def told_all(i):
     """The typical error [m] of a filter that is told which readings are ghosts."""
-    off = (i["zs"] - truth(i)[:, :1])[..., 0]
-    return typical(i, ordinary(i, np.abs(off) < 5 * np.sqrt(i["R"][0, 0, 0])))
+    return typical(i, ordinary(i, ~ghosts(i)))
 
 
 def _definite(o):
@@ -122,9 +127,8 @@ def _moved(i, o):
     """
     before = np.concatenate([i["x"][:, None], o["xs"][:, :-1]], axis=1)
     predicted = before @ i["F"][0].T + i["us"]
-    off = (i["zs"] - truth(i)[:, :1])[..., 0]
     v = i["zs"][..., 0] - predicted[..., 0]
-    return o["xs"] - predicted, v, np.abs(off) > 5 * np.sqrt(i["R"][0, 0, 0])
+    return o["xs"] - predicted, v, ghosts(i)
 
 
 def _share(i, o):
