@@ -371,7 +371,7 @@ def _():
 # into the wrong valley.
 #
 # **Your task.** Solve as many of 16 as you can, by any method. A match is *home* when it is off by less than 20 cm and 5°. There
-# are points for four, for eight and for thirteen that are home, and for nine that are off by less than 1.5 cm and 0.5° only. The ranges err by
+# are points for four, for eight and for twelve that are home, and for nine that are off by less than 1.5 cm and 0.5° only. The ranges err by
 # 1 cm. Here are some ideas:
 #
 # - Start from many turns and choose the best end. What number tells the best one, when half of the points have no partner?

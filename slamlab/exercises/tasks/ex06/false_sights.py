@@ -38,7 +38,7 @@ MOST = np.sqrt(3)
 true sight at the wrong moment, and loses a robot, with one seed in a thousand."""
 LEAST = 0.5
 """Mean NEES of the pose below which a P is no claim."""
-AS_TOLD = 0.55
+AS_TOLD = 0.4
 """So far from a filter that is told all may the best step be, as a share of that one's error."""
 
 
@@ -120,10 +120,14 @@ def told(inputs):
 
 
 def share(inputs, outputs):
-    """How far the robots are from where :func:`told` has them, in units of what that one errs."""
+    """How far the robots are from where :func:`told` has them, in units of what that one errs.
+
+    The worst tenth of the runs is left out: with one seed in some thousand a right gate loses one.
+    """
     where, believed = truth(inputs)[2][-1, :2], told(inputs)
-    found = ENDS.of(inputs, outputs)[0][:, :2]
-    return np.sqrt(np.square(found - believed).sum() / np.square(believed - where).sum())
+    off = np.square(ENDS.of(inputs, outputs)[0][:, :2] - believed).sum(axis=1)
+    usual = np.sort(off)[: RUNS * 9 // 10]
+    return np.sqrt(usual.mean() / np.square(believed - where).sum(axis=1).mean())
 
 
 def _end(inputs, run, sights, true):
@@ -177,9 +181,9 @@ STILL_LOST = Diagnosis(
     lambda inputs, outputs: 0 < np.mean(ENDS.of(inputs, outputs)[1][:, 2, 2] > 0.3**2) < 1,
 )
 
-# over 60 seeds gates by S of 9.2 to 25 are 0.34 times as far at most, with a NEES of 5; over 24
-# seeds seventeen gates of a fixed size, none among them, are 0.96 times as far at least, or 0.49
-# times with a NEES of 10 and more
+# over 60 seeds gates by S of 9.2 to 25 are 0.21 times as far at most, with a NEES of 4.8; slam_step
+# is 0.53 times as far at least, and 0.29 with ten times R, mostly 0.51. None of fifteen gates of a
+# fixed size takes the last step, over 6 seeds: who is as near has a NEES above 7
 FALSE_SIGHTS = Task(
     id="06-false-sights",
     title="Make it better: one sight in ten is false",
@@ -192,24 +196,25 @@ FALSE_SIGHTS = Task(
             "better",
             1,
             "a filter that is told which sights are false has an error left at the end; over all "
-            "runs, yours has the robot no farther from there than 0.95 of that error",
-            0.95,
+            "runs but the worst tenth, yours has the robot no farther from there than 0.75 of "
+            "that error",
+            0.75,
         ),
-        _step("good", 1, "no farther than 0.7 of that error", 0.7),
+        _step("good", 1, "no farther than 0.5 of that error", 0.5),
         _step(
             "careful",
             1,
             f"as near, and with a mean NEES of its pose between {LEAST} and 15",
-            0.7,
+            0.5,
             15,
         ),
         _step(
             "honest",
             1,
-            f"no farther than {AS_TOLD} of that error, with a mean NEES between {LEAST} and 10, "
+            f"no farther than {AS_TOLD} of that error, with a mean NEES between {LEAST} and 7, "
             "where 3 is right",
             AS_TOLD,
-            10,
+            7,
         ),
     ),
     diagnoses=(STILL_LOST,),

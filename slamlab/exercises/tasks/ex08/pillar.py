@@ -227,7 +227,11 @@ PILLAR = Task(
             lambda rng: clouds(rng, [(30, 8, 0)] * 2, radius=(0.05, 0.07)),
             ("inside", "refitted"),
         ),
-        Probe("many readings near the pillar", lambda rng: clouds(rng, [(24, 0, 16)] * 2, 120)),
+        Probe(
+            "many readings near the pillar",
+            # about a small one, a circle within it may have more readings than it
+            lambda rng: clouds(rng, [(24, 0, 16)] * 2, 120, radius=(0.35, 0.45)),
+        ),
         Probe("a hundred readings", lambda rng: clouds(rng, [(75, 21, 4)], 48, arc=100)),
         Probe(
             "a pillar whose readings are just as many as needed",
