@@ -95,9 +95,11 @@ def _wheels_trusted(inputs, outputs):
 
 
 def _wrapped(inputs, outputs):
-    """Whether the heading's variance is right in some drives and far too large in others."""
-    share = outputs["covariance"][:, 2, 2] / ends(inputs)[1][:, 2, 2]
-    return bool((share > 2).any() and (np.abs(share - 1) < 0.5).any())
+    """Whether the heading's variance is far too large, but only where headings reach π."""
+    mean, best = ends(inputs)
+    far = outputs["covariance"][:, 2, 2] > 2 * best[:, 2, 2]
+    reach = np.abs(wrap(mean[:, 2])) + 4 * np.sqrt(best[:, 2, 2]) > np.pi
+    return bool(far.any() and not far[~reach].any())
 
 
 def _about_zero(inputs, outputs):
@@ -146,8 +148,9 @@ MISTAKES = (
     ),
     Diagnosis(
         "wrapped-ends",
-        "In some drives your heading is far too unsure: ends just beyond π count as −π, and an "
-        "average of wrapped angles means nothing. Where else can you cut the circle?",
+        "Your heading is far too unsure in just those drives that may end on either side of π. "
+        "Ends just beyond it count as −π once they are wrapped, and an average of wrapped angles "
+        "means nothing. Where else can you cut the circle?",
         _wrapped,
     ),
     Diagnosis(

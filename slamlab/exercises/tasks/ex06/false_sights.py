@@ -174,10 +174,11 @@ ASKS = "How long is the innovation of a true sight, measured by what S expects? 
 
 STILL_LOST = Diagnosis(
     "lost-after-turning",
-    "In some runs no sight was believed any more after the robot had turned on the spot. A true "
-    "bearing may be a radian off there, and a fifth of that elsewhere: does your gate know which "
-    "of the two it is? The filter does. If it knows, it is too tight: a gate that refuses one true "
-    "sight in twenty refuses a few in every run, and one at the wrong moment is enough.",
+    "In some runs the heading is still unsure by more than 0.3 rad at the end: since the robot "
+    "turned on the spot hardly a sight was believed. A true bearing may be a radian off there, and "
+    "a fifth of that elsewhere: does what decides know which of the two it is? The filter does. If "
+    "it knows, it is too tight: a gate that refuses one true sight in twenty refuses a few in "
+    "every run, and one at the wrong moment is enough.",
     lambda inputs, outputs: 0 < np.mean(ENDS.of(inputs, outputs)[1][:, 2, 2] > 0.3**2) < 1,
 )
 
