@@ -17,6 +17,7 @@ WRITTEN = {  # whole numbers that stand for something else, by their arrays' nam
     "codes": lambda codes: repr("".join(chr(code) for code in codes if code > 0)),
     "data": lambda data: f"{bytes(data[data >= 0].tolist()).hex(' ')}   (bytes)",
 }
+UNNAMED = "result", "codes"  # what a function returns alone has no name that a student knows
 
 
 def format_case(task, case: Case) -> str | None:
@@ -114,13 +115,13 @@ def format_numbers(name, array) -> str:
     array = np.asarray(array)
     if array.dtype.kind == "U":  # no number came back
         return str(array)
+    label = "" if name in UNNAMED else f"{name} = "
     if name in WRITTEN and array.ndim == 1:
-        written = f"{name} = {WRITTEN[name](array.astype(int))}"
-        return textwrap.fill(written, WIDTH, subsequent_indent=" " * len(f"{name} = "))
+        written = f"{label}{WRITTEN[name](array.astype(int))}"
+        return textwrap.fill(written, WIDTH, subsequent_indent=" " * len(label))
     if array.dtype.kind == "f":  # neither -0 nor rounding's dust
         most = np.abs(array[np.isfinite(array)]).max(initial=0)
         array = np.where(np.abs(array) <= 1e-12 * most, 0.0, array)  # NaN stays NaN
-    label = "" if name == "result" else f"{name} = "
     text = np.array2string(
         array,
         precision=4,

@@ -6,6 +6,7 @@ A clue states what is so, and asks for the line; it does not guess the line.
 
 import numpy as np
 
+from slamlab.exercises.case_text import UNNAMED
 from slamlab.exercises.drives import StudentError
 from slamlab.exercises.drives.input_sets import MAIN
 from slamlab.exercises.law import ROUNDING, TOLERANCE, Mistake, one_judging
@@ -104,8 +105,9 @@ def _how(laws, sets, found):
     for output, pairs in wrong.items():
         plain = pairs and _compared(pairs)
         if plain:
-            which = "" if output == "result" else f" of {output}"
-            return plain[0], f"Every number{which} that is wrong {plain[1]}"
+            which = "character" if output == "codes" else "number"
+            which += "" if output in UNNAMED else f" of {output}"
+            return plain[0], f"Every {which} that is wrong {plain[1]}"
     off = max((_off(*pair) for pairs in wrong.values() for pair in pairs), default=np.inf)
     if off > NEAR:
         return None
