@@ -21,9 +21,10 @@ def unread(functions, shell) -> str | None:
         cells = (cell for cell in reversed(shell.user_ns.get("In", ())) if begins.search(cell))
         line = _syntax_error(next(cells, ""), shell)
         if line is not None:
-            older = "what is judged is the one before it" if name in shell.user_ns else ""
+            older = name in shell.user_ns
+            follows = "what is judged is the one before it" if older else "Python read none of it"
             said = f"The last cell that defines {name} has a syntax error in its line {line}"
-            return f"{said}: {older or 'there is none yet'}."
+            return f"{said}: {follows}."
     return None
 
 

@@ -39,8 +39,8 @@ NEAR_BY = (
     "stops early)."
 )
 ONLY_THERE = (
-    "Everything else comes out right: something is wrong only with {}. What is special there, and "
-    "which line does not allow for it?"
+    "Everything else comes out right: it shows only with {}. What is special there? Either a line "
+    "does not allow for it, or one is wrong everywhere, which the other inputs do not bring out."
 )
 ONE_SIDE = (
     "Of the random inputs just those are wrong where {} is {}: which line should treat the two "

@@ -37,4 +37,4 @@ def test_an_older_function_behind_a_syntax_error_is_told_with_its_line():
     said = unread(["other", "turn"], shell(GOOD, BAD, "check('99-turn')"))
     assert "defines turn has a syntax error in its line 3" in said
     assert said.endswith("what is judged is the one before it.")
-    assert unread(["turn"], shell(BAD, defined=False)).endswith("there is none yet.")
+    assert unread(["turn"], shell(BAD, defined=False)).endswith("Python read none of it.")

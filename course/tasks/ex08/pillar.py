@@ -112,8 +112,17 @@ def fit_circle(points):
         ("if best.sum() < needed:", "if best.sum() < 3:"),
     ),
     Slip(
+        "other-band",
+        "Readings count that should not, or the other way round: one counts where it is within band of the "
+        "circle, on either side, however large the circle is.",
+        *(
+            (" <= band\n", f" <= {band}\n")
+            for band in ("band / 2", "2 * band", "band * radius", "band**2")
+        ),
+    ),
+    Slip(
         "always-none",
-        "Your function finds no pillar anywhere: is the best guess kept, is its count compared the right way "
+        "Your function finds no pillar anywhere: does it end with a return, is the best guess kept, is its count compared the right way "
         "round, and is it the distance from the *circle* that is compared with the band?",
         (_INSIDE, "np.hypot(*(points - centre).T) <= band"),
         ("if best.sum() < needed:", "if True:"),

@@ -265,8 +265,10 @@ WARY = Task(
         ),
         Diagnosis(
             "refuses",
-            "You refuse a third and more of the right readings. How far off may a right one be "
-            "while the belief is unsure, and how unsure is a belief that has heard nothing?",
+            "A third and more of the right readings leave your state where it was predicted. If "
+            "you refuse them: how far off may a right one be while the belief is unsure, and how "
+            "unsure is a belief that has heard nothing? If you do not: is it the corrected state "
+            "that you return?",
             _refuses,
         ),
         Diagnosis(

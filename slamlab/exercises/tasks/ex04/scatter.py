@@ -155,14 +155,16 @@ MISTAKES = (
     ),
     Diagnosis(
         "too-sure",
-        "In most drives your covariance is smaller than the robots' scatter. Which of the four "
-        "is missing: place, heading, distance, turn? Or are your samples too few to span it?",
+        "In most drives your covariance is smaller than the robots' scatter. Is one of the four "
+        "missing: place, heading, distance, turn? Does a factor, such as 1/N, stand there once too "
+        "often, or a root of P in a wrong way? Or are your samples too few to span it?",
         _volume_off(-0.5),
     ),
     Diagnosis(
         "too-unsure",
         "In most drives your covariance is larger than the robots' scatter: is something "
-        "counted twice, or a mean not subtracted?",
+        "counted twice, a mean not subtracted, a σ taken for a variance, or is it left out that "
+        "errors go together?",
         _volume_off(0.5),
     ),
 )

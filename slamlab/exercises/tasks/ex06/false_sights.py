@@ -10,10 +10,10 @@ from slamlab import models
 from slamlab.evaluation import nees
 from slamlab.exercises.drives.ex06 import DRIVES
 from slamlab.exercises.law import Diagnosis, Law, once
-from slamlab.exercises.task import Task
+from slamlab.exercises.task import Probe, Task
 from slamlab.exercises.tasks.ex06.beliefs import either_sign
 from slamlab.exercises.tasks.ex06.ends import NO_COVARIANCE, Ends, whole
-from slamlab.exercises.tasks.ex06.runs import EYES, RUNS, START, driven, measured, truth
+from slamlab.exercises.tasks.ex06.runs import EYES, RUNS, START, driven, measured, runs, truth
 from slamlab.filters.data_association import squared_distances
 from slamlab.filters.landmark_models import POINTS
 from slamlab.filters.mak import MAK
@@ -162,10 +162,10 @@ def _step(name, points, says, far, doubt_below=None):
     def why(inputs, outputs):
         if not whole(inputs, outputs):
             return "the map does not hold each landmark once"
-        away = f"it is {share(inputs, outputs):.2f} of that error away"
+        away = f"they are {share(inputs, outputs):.2f} e away"
         if np.linalg.eigvalsh(ENDS.of(inputs, outputs)[1][:, :3, :3]).min() <= 0:
             return f"{away}, and {NO_COVARIANCE}"
-        return f"{away}, and the mean NEES of its pose is {doubt(inputs, outputs):.3g}"
+        return f"{away}, and the mean NEES of their poses is {doubt(inputs, outputs):.3g}"
 
     return Law(name, points, says, holds, why=why, asks=ASKS)
 
@@ -196,27 +196,30 @@ FALSE_SIGHTS = Task(
         _step(
             "better",
             1,
-            "a filter that is told which sights are false has an error left at the end; over all "
-            "runs but the worst tenth, yours has the robot no farther from there than 0.75 of "
-            "that error",
+            "at the end your robots are within 0.75 e of where a filter has them that is told "
+            "which sights are false; e is how far that filter itself is off, and the worst tenth "
+            "of the runs is left out",
             0.75,
         ),
-        _step("good", 1, "no farther than 0.5 of that error", 0.5),
+        _step("good", 1, "they are within 0.5 e", 0.5),
         _step(
             "careful",
             1,
-            f"as near, and with a mean NEES of its pose between {LEAST} and 15",
+            f"they are, and the mean NEES of their poses is between {LEAST} and 15",
             0.5,
             15,
         ),
         _step(
             "honest",
             1,
-            f"no farther than {AS_TOLD} of that error, with a mean NEES between {LEAST} and 7, "
-            "where 3 is right",
+            f"they are within {AS_TOLD} e, with a mean NEES between {LEAST} and 7, where 3 is "
+            "right",
             AS_TOLD,
             7,
         ),
+    ),
+    probes=(  # who trusts all sights less is 0.41 e away there in the middle, a right gate 0.12
+        Probe("no false sight", lambda rng: runs(rng, behind=True), ("honest",)),
     ),
     diagnoses=(STILL_LOST,),
     needs=("06-augment", "06-update"),

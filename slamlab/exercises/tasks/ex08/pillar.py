@@ -77,6 +77,24 @@ def mixed(rng):
     return clouds(rng, [(30, 8, 4)] * 4 + [(0, 32, 10)] * 2)
 
 
+def _across_the_band(rng):
+    """Readings three quarters of the band off the circle, and others just beyond it.
+
+    Beside each of these stand two that lie within, on the other side of the circle and too far from
+    it for one band to hold them all: no circle has as many as the pillar's own.
+    """
+    found = clouds(rng, [(24, 0, 18)] * 2, 230)
+    for points in found["points"]:
+        pillar, (centre,), (radius,) = arcs(rng, 1, 24, noise=0.0)
+        seen = np.arctan2(*-centre[::-1]) + np.linspace(-1, 1, 6) + rng.uniform(-0.1, 0.1, 6)
+        side = rng.permutation([1.0, 1.0, 1.0, -1.0, -1.0, -1.0])
+        at = np.concatenate([seen - 0.02, seen + 0.02, seen])
+        off = BAND * np.concatenate([-0.75 * side, -0.75 * side, 1.35 * side])
+        others = centre + (radius + off)[:, None] * direction(at)
+        points[:] = rng.permutation(np.vstack([pillar[0], others]))
+    return found
+
+
 def _few(rng):
     """One reading, or two, of which no circle can be made."""
     return clouds(rng, [(2, 0, 0)] * 2)
@@ -240,6 +258,7 @@ PILLAR = Task(
         Probe(
             "a pillar with one reading less than needed", lambda rng: clouds(rng, [(15, 3, 2)], 40)
         ),
+        Probe("readings just within the band, and just beyond", _across_the_band),
     ),
     rounds=False,
 )
