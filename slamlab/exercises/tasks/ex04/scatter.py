@@ -156,8 +156,9 @@ MISTAKES = (
     Diagnosis(
         "too-sure",
         "In most drives your covariance is smaller than the robots' scatter. Is one of the four "
-        "missing: place, heading, distance, turn? Does a factor, such as 1/N, stand there once too "
-        "often, or a root of P in a wrong way? Or are your samples too few to span it?",
+        "missing: place, heading, distance, turn? Is something divided once too often, by the "
+        "number of samples perhaps, or a variance drawn from as if it were a σ? Or are your "
+        "samples too few to span it?",
         _volume_off(-0.5),
     ),
     Diagnosis(
