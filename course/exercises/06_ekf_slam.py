@@ -333,8 +333,8 @@ check("06-same")
 # **Your task.** Write another step of SLAM, called as `slam_step` is, as good as you can make it. The check
 # drives it through twenty runs of 81 steps and looks at the pose at the end: how far it is from where a filter
 # has it that is *told* which sights are false, in units of what that one errs (the two worst runs are left
-# out), and whether yours knows how far off it is (NEES, 3 on average). Points come in four steps; `slam_step` itself reaches the lowest at most. The
-# check stops after 10 s.
+# out), and whether yours knows how far off it is (NEES, 3 on average). Points come in four steps; `slam_step`
+# itself reaches the lowest at most. The check stops after 10 s.
 
 
 # %%

@@ -122,8 +122,9 @@ def fit_circle(points):
     ),
     Slip(
         "always-none",
-        "Your function finds no pillar anywhere: does it end with a return, is the best guess kept, is its count compared the right way "
-        "round, and is it the distance from the *circle* that is compared with the band?",
+        "Your function finds no pillar anywhere: does it end with a return, is the best guess kept, is its "
+        "count compared the right way round, and is it the distance from the *circle* that is compared with "
+        "the band?",
         (_INSIDE, "np.hypot(*(points - centre).T) <= band"),
         ("if best.sum() < needed:", "if True:"),
         (_BETTER, "if radius <= largest and inside.sum() < best.sum():"),

@@ -96,17 +96,15 @@ def _inverted(inputs, outputs):
 def _turned(inputs, outputs):
     """Whether most answers that are not home are turned about as far as the guess, or farther."""
     lost = ~within(inputs, outputs, SOLVED)
-    return (
-        lost.mean() > 1 - NEARLY_ALL / 16
-        and np.median(offs(inputs, outputs["result"])[1][lost]) > 15
-    )
+    few = _home(inputs, outputs) < NEARLY_ALL / 16
+    return few and np.median(offs(inputs, outputs["result"])[1][lost]) > 15
 
 
 def _shifted(inputs, outputs):
     """Whether most answers that are not home are shifted wrongly."""
     lost = ~within(inputs, outputs, SOLVED)
     way, _ = offs(inputs, outputs["result"])
-    return lost.mean() > 1 - NEARLY_ALL / 16 and np.median(way[lost]) > SOLVED[0]
+    return _home(inputs, outputs) < NEARLY_ALL / 16 and np.median(way[lost]) > SOLVED[0]
 
 
 def _home(inputs, outputs, limits=SOLVED):
